@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a point is, and the few tools that everything above shares.
+#pragma once
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/core/spectrum.hpp>
+#include <gnomon/core/strided_view.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/core/union_find.hpp>
+#include <gnomon/core/viewpoints.hpp>

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Where the work runs: `sequential{}` or `threads{4}`, the last policy an algorithm takes. Work is
+/// cut into the same chunks for every policy, so that results are the same bytes on any number of
+/// threads.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <concepts>
+#include <cstddef>
+#include <exception>
+#include <mutex>
+#include <system_error>
+#include <thread>
+#include <vector>
+
+namespace gnomon {
+
+/// Everything on the calling thread.
+struct sequential {
+    /// Calls work(c) for c = 0, ..., chunks - 1.
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
+        for (std::size_t c = 0; c < chunks; ++c) work(c);
+    }
+};
+
+/// Up to n threads, the calling one among them.
+struct threads {
+    unsigned n = 0;  ///< 0 stands for all the hardware has
+
+    /// The number of threads that will be asked for.
+    [[nodiscard]] unsigned count() const {
+        return n != 0 ? n : std::max(1u, std::thread::hardware_concurrency());
+    }
+
+    /// Calls work(c) once for each c in 0, ..., chunks - 1, in any order and concurrently. If calls
+    /// throw, the exception of the smallest such c is thrown on, after all threads came to rest;
+    /// chunks after it may have been left out. A machine that refuses threads gets fewer of them.
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
+        std::atomic<std::size_t> next{0};
+        std::atomic<std::size_t> failed{chunks};
+        std::exception_ptr failure;
+        std::mutex guard;
+        const auto drain = [&] {
+            for (std::size_t c = next++; c < failed; c = next++) {
+                try {
+                    work(c);
+                } catch (...) {
+                    const std::lock_guard lock(guard);
+                    if (c < failed) {
+                        failed = c;
+                        failure = std::current_exception();
+                    }
+                }
+            }
+        };
+        {
+            std::vector<std::jthread> helpers;
+            const std::size_t wanted = std::min<std::size_t>(count(), chunks);
+            helpers.reserve(wanted);
+            try {
+                while (helpers.size() + 1 < wanted) helpers.emplace_back(drain);
+            } catch (const std::system_error&) {
+                // The chunks are drained by the threads that did start.
+            }
+            drain();
+        }
+        if (failure) std::rethrow_exception(failure);
+    }
+};
+
+/// Runs numbered chunks of work: x(chunks, work) calls work(c) once for each c < chunks and returns
+/// when all are done. Models: `sequential`, `threads`.
+template <class X>
+concept execution = requires(const X& x, void (*work)(std::size_t)) { x(std::size_t{}, work); };
+
+/// Cuts {0, ..., n-1} into fixed chunks of consecutive numbers and calls work(begin, end) on each.
+template <execution X>
+void for_each_chunk(const X& run, std::size_t n, auto&& work) {
+    constexpr std::size_t chunk =
+        1024;  // large against the cost of handing it out, small for balance
+    run((n + chunk - 1) / chunk,
+        [&work, n](std::size_t c) { work(c * chunk, std::min(n, (c + 1) * chunk)); });
+}
+
+}  // namespace gnomon

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A plane in Hesse normal form.
+#pragma once
+
+#include <Eigen/Core>
+
+namespace gnomon {
+
+/// The points x with normal . x = offset.
+struct plane {
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit length
+    double offset = 0.0;                                ///< [m]
+
+    /// Distance [m] of x from the plane, positive on the normal's side.
+    [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
+        return normal.dot(x) - offset;
+    }
+};
+
+}  // namespace gnomon

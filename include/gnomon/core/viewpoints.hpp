@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// From where each point was seen (Klasing 2010, Sec. 2.4.1: every point keeps its view point).
+/// View points are data that travel with the points: one for the whole cloud, one per scan of a
+/// registered cloud, or one per point of a moving scanner.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <iterator>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+
+namespace gnomon {
+
+/// The view point of every point of a cloud.
+class viewpoint_table {
+  public:
+    /// None known: the origin of the sensor frame stands for all.
+    viewpoint_table() = default;
+
+    /// One view point [m] for the whole cloud.
+    explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint) : positions_{viewpoint} {}
+
+    /// One view point [m] per point, in the points' order.
+    explicit viewpoint_table(std::vector<Eigen::Vector3d> per_point)
+        : positions_(std::move(per_point)), per_point_(true) {}
+
+    /// One view point [m] per scan, and for each point the number of its scan.
+    /// @throws std::invalid_argument  if a number has no scan
+    viewpoint_table(std::vector<Eigen::Vector3d> per_scan, std::vector<point_index> scan_of_point)
+        : positions_(std::move(per_scan)), scan_of_point_(std::move(scan_of_point)) {
+        for (const point_index s : scan_of_point_)
+            detail::require(s < positions_.size(), "viewpoint_table: a point of a missing scan");
+    }
+
+    /// Whether no view point is known.
+    [[nodiscard]] bool empty() const { return positions_.empty(); }
+
+    /// The distinct positions [m]: none, one, one per scan or one per point.
+    [[nodiscard]] const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
+
+    /// Whether the table speaks of each of `points` points: always, unless it lists them.
+    [[nodiscard]] bool covers(std::size_t points) const {
+        if (per_point_) return positions_.size() == points;
+        return scan_of_point_.empty() || scan_of_point_.size() == points;
+    }
+
+    /// The view point of point i [m]; the origin where none is known.
+    /// Precondition: covers(n) for the n points of the cloud, and i < n.
+    [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const {
+        if (positions_.empty()) return Eigen::Vector3d::Zero();
+        if (per_point_) return positions_[i];
+        return positions_[scan_of_point_.empty() ? 0 : scan_of_point_[i]];
+    }
+
+  private:
+    std::vector<Eigen::Vector3d> positions_;
+    std::vector<point_index> scan_of_point_;
+    bool per_point_ = false;
+};
+
+/// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.
+template <class R>
+concept has_viewpoints = requires(const R& r) {
+    { r.viewpoints } -> std::convertible_to<const viewpoint_table&>;
+};
+
+/// The view points of a range; the empty table (the origin) for a range that knows none.
+/// @throws std::invalid_argument  if the table lists view points for another number of points
+template <indexed_range R>
+[[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
+    if constexpr (has_viewpoints<R>) {
+        detail::require(points.viewpoints.covers(std::ranges::size(points)),
+                        "the view points are for another number of points");
+        return points.viewpoints;
+    } else {
+        return {};
+    }
+}
+
+/// A bare range of points with view points beside it; refers to the range.
+template <indexed_range R>
+struct viewed_points {
+    const R* range;
+    viewpoint_table viewpoints;
+
+    [[nodiscard]] auto begin() const { return std::ranges::begin(*range); }
+    [[nodiscard]] auto end() const { return std::ranges::end(*range); }
+    [[nodiscard]] std::size_t size() const {
+        return static_cast<std::size_t>(std::ranges::size(*range));
+    }
+};
+
+/// `points`, all seen from `viewpoint` [m].
+template <indexed_range R>
+[[nodiscard]] viewed_points<R> with_viewpoint(const R& points, const Eigen::Vector3d& viewpoint) {
+    return {&points, viewpoint};
+}
+
+/// `points` with the view points of `table`.
+/// @throws std::invalid_argument  if the table lists view points for another number of points
+template <indexed_range R>
+[[nodiscard]] viewed_points<R> with_viewpoints(const R& points, viewpoint_table table) {
+    detail::require(table.covers(static_cast<std::size_t>(std::ranges::size(points))),
+                    "with_viewpoints: the table is for another number of points");
+    return {&points, std::move(table)};
+}
+
+template <indexed_range R>
+void with_viewpoint(const R&& points, const Eigen::Vector3d& viewpoint) = delete;
+template <indexed_range R>
+void with_viewpoints(const R&& points, viewpoint_table table) = delete;
+
+}  // namespace gnomon
