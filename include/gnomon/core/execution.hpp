@@ -75,13 +75,20 @@ struct threads {
 template <class X>
 concept execution = requires(const X& x, void (*work)(std::size_t)) { x(std::size_t{}, work); };
 
-/// Cuts {0, ..., n-1} into fixed chunks of consecutive numbers and calls work(begin, end) on each.
+/// Points per chunk of work: many enough to hide the handing out, few enough to balance it.
+inline constexpr std::size_t chunk_size = 1024;
+
+/// The number of chunks that n points make.
+[[nodiscard]] constexpr std::size_t chunk_count(std::size_t n) {
+    return (n + chunk_size - 1) / chunk_size;
+}
+
+/// Cuts {0, ..., n-1} into chunks of `chunk_size` consecutive numbers (the last one shorter) and
+/// calls work(begin, end) on each.
 template <execution X>
 void for_each_chunk(const X& run, std::size_t n, auto&& work) {
-    constexpr std::size_t chunk =
-        1024;  // large against the cost of handing it out, small for balance
-    run((n + chunk - 1) / chunk,
-        [&work, n](std::size_t c) { work(c * chunk, std::min(n, (c + 1) * chunk)); });
+    run(chunk_count(n),
+        [&work, n](std::size_t c) { work(c * chunk_size, std::min(n, (c + 1) * chunk_size)); });
 }
 
 }  // namespace gnomon

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A stored neighbor graph: all rings in one array, one after the other, with their beginnings.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon {
+
+/// Models `neighborhood_graph` in 4 bytes per neighbor and 8 per point.
+class adjacency {
+  public:
+    adjacency() = default;
+
+    /// The graph of all rings that `search` finds. Complexity: that of its n searches; while
+    /// building, the indices exist twice.
+    template <neighbor_search S, execution X = sequential>
+    explicit adjacency(const S& search, const X& run = {}) : begin_(search.size() + 1, 0) {
+        std::vector<std::vector<point_index>> rings_of_chunk(chunk_count(search.size()));
+        for_each_chunk(run, search.size(), [&](std::size_t first, std::size_t last) {
+            std::vector<point_index>& rings = rings_of_chunk[first / chunk_size];
+            std::vector<neighbor> ring;
+            for (std::size_t i = first; i < last; ++i) {
+                search(i, ring);
+                begin_[i + 1] = ring.size();
+                for (const neighbor& q : ring) rings.push_back(q.index);
+            }
+        });
+        for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
+        indices_.reserve(begin_.back());
+        for (std::vector<point_index>& rings : rings_of_chunk) {
+            indices_.insert(indices_.end(), rings.begin(), rings.end());
+            std::vector<point_index>().swap(rings);
+        }
+    }
+
+    /// Number of points.
+    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+
+    /// The neighbors of point i, in the order in which they were found.
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
+        return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
+    }
+
+    friend bool operator==(const adjacency&, const adjacency&) = default;
+
+  private:
+    std::vector<std::uint64_t> begin_{0};
+    std::vector<point_index> indices_;
+};
+
+}  // namespace gnomon

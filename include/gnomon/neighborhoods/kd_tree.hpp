@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A kd-tree over the finite points of a range: exact nearest-neighbor and fixed-radius queries
+/// whose answers are unique, because ties are broken by the index (Klasing 2010, App. A.1).
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/detail/nanoflann.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon {
+
+/// An index over points. Keeps a copy of the finite ones (about 40 bytes each), so the range may
+/// go. Queries are const and thread-safe.
+class kd_tree {
+  public:
+    /// Indexes all finite points of the range. O(n log n).
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    explicit kd_tree(const R& points, Proj projection = {})
+        : points_(std::make_unique<detail::nanoflann_points>()) {
+        const position_view<R, Proj> positions(points, std::move(projection));
+        points_->positions.reserve(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            const Eigen::Vector3d p = positions[i];
+            if (!is_finite(p)) continue;
+            points_->positions.push_back(p);
+            index_of_slot_.push_back(static_cast<point_index>(i));
+        }
+        constexpr std::size_t leaf_size = 12;  // fastest of 8 to 32 for k = 20 to 50
+        tree_ = std::make_unique<detail::nanoflann_tree>(
+            3, *points_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+        tree_->buildIndex();
+    }
+
+    /// The number of finite points.
+    [[nodiscard]] std::size_t size() const { return index_of_slot_.size(); }
+
+    /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
+    /// out, in canonical order; fewer if there are no more. O(k log n) on average.
+    /// Precondition: p is finite.
+    void nearest(const Eigen::Vector3d& p, std::size_t k, std::size_t except,
+                 std::vector<neighbor>& found) const {
+        found.clear();
+        // One more than asked for; if `except` is not among them, the last one was not needed.
+        detail::nearest_result_set results(k + 1, found);
+        find(p, results);
+        for (neighbor& q : found) q.index = index_of_slot_[q.index];
+        std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
+        if (found.size() > k) found.pop_back();
+    }
+
+    /// Calls visit(neighbor) for each point at most `radius` [m] from `p`, the point at p itself
+    /// included, in no particular order. Precondition: p is finite.
+    template <std::invocable<neighbor> Visitor>
+    void for_each_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
+        const auto visit_point = [&](const neighbor& q) {
+            visit(neighbor{q.squared_distance, index_of_slot_[q.index]});
+        };
+        detail::ball_result_set results(radius * radius, visit_point);
+        find(p, results);
+    }
+
+  private:
+    template <class ResultSet>
+    void find(const Eigen::Vector3d& p, ResultSet& results) const {
+        if (size() > 0) tree_->findNeighbors(results, p.data(), detail::nanoflann_parameters());
+    }
+
+    std::unique_ptr<detail::nanoflann_points> points_;  // the tree refers to it
+    std::unique_ptr<detail::nanoflann_tree> tree_;
+    std::vector<point_index> index_of_slot_;  // ascending, so that ties by slot are ties by index
+};
+
+}  // namespace gnomon

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Who is next to whom: the concepts of this floor.
+///
+/// A *neighborhood* is a small policy such as `knn{.k = 30}`; called with points it gives a
+/// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
+/// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
+/// none; both doors give the same rings.
+///
+/// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
+/// are valid and not repeated; a point that is not finite has no neighbors and is nobody's; the
+/// graph is the same bytes for every execution; both doors agree.
+///
+/// Models: `knn`, `radius`; graphs: `adjacency`, and any std::vector<std::vector<point_index>>.
+#pragma once
+
+#include <compare>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <iterator>
+#include <vector>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+
+namespace gnomon {
+
+/// A point found by a search, in canonical order: by distance, ties by index.
+struct neighbor {
+    double squared_distance;  ///< [m^2], see squared_distance()
+    point_index index;
+
+    friend auto operator<=>(const neighbor&, const neighbor&) = default;
+};
+
+/// size() points, and for each i a sized range of the indices of its neighbors.
+template <class G>
+concept neighborhood_graph = requires(const G& graph, std::size_t i) {
+    { graph.size() } -> std::convertible_to<std::size_t>;
+    { *std::ranges::begin(graph[i]) } -> std::convertible_to<point_index>;
+    { std::ranges::size(graph[i]) } -> std::convertible_to<std::size_t>;
+};
+
+/// Finds one ring at a time: search(i, ring) replaces the content of `ring` by the neighbors of
+/// point i in canonical order. Const and thread-safe.
+template <class S>
+concept neighbor_search = requires(const S& search, std::size_t i, std::vector<neighbor>& ring) {
+    { search.size() } -> std::convertible_to<std::size_t>;
+    search(i, ring);
+};
+
+/// A policy that makes a graph of points: policy(points, execution, projection).
+template <class N, class R, class Proj = std::identity>
+concept neighborhood =
+    point_range<R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+        { policy(points, sequential{}, proj) } -> neighborhood_graph;
+    };
+
+/// A neighborhood that can also search without storing: policy.search(points, projection).
+template <class N, class R, class Proj = std::identity>
+concept streaming_neighborhood =
+    neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+        { policy.search(points, proj) } -> neighbor_search;
+    };
+
+}  // namespace gnomon

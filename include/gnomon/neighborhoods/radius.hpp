@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// All neighbors within a fixed distance, the distance included: exact, without the point itself.
+/// For scans of even density; where density varies, `knn` adapts and this does not.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/tree_search.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+
+namespace gnomon {
+
+/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
+struct radius {
+    double r = 0.05;  ///< [m], finite and not negative
+
+    /// The stored graph. Its size is n times the mean number of neighbors: mind dense clouds.
+    /// @throws std::invalid_argument  if r is negative, infinite or NaN
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return adjacency(search(points, std::move(projection)), run);
+    }
+
+    /// A search that stores nothing but its index; the points must outlive it.
+    /// @throws std::invalid_argument  if r is negative, infinite or NaN
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
+        return detail::tree_search<radius, R, Proj>(*this, points, std::move(projection));
+    }
+
+    /// The ring of point i at p.
+    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+              std::vector<neighbor>& ring) const {
+        tree.for_each_within(p, r, [&](const neighbor& q) {
+            if (q.index != i) ring.push_back(q);
+        });
+        std::sort(ring.begin(), ring.end());
+    }
+};
+
+}  // namespace gnomon

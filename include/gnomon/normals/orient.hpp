@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Normals that face the sensor: what was seen was seen from its outer side.
+///
+/// Klasing 2010, Sec. 3.2.10, Eq. (3.20).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/viewpoints.hpp>
+
+namespace gnomon {
+
+/// Turns each normal towards the view point of its point: <n, p - v> <= 0 afterwards.
+///
+/// @param points   a scan, or with_viewpoint(s)(points, ...); a bare range was seen from the origin
+/// @param surface  a range of elements with a member `normal`, one per point; changed in place
+/// @throws std::invalid_argument  if surface, view points and points differ in number
+/// Complexity: O(n).
+template <class R, class Surface, class Proj = std::identity>
+    requires point_range<R, Proj>
+void orient_normals(const R& points, Surface& surface, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const viewpoint_table v = viewpoints_of(points);
+    detail::require(surface.size() == p.size(), "orient_normals: the surface is of other points");
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        auto& n = surface[i].normal;
+        if (n.dot(p[i] - v[i]) > 0.0) n = -n;
+    }
+}
+
+}  // namespace gnomon
