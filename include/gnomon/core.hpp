@@ -14,6 +14,7 @@
 #include <gnomon/core/scan.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/strided_view.hpp>
+#include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/core/union_find.hpp>

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Some points of a range, by index and without a copy: what pre-processing left over, or one
+/// segment.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/index_iterator.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+
+namespace gnomon {
+
+/// Models `point_range`; refers to both the points and the indices.
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+class subset_view {
+  public:
+    /// Precondition: every index is below the number of points.
+    subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
+        : points_(points, std::move(projection)), indices_(indices) {}
+
+    [[nodiscard]] std::size_t size() const { return indices_.size(); }
+    [[nodiscard]] auto begin() const { return detail::index_iterator(this, 0); }
+    [[nodiscard]] auto end() const {
+        return detail::index_iterator(this, static_cast<std::ptrdiff_t>(size()));
+    }
+
+    /// The position of the i-th selected point [m].
+    [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const { return points_[indices_[i]]; }
+
+  private:
+    position_view<R, Proj> points_;
+    std::span<const point_index> indices_;
+};
+
+}  // namespace gnomon

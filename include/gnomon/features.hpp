@@ -1,0 +1,6 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a point or a segment looks like, in a few numbers.
+#pragma once
+
+#include <gnomon/features/principal_frame.hpp>

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Where a segment lies, how it is turned and how large it is: centroid, principal axes, spectrum
+/// and the object-oriented bounding box in their frame.
+///
+/// Klasing 2010, Sec. 3.5.1 (and Sec. 4.5, Fig. 4.14 for the boxes).
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/spectrum.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+
+namespace gnomon {
+
+/// A right-handed frame along the principal axes of a point set, and the box that fits it there.
+struct principal_frame {
+    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< mean of the points [m]
+    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    ///< columns: largest spread first
+    gnomon::spectrum spectrum;                             ///< variances along the axes [m^2]
+    Eigen::Vector3d box_center = Eigen::Vector3d::Zero();  ///< [m]
+    Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
+
+    /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
+    [[nodiscard]] Eigen::Vector3d normal() const { return axes.col(2); }
+};
+
+/// The principal frame of all finite points of a range; at the origin and of size zero if there are
+/// none. O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] principal_frame principal_frame_of(const R& points, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    // Moments about one of the points, so that nothing is lost far from the origin.
+    std::size_t first = 0;
+    while (first < p.size() && !is_finite(p[first])) ++first;
+    principal_frame frame;
+    if (first == p.size()) return frame;
+    const Eigen::Vector3d origin = p[first];
+    moments m;
+    for (std::size_t i = first; i < p.size(); ++i) {
+        if (is_finite(p[i])) m.add(p[i] - origin);
+    }
+    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+    frame.centroid = origin + m.sum / static_cast<double>(m.count);
+    frame.axes = e.vectors;
+    if (frame.axes.determinant() < 0.0) frame.axes.col(1) = -frame.axes.col(1);
+    frame.spectrum = spectrum(e.values);
+
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d low = Eigen::Vector3d::Constant(inf);
+    Eigen::Vector3d high = Eigen::Vector3d::Constant(-inf);
+    for (std::size_t i = first; i < p.size(); ++i) {
+        if (!is_finite(p[i])) continue;
+        const Eigen::Vector3d along = frame.axes.transpose() * (p[i] - frame.centroid);
+        low = low.cwiseMin(along);
+        high = high.cwiseMax(along);
+    }
+    frame.box_center = frame.centroid + frame.axes * (0.5 * (low + high));
+    frame.box_size = high - low;
+    return frame;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// gnomon: range scans into meaning. The table of contents, floor by floor; each header sees its own
+/// floor and those above it in this list, except that simulation and io stand beside the tower and
+/// see core alone.
+#pragma once
+
+#include <gnomon/version.hpp>
+
+#include <gnomon/core.hpp>
+#include <gnomon/neighborhoods.hpp>
+#include <gnomon/normals.hpp>
+#include <gnomon/features.hpp>
+#include <gnomon/segmentation.hpp>
+
+#include <gnomon/simulation.hpp>
+#include <gnomon/io.hpp>

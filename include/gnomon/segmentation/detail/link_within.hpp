@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The loop that Alg. 4.1, its oriented variant and Alg. 4.2 share: step through the points and
+/// join each with those neighbors within its search radius that a criterion accepts. What joins is
+/// kept by union-find, so that segments are the connected components of the relation "either point
+/// accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1 and 4.2).
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/union_find.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::detail {
+
+/// Joins points to segments. Points that are not finite stay unlabeled.
+template <class Points>
+class linker {
+  public:
+    explicit linker(const Points& points) : points_(points), sets_(points.size()) {}
+
+    /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
+    /// q being the neighbor j with its squared distance.
+    template <execution X>
+    void link_all(const kd_tree& tree, auto&& radius_of, auto&& link, const X& run) {
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) link_one(tree, i, radius_of(i), link);
+        });
+    }
+
+    /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
+    /// result depends on the order of the points, so it runs on one thread.
+    void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
+        std::vector<bool> has_segment(points_.size(), false);
+        const auto link_and_mark = [&](std::size_t i, const neighbor& q) {
+            if (!link(i, q)) return false;
+            has_segment[q.index] = true;
+            return true;
+        };
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (!has_segment[i]) link_one(tree, i, radius_of(i), link_and_mark);
+        }
+    }
+
+    /// The same relation over the neighbors that a graph lists.
+    template <neighborhood_graph G, execution X>
+    void link_listed(const G& graph, auto&& radius_of, auto&& link, const X& run) {
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const double limit = radius_of(i) * radius_of(i);
+                const Eigen::Vector3d p = points_[i];
+                for (const point_index j : graph[i]) {
+                    const neighbor q{squared_distance(p, points_[j]), j};
+                    if (q.squared_distance <= limit && link(i, q)) {
+                        sets_.unite(static_cast<point_index>(i), j);
+                    }
+                }
+            }
+        });
+    }
+
+    /// The segments of at least `min_points` points.
+    [[nodiscard]] segments result(std::size_t min_points) {
+        return segments_of(sets_, min_points, [&](std::size_t i) { return is_finite(points_[i]); });
+    }
+
+  private:
+    void link_one(const kd_tree& tree, std::size_t i, double radius, auto&& link) {
+        const Eigen::Vector3d p = points_[i];
+        if (!is_finite(p)) return;
+        tree.for_each_within(p, radius, [&](const neighbor& q) {
+            if (q.index != i && link(i, q)) sets_.unite(static_cast<point_index>(i), q.index);
+        });
+    }
+
+    const Points& points_;
+    union_find sets_;
+};
+
+}  // namespace gnomon::detail

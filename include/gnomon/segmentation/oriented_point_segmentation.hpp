@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Alg. 4.1 with normals: the first step from groups of points to surfaces, by one of two measures
+/// of dissimilarity with a fixed radius. Steps are told by distance, corners by angle, smooth
+/// surfaces stay whole.
+///
+/// Klasing 2010, Sec. 4.2.4 and Fig. 4.2.
+#pragma once
+
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/segmentation/detail/link_within.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon {
+
+/// A measure of dissimilarity of oriented points: `radius` bounds the distance of points that can
+/// be alike, and accepts(squared distance, n_i, n_j) decides. Must be symmetric. Models:
+/// `two_thresholds`, `joint_distance`.
+template <class D>
+concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) {
+    { d.radius } -> std::convertible_to<double>;
+    { d.accepts(double{}, n, n) } -> std::same_as<bool>;
+};
+
+/// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
+struct two_thresholds {
+    double radius = 0.05;          ///< r [m]
+    angle max_angle = degrees(5);  ///< alpha_max
+
+    [[nodiscard]] bool accepts(double, const Eigen::Vector3d& n_i,
+                               const Eigen::Vector3d& n_j) const {
+        return std::abs(n_i.dot(n_j)) >= cos(max_angle);
+    }
+};
+
+/// The Euclidean distance of the six features [p n] is at most r. Mixes metres with unit vectors,
+/// as the thesis points out; needs oriented normals.
+struct joint_distance {
+    double radius = 0.14;  ///< r, of no unit
+
+    [[nodiscard]] bool accepts(double squared_distance, const Eigen::Vector3d& n_i,
+                               const Eigen::Vector3d& n_j) const {
+        return squared_distance + (n_i - n_j).squaredNorm() <= radius * radius;
+    }
+};
+
+/// What remains to choose, with the values of Fig. 4.2.
+struct oriented_point_segmentation {
+    std::size_t min_points = 40;  ///< n_min, smaller groups are noise
+    bool greedy = false;          ///< as in `point_segmentation`
+};
+
+/// The groups that chains of similar oriented points connect.
+///
+/// @param surface  elements with a member `normal`, one per point; zero vectors join nothing
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if surface and points differ in size, or for a radius that is
+///                                negative, infinite or NaN
+/// Complexity: as segment_points.
+template <class R, indexed_range Surface, oriented_dissimilarity D, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_oriented_points(const R& points, const Surface& surface,
+                                               const D& dissimilarity,
+                                               const oriented_point_segmentation& options = {},
+                                               const X& run = {}, Proj projection = {}) {
+    const position_view<R, Proj> p(points, projection);
+    detail::require(dissimilarity.radius >= 0.0 && std::isfinite(dissimilarity.radius),
+                    "segment_oriented_points: the radius must be finite and not negative");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "segment_oriented_points: the surface is of other points");
+    const kd_tree tree(points, std::move(projection));
+    const auto radius_of = [&](std::size_t) { return double{dissimilarity.radius}; };
+    const auto similar = [&](std::size_t i, const neighbor& q) {
+        const Eigen::Vector3d& n_i = surface[i].normal;
+        const Eigen::Vector3d& n_j = surface[q.index].normal;
+        return !n_i.isZero(0.0) && !n_j.isZero(0.0) &&
+               dissimilarity.accepts(q.squared_distance, n_i, n_j);
+    };
+    detail::linker linker(p);
+    if (options.greedy) {
+        linker.link_greedily(tree, radius_of, similar);
+    } else {
+        linker.link_all(tree, radius_of, similar, run);
+    }
+    return linker.result(options.min_points);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Groups of points that lie close together: what remains on its own once floor and ceiling are
+/// gone.
+///
+/// Klasing 2010, Sec. 4.2.3, Alg. 4.1. Exact: the connected components of the graph that joins
+/// points at most r apart (the whole radius, no cap at k neighbors).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/segmentation/detail/link_within.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon {
+
+/// Parameters of Alg. 4.1, with the thesis's values.
+struct point_segmentation {
+    double radius = 0.01;           ///< r, the largest gap within a segment [m]
+    std::size_t min_points = 1000;  ///< n_min, smaller groups are noise
+    /// Skip the search at points that were found as somebody's neighbor: several times faster, and
+    /// now and then two groups stay apart that belong together. Runs on one thread.
+    bool greedy = false;
+};
+
+/// The groups of points that chains of steps of at most `radius` connect.
+///
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if the radius is negative, infinite or NaN
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_points(const R& points, const point_segmentation& options = {},
+                                      const X& run = {}, Proj projection = {}) {
+    detail::require(options.radius >= 0.0 && std::isfinite(options.radius),
+                    "segment_points: the radius must be finite and not negative");
+    const position_view<R, Proj> p(points, projection);
+    const kd_tree tree(points, std::move(projection));
+    const auto radius_of = [&](std::size_t) { return options.radius; };
+    const auto always = [](std::size_t, const neighbor&) { return true; };
+    detail::linker linker(p);
+    if (options.greedy) {
+        linker.link_greedily(tree, radius_of, always);
+    } else {
+        linker.link_all(tree, radius_of, always, run);
+    }
+    return linker.result(options.min_points);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Before segmentation: find floor and ceiling, set the scan upright, and leave both out. They are
+/// often more than half of an indoor scan and connect everything that stands on them.
+///
+/// Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands open. Here the floor is refitted
+/// to its own band until it rests, so that a tilt of a few degrees is found in rooms of any length.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/segmentation/detail/height_histogram.hpp>
+
+namespace gnomon {
+
+/// Where to look for the floor.
+struct floor_search {
+    plane guess;  ///< z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
+    double band = 0.1;  ///< half the height [m] of the band about the plane that counts as floor
+};
+
+/// Where to look for the ceiling, in heights above the floor.
+struct ceiling_search {
+    double min_height = 1.8;  ///< [m]
+    double bin = 0.02;        ///< of the histogram of heights [m]
+    double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one
+};
+
+/// Which heights above the floor to leave out.
+struct height_bands {
+    double floor = 0.05;    ///< up to this height [m]
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]
+};
+
+/// A rigid motion after which the floor is the plane z = 0.
+struct leveling {
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    double lift = 0.0;  ///< added to z after the rotation [m]
+
+    [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
+        return rotation * p + lift * Eigen::Vector3d::UnitZ();
+    }
+};
+
+/// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
+/// the points lies (a quarter of those at the most frequent height, in bins of 10 cm).
+///
+/// @param up  unit vector against gravity
+/// @return nothing without finite points
+/// Complexity: O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::optional<plane> guess_floor(const R& points,
+                                               const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ(),
+                                               Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
+    if (histogram.counts().empty()) return std::nullopt;
+    const auto& counts = histogram.counts();
+    const std::size_t most = *std::max_element(counts.begin(), counts.end());
+    const auto lowest =
+        std::find_if(counts.begin(), counts.end(), [most](std::size_t c) { return 4 * c >= most; });
+    return plane{up, histogram.center(static_cast<std::size_t>(lowest - counts.begin()))};
+}
+
+/// The floor: the plane through the points in a band about itself.
+///
+/// @return the plane, its normal on the side of the guess's; nothing where the points of the band
+/// do
+///         not determine one
+/// @throws std::invalid_argument  unless the band is positive
+/// Complexity: O(n) per refit, a handful of them, at most 50.
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::optional<plane> find_floor(const R& points, const floor_search& search = {},
+                                              Proj projection = {}) {
+    detail::require(search.band > 0.0, "find_floor: the band must be positive");
+    const position_view<R, Proj> p(points, std::move(projection));
+    plane floor = search.guess;
+    double band = search.band;
+    for (int refit = 0; refit < 50; ++refit) {
+        const Eigen::Vector3d origin = floor.offset * floor.normal;
+        moments m;
+        std::vector<double> distances;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_finite(p[i])) continue;
+            const double d = std::abs(floor.signed_distance(p[i]));
+            if (d > band) continue;
+            m.add(p[i] - origin);
+            distances.push_back(d);
+        }
+        if (m.count < 3) return std::nullopt;
+        const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+        if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
+
+        plane next{e.vectors.col(2), 0.0};
+        if (next.normal.dot(floor.normal) < 0.0) next.normal = -next.normal;
+        next.offset = next.normal.dot(origin + m.sum / static_cast<double>(m.count));
+
+        // Feet of furniture and walls stand in the band: narrow it to three robust standard
+        // deviations of what lies there (1.4826 times the median for a normal distribution).
+        const auto median = distances.begin() + static_cast<std::ptrdiff_t>(m.count / 2);
+        std::nth_element(distances.begin(), median, distances.end());
+        const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
+
+        const bool rests = (next.normal - floor.normal).norm() < 1e-9 &&
+                           std::abs(next.offset - floor.offset) < 1e-9 &&
+                           std::abs(narrower - band) < 1e-9;
+        floor = next;
+        band = narrower;
+        if (rests) break;
+    }
+    return floor;
+}
+
+/// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
+///
+/// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
+/// @throws std::invalid_argument  unless the bin is positive
+/// Complexity: O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
+                                                 const ceiling_search& search = {},
+                                                 Proj projection = {}) {
+    detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    const position_view<R, Proj> p(points, std::move(projection));
+    const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
+    const auto& counts = histogram.counts();
+    const auto most = std::max_element(counts.begin(), counts.end());
+    if (most == counts.end() ||
+        static_cast<double>(*most) < search.min_share * static_cast<double>(histogram.points())) {
+        return std::nullopt;
+    }
+    // The mean over the peak and its neighbors is finer than the bin and free of its phase.
+    const double peak = histogram.center(static_cast<std::size_t>(most - counts.begin()));
+    double sum = 0.0;
+    std::size_t near = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i])) continue;
+        const double height = floor.signed_distance(p[i]);
+        if (std::abs(height - peak) > 1.5 * search.bin) continue;
+        sum += height;
+        ++near;
+    }
+    return sum / static_cast<double>(near);
+}
+
+/// The motion that turns the floor's normal to z by the smallest rotation and lays the floor into
+/// z = 0. The points stay untouched: apply it where you need it.
+[[nodiscard]] inline leveling level_with(const plane& floor) {
+    const Eigen::Vector3d n = floor.normal;
+    // Two reflections make the rotation: across the plane between n and z, then across that of z.
+    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+    leveling level;
+    const Eigen::Vector3d half = n + z;
+    if (half.squaredNorm() > 1e-24) {
+        const auto reflect = [](const Eigen::Vector3d& about) -> Eigen::Matrix3d {
+            return 2.0 / about.squaredNorm() * about * about.transpose() -
+                   Eigen::Matrix3d::Identity();
+        };
+        level.rotation = reflect(half) * reflect(n);
+    } else {
+        level.rotation.diagonal() << 1.0, -1.0, -1.0;  // upside down: half a turn about x
+    }
+    level.lift = -floor.offset;
+    return level;
+}
+
+/// The indices of the points between the bands of floor and ceiling, ascending; see subset_view.
+/// Points that are not finite are left out.
+///
+/// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
+/// Complexity: O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<point_index> between_bands(const R& points, const plane& floor,
+                                                     std::optional<double> ceiling,
+                                                     const height_bands& bands = {},
+                                                     Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    std::vector<point_index> kept;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i])) continue;
+        const double height = floor.signed_distance(p[i]);
+        if (height <= bands.floor) continue;
+        if (ceiling && height >= *ceiling - bands.ceiling) continue;
+        kept.push_back(static_cast<point_index>(i));
+    }
+    return kept;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Smooth surfaces: neighboring points are one surface where their normals turn by at most a small
+/// angle. The search radius follows the density of the scan, so that the sparse rim of a rotational
+/// scan is treated like its dense middle.
+///
+/// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/segmentation/detail/link_within.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon {
+
+/// Elements with a normal and the mean distance to the neighbors, as estimate_normals gives them.
+template <class S>
+concept surfel_range = indexed_range<S> && requires(const S& surface, std::size_t i) {
+    { surface[i].normal } -> std::convertible_to<Eigen::Vector3d>;
+    { surface[i].mean_distance } -> std::convertible_to<double>;
+};
+
+/// Parameters of Alg. 4.2, with the thesis's values.
+struct surface_segmentation {
+    angle max_angle = degrees(5);  ///< alpha_max between normals of neighbors
+    double max_distance = 0.30;    ///< rho_max [m], no link is longer; may be infinite
+    std::size_t min_points = 30;   ///< n_min, smaller segments are noise
+    /// Compare oriented normals, so that the two sides of a thin board, seen from two view points,
+    /// stay apart; the thesis compares |<n_i, n_j>|.
+    bool oriented = false;
+};
+
+namespace detail {
+
+/// The criterion and the search radius of Alg. 4.2.
+template <surfel_range Surface>
+class smooth_link {
+  public:
+    smooth_link(const Surface& surface, const surface_segmentation& options, std::size_t points)
+        : surface_(surface), options_(options), min_cosine_(cos(options.max_angle)) {
+        require(std::ranges::size(surface) == points,
+                "segment_surfaces: the surface is of other points");
+        require(options.max_distance >= 0.0,
+                "segment_surfaces: max_distance must not be negative or NaN");
+        require(options.max_angle >= degrees(0) && options.max_angle <= degrees(90),
+                "segment_surfaces: max_angle must lie between 0 and 90 degrees");
+    }
+
+    /// rho_s of point i [m], Eq. (4.3)
+    [[nodiscard]] double radius(std::size_t i) const {
+        return std::min(double{surface_[i].mean_distance}, options_.max_distance);
+    }
+
+    /// Whether the normals agree; never for a missing normal, the zero vector.
+    [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
+        const double cosine = surface_[i].normal.dot(surface_[q.index].normal);
+        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_ && cosine != 0.0;
+    }
+
+  private:
+    const Surface& surface_;
+    surface_segmentation options_;
+    double min_cosine_;
+};
+
+}  // namespace detail
+
+/// The smooth surfaces of a cloud, exact: every point within the radius is looked at.
+///
+/// @param points   any point range of n points
+/// @param surface  their n surface elements; where the normal is zero, nothing is joined
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
+///                                max_distance or a max_angle outside [0, 90] degrees
+/// Complexity: one kd-tree and n radius searches. The same bytes for every execution.
+template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
+                                        const surface_segmentation& options = {}, const X& run = {},
+                                        Proj projection = {}) {
+    const position_view<R, Proj> p(points, projection);
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    const kd_tree tree(points, std::move(projection));
+    detail::linker linker(p);
+    linker.link_all(
+        tree, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    return linker.result(options.min_points);
+}
+
+/// The same over a stored graph: no second search, and of the points within the radius only those
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from,
+/// it differs from the exact one only at points repaired from a wider neighborhood.
+/// @throws std::invalid_argument  also if graph and points differ in size
+template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const G& graph, const Surface& surface,
+                                        const surface_segmentation& options = {}, const X& run = {},
+                                        Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(graph.size() == p.size(), "segment_surfaces: the graph is of other points");
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    detail::linker linker(p);
+    linker.link_listed(
+        graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    return linker.result(options.min_points);
+}
+
+}  // namespace gnomon
