@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <gtest/gtest.h>
+
+#include <gnomon/core/moments.hpp>
+
+#include "laws/clouds.hpp"
+
+namespace {
+
+/// The textbook covariance in two passes and long double.
+Eigen::Matrix3d two_pass_covariance(const clouds::cloud& points) {
+    using vector = Eigen::Matrix<long double, 3, 1>;
+    vector mean = vector::Zero();
+    for (const auto& p : points) mean += p.cast<long double>();
+    mean /= static_cast<long double>(points.size());
+    Eigen::Matrix<long double, 3, 3> sum = Eigen::Matrix<long double, 3, 3>::Zero();
+    for (const auto& p : points) {
+        const vector d = p.cast<long double>() - mean;
+        sum += d * d.transpose();
+    }
+    return (sum / static_cast<long double>(points.size())).cast<double>();
+}
+
+TEST(moments, give_the_covariance_of_the_neighbors_with_and_without_the_point) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        clouds::cloud points = clouds::in_cube(30, seed);
+        for (auto& p : points) p += Eigen::Vector3d(6e5, 4.8e6, 100);  // UTM
+        gnomon::moments m;
+        for (std::size_t j = 1; j < points.size(); ++j) m.add(points[j] - points[0]);
+        EXPECT_EQ(m.count, 29u);
+        EXPECT_LT((m.covariance_with_point() - two_pass_covariance(points)).norm(), 1e-14);
+        points.erase(points.begin());
+        EXPECT_LT((m.covariance_of_neighbors() - two_pass_covariance(points)).norm(), 1e-14);
+    }
+}
+
+}  // namespace

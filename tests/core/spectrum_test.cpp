@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <gtest/gtest.h>
+
+#include <gnomon/core/spectrum.hpp>
+
+namespace {
+
+using gnomon::spectrum;
+
+TEST(spectrum, tells_plane_line_and_ball_apart) {
+    EXPECT_DOUBLE_EQ(spectrum({4, 1, 0}).surface_variation(), 0.0);
+    EXPECT_DOUBLE_EQ(spectrum({4, 1, 0}).aspect_ratio(), 0.5);
+    EXPECT_DOUBLE_EQ(spectrum({9, 9, 9}).surface_variation(), 1.0);
+    EXPECT_DOUBLE_EQ(spectrum({9, 0, 0}).aspect_ratio(), 0.0);
+    EXPECT_DOUBLE_EQ(spectrum().surface_variation(), 0.0);
+    EXPECT_DOUBLE_EQ(spectrum().aspect_ratio(), 0.0);
+}
+
+/// Specification A34: sigma_sv = 0.15 with s1 = s2 is s3/s1 = 0.105, lambda3 / sum = 0.0055.
+TEST(spectrum, uses_singular_values_and_not_variances) {
+    const double s3 = 0.15 * 2 / (3 - 0.15);
+    const spectrum s({1, 1, s3 * s3});
+    EXPECT_NEAR(s.surface_variation(), 0.15, 1e-15);
+    EXPECT_NEAR(s.lambda[2] / s.lambda.sum(), 0.0055, 1e-4);
+}
+
+TEST(spectrum, does_not_care_for_scale_and_clamps_rounding) {
+    EXPECT_DOUBLE_EQ(spectrum({3, 2, 1}).surface_variation(),
+                     spectrum({3e-8, 2e-8, 1e-8}).surface_variation());
+    EXPECT_EQ(spectrum({1, 0.5, -1e-18}).lambda[2], 0.0);
+}
+
+}  // namespace

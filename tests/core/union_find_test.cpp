@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/union_find.hpp>
+
+namespace {
+
+struct edge {
+    gnomon::point_index i, j;
+};
+
+std::vector<edge> random_edges(std::size_t n, std::size_t m, std::uint64_t seed) {
+    gnomon::random_stream random(seed);
+    std::vector<edge> edges(m);
+    for (edge& e : edges) {
+        e.i = static_cast<gnomon::point_index>(random.bits() % n);
+        e.j = static_cast<gnomon::point_index>(random.bits() % n);
+    }
+    return edges;
+}
+
+/// Smallest reachable number of each node, by relaxing to a fixpoint.
+std::vector<gnomon::point_index> smallest_reachable(std::size_t n, const std::vector<edge>& edges) {
+    std::vector<gnomon::point_index> label(n);
+    for (std::size_t i = 0; i < n; ++i) label[i] = static_cast<gnomon::point_index>(i);
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (const auto [i, j] : edges) {
+            const auto low = std::min(label[i], label[j]);
+            changed = changed || label[i] != low || label[j] != low;
+            label[i] = label[j] = low;
+        }
+    }
+    return label;
+}
+
+TEST(union_find, finds_the_smallest_element_of_each_component_on_any_number_of_threads) {
+    constexpr std::size_t n = 5000;
+    for (const std::size_t m : {0u, 1000u, 2500u, 4000u, 20'000u}) {
+        const auto edges = random_edges(n, m, m);
+        const auto expected = smallest_reachable(n, edges);
+        for (const unsigned t : {1u, 2u, 4u}) {
+            gnomon::union_find sets(n);
+            gnomon::for_each_chunk(gnomon::threads{t}, m, [&](std::size_t begin, std::size_t end) {
+                for (std::size_t e = begin; e < end; ++e) sets.unite(edges[e].i, edges[e].j);
+            });
+            for (std::size_t i = 0; i < n; ++i) {
+                ASSERT_EQ(sets.find(static_cast<gnomon::point_index>(i)), expected[i]);
+            }
+        }
+    }
+}
+
+TEST(union_find, of_nothing_is_nothing) { EXPECT_EQ(gnomon::union_find(0).size(), 0u); }
+
+}  // namespace

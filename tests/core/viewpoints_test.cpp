@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/viewpoints.hpp>
+
+#include "laws/clouds.hpp"
+
+namespace {
+
+const Eigen::Vector3d a(1, 0, 0);
+const Eigen::Vector3d b(0, 2, 0);
+
+TEST(viewpoint_table, speaks_for_the_cloud_the_scan_or_the_point) {
+    EXPECT_EQ(gnomon::viewpoint_table()[3], Eigen::Vector3d(0, 0, 0));
+    EXPECT_TRUE(gnomon::viewpoint_table().empty());
+    EXPECT_EQ(gnomon::viewpoint_table(a)[3], a);
+    const gnomon::viewpoint_table per_scan({a, b}, {0, 1, 1, 0});
+    EXPECT_EQ(per_scan[2], b);
+    EXPECT_EQ(per_scan[3], a);
+    EXPECT_TRUE(per_scan.covers(4));
+    EXPECT_FALSE(per_scan.covers(5));
+    const gnomon::viewpoint_table per_point(std::vector{a, b});
+    EXPECT_EQ(per_point[1], b);
+    EXPECT_TRUE(per_point.covers(2));
+    EXPECT_FALSE(per_point.covers(1));
+}
+
+TEST(viewpoint_table, refuses_points_of_missing_scans_and_wrong_sizes) {
+    EXPECT_THROW(gnomon::viewpoint_table({a}, {0, 1}), std::invalid_argument);
+    const auto points = clouds::in_cube(3, 1);
+    EXPECT_THROW((void)gnomon::with_viewpoints(points, gnomon::viewpoint_table(std::vector{a, b})),
+                 std::invalid_argument);
+}
+
+TEST(viewpoint_table, travels_with_a_bare_range) {
+    const auto points = clouds::in_cube(3, 1);
+    const auto seen = gnomon::with_viewpoint(points, b);
+    static_assert(gnomon::point_range<decltype(seen)> && gnomon::has_viewpoints<decltype(seen)>);
+    static_assert(!gnomon::has_viewpoints<clouds::cloud>);
+    EXPECT_EQ(gnomon::position_view(seen)[2], points[2]);
+    EXPECT_EQ(gnomon::viewpoints_of(seen)[2], b);
+    EXPECT_EQ(gnomon::viewpoints_of(points)[2], Eigen::Vector3d(0, 0, 0));
+}
+
+}  // namespace

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The laws of the `neighborhood` concept, for any model: yours, too.
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+#include "laws/clouds.hpp"
+
+namespace laws {
+
+/// No point is its own neighbor, none is listed twice, none is out of range, and points that are
+/// not finite neither have neighbors nor are any.
+template <class N>
+void rings_are_sets_of_other_finite_points(const N& policy, const clouds::cloud& points) {
+    const auto graph = policy(points);
+    ASSERT_EQ(graph.size(), points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        std::set<gnomon::point_index> seen;
+        for (const gnomon::point_index j : graph[i]) {
+            ASSERT_LT(j, points.size());
+            ASSERT_NE(j, i);
+            ASSERT_TRUE(seen.insert(j).second);
+            ASSERT_TRUE(gnomon::is_finite(points[j]) && gnomon::is_finite(points[i]));
+        }
+    }
+}
+
+/// The graph is the same for every execution and through every projection.
+template <class N>
+void graph_depends_on_points_alone(const N& policy, const clouds::cloud& points) {
+    const auto graph = policy(points);
+    for (const unsigned t : {1u, 2u, 4u}) ASSERT_EQ(policy(points, gnomon::threads{t}), graph);
+    struct record {
+        int id;
+        Eigen::Vector3d xyz;
+    };
+    std::vector<record> records;
+    for (const auto& p : points) records.push_back({0, p});
+    ASSERT_EQ(policy(records, gnomon::sequential{}, &record::xyz), graph);
+}
+
+/// The streaming door gives the rings of the stored graph, in canonical order.
+template <class N>
+void both_doors_agree(const N& policy, const clouds::cloud& points) {
+    static_assert(gnomon::streaming_neighborhood<N, clouds::cloud>);
+    const auto graph = policy(points);
+    const auto search = policy.search(points);
+    std::vector<gnomon::neighbor> ring;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        search(i, ring);
+        ASSERT_EQ(ring.size(), graph[i].size());
+        for (std::size_t j = 0; j < ring.size(); ++j) {
+            ASSERT_EQ(ring[j].index, graph[i][j]);
+            ASSERT_EQ(ring[j].squared_distance,
+                      gnomon::squared_distance(points[i], points[ring[j].index]));
+            if (j > 0) ASSERT_LT(ring[j - 1], ring[j]);
+        }
+    }
+}
+
+template <class N>
+void neighborhood_laws(const N& policy, const clouds::cloud& points) {
+    rings_are_sets_of_other_finite_points(policy, points);
+    graph_depends_on_points_alone(policy, points);
+    if constexpr (gnomon::streaming_neighborhood<N, clouds::cloud>) both_doors_agree(policy, points);
+}
+
+}  // namespace laws

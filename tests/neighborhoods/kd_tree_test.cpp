@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/neighborhoods/kd_tree.hpp>
+
+#include "laws/clouds.hpp"
+
+namespace {
+
+/// Oracle: all finite points in canonical order about p.
+std::vector<gnomon::neighbor> by_brute_force(const clouds::cloud& points, const Eigen::Vector3d& p) {
+    std::vector<gnomon::neighbor> all;
+    for (std::size_t j = 0; j < points.size(); ++j) {
+        if (!gnomon::is_finite(points[j])) continue;
+        all.push_back(
+            {gnomon::squared_distance(p, points[j]), static_cast<gnomon::point_index>(j)});
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+std::vector<clouds::named_cloud> searched_clouds() {
+    auto all = clouds::degenerate();
+    all.push_back({"cube", clouds::in_cube(1500, 1)});
+    all.push_back({"sheet", clouds::sheet(1500, 2)});
+    all.push_back({"ties everywhere, more", clouds::on_grid(1500, 3)});
+    all.push_back({"ties on an uneven grid", clouds::on_grid(1500, 3, 0.1)});
+    all.push_back({"at UTM coordinates", clouds::moved(clouds::on_grid(800, 9, 0.1),
+                                                       Eigen::Matrix3d::Identity(),
+                                                       {6e5, 4.8e6, 100})});
+    return all;
+}
+
+TEST(kd_tree, nearest_equals_brute_force_ties_included) {
+    for (const auto& [name, points] : searched_clouds()) {
+        SCOPED_TRACE(name);
+        const gnomon::kd_tree tree(points);
+        std::vector<gnomon::neighbor> found;
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            if (!gnomon::is_finite(points[i])) continue;
+            auto expected = by_brute_force(points, points[i]);
+            std::erase_if(expected, [i](const auto& q) { return q.index == i; });
+            for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{7},
+                                        std::size_t{50}, points.size() + 3}) {
+                tree.nearest(points[i], k, i, found);
+                ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(),
+                                       expected.begin() + std::ptrdiff_t(std::min(k, expected.size()))));
+            }
+        }
+    }
+}
+
+TEST(kd_tree, ball_equals_brute_force_rim_included) {
+    for (const auto& [name, points] : searched_clouds()) {
+        SCOPED_TRACE(name);
+        const gnomon::kd_tree tree(points);
+        for (std::size_t i = 0; i < points.size(); i += 3) {
+            if (!gnomon::is_finite(points[i])) continue;
+            const auto all = by_brute_force(points, points[i]);
+            for (const double r : {0.0, 0.1, 0.25, 0.5}) {
+                std::vector<gnomon::neighbor> found;
+                tree.for_each_within(points[i], r, [&](const auto& q) { found.push_back(q); });
+                std::sort(found.begin(), found.end());
+                const auto end = std::partition_point(all.begin(), all.end(), [r](const auto& q) {
+                    return q.squared_distance <= r * r;
+                });
+                ASSERT_TRUE(std::equal(found.begin(), found.end(), all.begin(), end));
+            }
+        }
+    }
+}
+
+TEST(kd_tree, answers_for_places_that_are_no_points) {
+    const auto points = clouds::in_cube(500, 4);
+    const gnomon::kd_tree tree(points);
+    std::vector<gnomon::neighbor> found;
+    for (const auto& p : clouds::in_cube(100, 5)) {
+        const Eigen::Vector3d place = 3.0 * p - Eigen::Vector3d::Ones();
+        tree.nearest(place, 9, points.size(), found);
+        const auto expected = by_brute_force(points, place);
+        ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.begin() + 9));
+    }
+}
+
+}  // namespace

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/radius.hpp>
+
+#include "laws/clouds.hpp"
+#include "laws/neighborhood_laws.hpp"
+
+namespace {
+
+/// A user's own neighborhood: the points before and after, as along a scan line.
+struct scan_line {
+    template <class R, gnomon::execution X = gnomon::sequential, class Proj = std::identity>
+    std::vector<std::vector<gnomon::point_index>> operator()(const R& points, const X& = {},
+                                                             Proj projection = {}) const {
+        const gnomon::position_view<R, Proj> p(points, projection);
+        std::vector<std::vector<gnomon::point_index>> graph(p.size());
+        for (std::size_t i = 1; i < p.size(); ++i) {
+            if (!gnomon::is_finite(p[i - 1]) || !gnomon::is_finite(p[i])) continue;
+            graph[i].push_back(static_cast<gnomon::point_index>(i - 1));
+            graph[i - 1].push_back(static_cast<gnomon::point_index>(i));
+        }
+        return graph;
+    }
+};
+
+static_assert(gnomon::streaming_neighborhood<gnomon::knn, clouds::cloud>);
+static_assert(gnomon::streaming_neighborhood<gnomon::radius, clouds::cloud>);
+static_assert(gnomon::neighborhood<scan_line, clouds::cloud>);
+static_assert(!gnomon::streaming_neighborhood<scan_line, clouds::cloud>);
+static_assert(!gnomon::neighborhood<int, clouds::cloud>);
+static_assert(!gnomon::neighborhood<gnomon::knn, std::vector<int>>);
+static_assert(gnomon::neighborhood_graph<std::vector<std::vector<gnomon::point_index>>>);
+static_assert(!gnomon::neighborhood_graph<std::vector<int>>);
+
+TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
+    auto all = clouds::degenerate();
+    all.push_back({"cube", clouds::in_cube(3000, 1)});
+    all.push_back({"sheet", clouds::sheet(3000, 2)});
+    for (const auto& [name, points] : all) {
+        SCOPED_TRACE(name);
+        for (const std::size_t k : {1u, 2u, 10u, 50u}) laws::neighborhood_laws(gnomon::knn{k}, points);
+        for (const double r : {0.0, 0.03, 0.25}) laws::neighborhood_laws(gnomon::radius{r}, points);
+        laws::neighborhood_laws(scan_line{}, points);
+    }
+}
+
+}  // namespace
