@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The laws of the `estimator` concept, for any model: yours, too. Rings are drawn from noisy curved
+/// sheets, with the normal well determined.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/estimator.hpp>
+
+#include "laws/clouds.hpp"
+
+namespace laws {
+
+/// The angle between two directions, whatever their signs [rad].
+inline double angle_between(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    const Eigen::Vector3d cross(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+                                a.x() * b.y() - a.y() * b.x());
+    return std::atan2(cross.norm(), std::abs(a.dot(b)));
+}
+
+/// A point and its ring.
+struct neighborhood_sample {
+    Eigen::Vector3d p;
+    clouds::cloud ring;
+};
+
+inline neighborhood_sample sample_neighborhood(std::uint64_t seed) {
+    const clouds::cloud sheet = clouds::sheet(41, seed);
+    return {sheet[0], {sheet.begin() + 1, sheet.end()}};
+}
+
+template <gnomon::estimator E>
+gnomon::surfel<gnomon::estimate_t<E>> estimate_one(const E& estimate, const Eigen::Vector3d& p,
+                                                   const clouds::cloud& ring) {
+    gnomon::detail::surfel_maker<E, double> make(estimate);
+    return make(p, ring, [](const Eigen::Vector3d& q) { return q; });
+}
+
+/// A usable normal has unit length, an unusable one is zero, and nothing is ever NaN.
+template <gnomon::estimator E>
+void normals_are_unit_or_zero(const E& estimate) {
+    auto all = clouds::degenerate();
+    all.push_back({"sheet", clouds::sheet(500, 1)});
+    for (const auto& [name, points] : all) {
+        SCOPED_TRACE(name);
+        for (const std::size_t k : {1u, 2u, 3u, 9u, 50u}) {
+            const auto surface = gnomon::estimate_normals(points, gnomon::knn{k}, estimate);
+            ASSERT_EQ(surface.size(), points.size());
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const auto& s = surface[i];
+                ASSERT_TRUE(s.normal.allFinite() && std::isfinite(s.mean_distance));
+                ASSERT_TRUE(s.trust == gnomon::trust::not_finite || gnomon::is_finite(points[i]));
+                ASSERT_NEAR(s.normal.norm(), gnomon::usable(s.trust) ? 1.0 : 0.0, 1e-12);
+            }
+        }
+    }
+}
+
+/// The same ring in another order, at another place, in another size, or turned.
+template <gnomon::estimator E>
+void normal_follows_the_cloud(const E& estimate, double tolerance = 1e-11) {
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        auto [p, ring] = sample_neighborhood(seed);
+        const Eigen::Vector3d n = estimate_one(estimate, p, ring).normal;
+        const auto expect = [&](const Eigen::Matrix3d& r, const Eigen::Vector3d& t, double allowed) {
+            const Eigen::Vector3d moved_p = r * p + t;
+            const auto moved = estimate_one(estimate, moved_p, clouds::moved(ring, r, t));
+            ASSERT_LT(angle_between(r.colwise().normalized() * n, moved.normal), allowed);
+        };
+        const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
+        std::vector<std::size_t> order;
+        ASSERT_LT(angle_between(n, estimate_one(estimate, p, clouds::permuted(ring, seed, order)).normal),
+                  tolerance);
+        expect(identity, {3, -4, 5}, 1e-10);
+        expect(identity, {6e5, 4.8e6, 100}, 1e-6);  // coordinates are rounded to 1e-9 m there
+        expect(1e-3 * identity, {0, 0, 0}, tolerance);
+        expect(1e3 * identity, {0, 0, 0}, tolerance);
+        expect(clouds::random_rotation(seed), {0, 0, 0}, tolerance);
+    }
+}
+
+/// The same bytes on any number of threads, from a stored graph and from the fused search.
+template <gnomon::estimator E>
+void result_does_not_depend_on_execution(const E& estimate) {
+    const clouds::cloud points = clouds::sheet(5000, 8);
+    const gnomon::knn policy{.k = 12};
+    const auto expected = gnomon::estimate_normals(points, policy, estimate);
+    const auto expect_same = [&](const auto& surface) {
+        ASSERT_EQ(surface.size(), expected.size());
+        for (std::size_t i = 0; i < surface.size(); ++i) {
+            ASSERT_EQ(surface[i].normal, expected[i].normal);
+            ASSERT_EQ(surface[i].trust, expected[i].trust);
+            ASSERT_EQ(surface[i].mean_distance, expected[i].mean_distance);
+            ASSERT_EQ(surface[i].neighbors, expected[i].neighbors);
+        }
+    };
+    for (const unsigned t : {1u, 2u, 4u}) {
+        expect_same(gnomon::estimate_normals(points, policy, estimate, gnomon::threads{t}));
+        expect_same(gnomon::estimate_normals(points, policy(points), estimate, gnomon::threads{t}));
+    }
+}
+
+template <gnomon::estimator E>
+void estimator_laws(const E& estimate) {
+    normals_are_unit_or_zero(estimate);
+    normal_follows_the_cloud(estimate);
+    result_does_not_depend_on_execution(estimate);
+}
+
+}  // namespace laws
