@@ -79,7 +79,8 @@ inline cloud permuted(const cloud& points, std::uint64_t seed, std::vector<std::
     gnomon::random_stream random(seed, 5);
     order.resize(points.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    for (std::size_t i = order.size(); i > 1; --i) std::swap(order[i - 1], order[random.bits() % i]);
+    for (std::size_t i = order.size(); i > 1; --i)
+        std::swap(order[i - 1], order[random.bits() % i]);
     cloud result;
     for (const std::size_t i : order) result.push_back(points[i]);
     return result;
@@ -101,7 +102,8 @@ struct named_cloud {
 /// What every algorithm must survive.
 inline std::vector<named_cloud> degenerate() {
     std::vector<named_cloud> all;
-    for (std::size_t n = 0; n <= 4; ++n) all.push_back({std::to_string(n) + " points", in_cube(n, n)});
+    for (std::size_t n = 0; n <= 4; ++n)
+        all.push_back({std::to_string(n) + " points", in_cube(n, n)});
     all.push_back({"all equal", cloud(60, {1.0, 2.0, 3.0})});
     cloud line;
     cloud plane;

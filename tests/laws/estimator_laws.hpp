@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The laws of the `estimator` concept, for any model: yours, too. Rings are drawn from noisy curved
-/// sheets, with the normal well determined.
+/// The laws of the `estimator` concept, for any model: yours, too. Rings are drawn from noisy
+/// curved sheets, with the normal well determined.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +12,11 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
-
-#include "laws/clouds.hpp"
 
 namespace laws {
 
@@ -72,15 +71,17 @@ void normal_follows_the_cloud(const E& estimate, double tolerance = 1e-11) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         auto [p, ring] = sample_neighborhood(seed);
         const Eigen::Vector3d n = estimate_one(estimate, p, ring).normal;
-        const auto expect = [&](const Eigen::Matrix3d& r, const Eigen::Vector3d& t, double allowed) {
+        const auto expect = [&](const Eigen::Matrix3d& r, const Eigen::Vector3d& t,
+                                double allowed) {
             const Eigen::Vector3d moved_p = r * p + t;
             const auto moved = estimate_one(estimate, moved_p, clouds::moved(ring, r, t));
             ASSERT_LT(angle_between(r.colwise().normalized() * n, moved.normal), allowed);
         };
         const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();
         std::vector<std::size_t> order;
-        ASSERT_LT(angle_between(n, estimate_one(estimate, p, clouds::permuted(ring, seed, order)).normal),
-                  tolerance);
+        ASSERT_LT(
+            angle_between(n, estimate_one(estimate, p, clouds::permuted(ring, seed, order)).normal),
+            tolerance);
         expect(identity, {3, -4, 5}, 1e-10);
         expect(identity, {6e5, 4.8e6, 100}, 1e-6);  // coordinates are rounded to 1e-9 m there
         expect(1e-3 * identity, {0, 0, 0}, tolerance);

@@ -9,10 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-
-#include "laws/clouds.hpp"
 
 namespace laws {
 
@@ -70,7 +69,8 @@ template <class N>
 void neighborhood_laws(const N& policy, const clouds::cloud& points) {
     rings_are_sets_of_other_finite_points(policy, points);
     graph_depends_on_points_alone(policy, points);
-    if constexpr (gnomon::streaming_neighborhood<N, clouds::cloud>) both_doors_agree(policy, points);
+    if constexpr (gnomon::streaming_neighborhood<N, clouds::cloud>)
+        both_doors_agree(policy, points);
 }
 
 }  // namespace laws

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
@@ -52,7 +53,7 @@ template <class R, class Proj = std::identity>
     const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
     frame.centroid = origin + m.sum / static_cast<double>(m.count);
     frame.axes = e.vectors;
-    if (frame.axes.determinant() < 0.0) frame.axes.col(1) = -frame.axes.col(1);
+    frame.axes.col(1) = frame.axes.col(2).cross(frame.axes.col(0));  // right-handed
     frame.spectrum = spectrum(e.values);
 
     constexpr double inf = std::numeric_limits<double>::infinity();

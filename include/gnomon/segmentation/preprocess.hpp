@@ -27,10 +27,9 @@
 
 namespace gnomon {
 
-/// Where to look for the floor.
+/// What counts as the floor.
 struct floor_search {
-    plane guess;  ///< z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
-    double band = 0.1;  ///< half the height [m] of the band about the plane that counts as floor
+    double band = 0.1;  ///< half the height [m] of the band about the plane
 };
 
 /// Where to look for the ceiling, in heights above the floor.
@@ -79,6 +78,8 @@ template <class R, class Proj = std::identity>
 
 /// The floor: the plane through the points in a band about itself.
 ///
+/// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees of the
+/// floor
 /// @return the plane, its normal on the side of the guess's; nothing where the points of the band
 /// do
 ///         not determine one
@@ -86,11 +87,12 @@ template <class R, class Proj = std::identity>
 /// Complexity: O(n) per refit, a handful of them, at most 50.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] std::optional<plane> find_floor(const R& points, const floor_search& search = {},
+[[nodiscard]] std::optional<plane> find_floor(const R& points, const plane& guess = {},
+                                              const floor_search& search = {},
                                               Proj projection = {}) {
     detail::require(search.band > 0.0, "find_floor: the band must be positive");
     const position_view<R, Proj> p(points, std::move(projection));
-    plane floor = search.guess;
+    plane floor = guess;
     double band = search.band;
     for (int refit = 0; refit < 50; ++refit) {
         const Eigen::Vector3d origin = floor.offset * floor.normal;

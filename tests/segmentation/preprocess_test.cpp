@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/LU>
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/angle.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
+
+namespace {
+
+/// A furnished room, 4 x 4 x 2.5 m, and what each point lies on.
+struct room {
+    enum part : char { floor, ceiling, other };
+    clouds::cloud points;
+    std::vector<part> parts;
+};
+
+room furnished_room(std::uint64_t seed) {
+    gnomon::random_stream random(seed);
+    room r;
+    const auto put = [&](double x, double y, double z, room::part part) {
+        const double sigma = 0.005;
+        r.points.push_back({x + sigma * random.gaussian(), y + sigma * random.gaussian(),
+                            z + sigma * random.gaussian()});
+        r.parts.push_back(part);
+    };
+    for (int i = 0; i < 12'000; ++i) {
+        const double u = random.uniform(0.0, 4.0);
+        const double v = random.uniform(0.0, 4.0);
+        if (i % 3 == 0) put(u, v, 0.0, room::floor);
+        if (i % 3 == 1) put(u, v, 2.5, room::ceiling);
+        // Walls from 10 cm up, so that what is true of a point is beyond doubt, a table, its legs.
+        const double h = random.uniform(0.1, 2.4);
+        if (i % 6 == 2) put(0.0, v, h, room::other);
+        if (i % 6 == 5) put(u, 4.0, h, room::other);
+        if (i % 8 == 0) put(1.0 + 0.25 * u, 1.0 + 0.25 * v, 0.74, room::other);
+        if (i % 60 == 0) put(1.0, 1.0, random.uniform(0.1, 0.74), room::other);
+    }
+    return r;
+}
+
+/// Rotation by `tilt` about a horizontal axis at `heading`.
+Eigen::Matrix3d tilted(gnomon::angle tilt, double heading) {
+    const Eigen::Vector3d a(std::cos(heading), std::sin(heading), 0.0);
+    Eigen::Matrix3d k;
+    k << 0, -a.z(), a.y(), a.z(), 0, -a.x(), -a.y(), a.x(), 0;
+    return Eigen::Matrix3d::Identity() + sin(tilt) * k + (1 - cos(tilt)) * k * k;
+}
+
+/// The acceptance of Sec. 4.2.2: tilt within 0.05 degrees, ceiling within 1 cm, 99 % of floor and
+/// ceiling removed, at most 1 % of the rest lost.
+TEST(preprocess, sets_a_tilted_room_upright_and_removes_floor_and_ceiling) {
+    const room truth = furnished_room(1);
+    for (const double tilt : {0.0, 1.0, 2.0, 3.0}) {
+        for (const double heading : {0.0, 1.0, 2.5, 4.0}) {
+            SCOPED_TRACE(tilt);
+            const Eigen::Matrix3d r = tilted(gnomon::degrees(tilt), heading);
+            const auto points = clouds::moved(truth.points, r, {0, 0, 0.02});
+            const auto floor = gnomon::find_floor(points);
+            ASSERT_TRUE(floor);
+            const double error = std::acos(std::min(1.0, floor->normal.dot(r.col(2))));
+            EXPECT_LT(gnomon::radians(error), gnomon::degrees(0.05));
+
+            const auto ceiling = gnomon::find_ceiling(points, *floor);
+            ASSERT_TRUE(ceiling);
+            EXPECT_NEAR(*ceiling, 2.5, 0.01);
+
+            const auto kept = gnomon::between_bands(points, *floor, ceiling);
+            std::vector<bool> is_kept(points.size(), false);
+            for (const auto i : kept) is_kept[i] = true;
+            double bands = 0, removed = 0, others = 0, lost = 0;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const bool other = truth.parts[i] == room::other;
+                (other ? others : bands) += 1;
+                if (!is_kept[i]) (other ? lost : removed) += 1;
+            }
+            EXPECT_GE(removed, 0.99 * bands);
+            EXPECT_LE(lost, 0.01 * others);
+
+            const auto level = gnomon::level_with(*floor);
+            for (std::size_t i = 0; i < points.size(); i += 101) {
+                EXPECT_NEAR(level(points[i]).z(), truth.points[i].z(), 0.01);
+            }
+        }
+    }
+}
+
+TEST(preprocess, level_with_is_a_rotation_for_every_floor) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) {
+        const gnomon::plane floor{clouds::random_rotation(seed).col(0), 0.7};
+        const auto level = gnomon::level_with(floor);
+        EXPECT_LT((level.rotation * floor.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
+        EXPECT_NEAR(level.rotation.determinant(), 1.0, 1e-12);
+        EXPECT_NEAR(level(0.7 * floor.normal).z(), 0.0, 1e-12);
+    }
+    const auto upside_down = gnomon::level_with({-Eigen::Vector3d::UnitZ(), 0.0});
+    EXPECT_NEAR(upside_down.rotation.determinant(), 1.0, 1e-12);
+    EXPECT_NEAR(upside_down({0, 0, -2}).z(), 2.0, 1e-12);
+}
+
+TEST(preprocess, guesses_a_floor_that_is_not_at_zero) {
+    const room truth = furnished_room(2);
+    const auto sunk = clouds::moved(truth.points, Eigen::Matrix3d::Identity(), {0, 0, -1.2});
+    const auto guess = gnomon::guess_floor(sunk);
+    ASSERT_TRUE(guess);
+    EXPECT_NEAR(guess->offset, -1.2, 0.1);
+    const auto floor = gnomon::find_floor(sunk, *guess);
+    ASSERT_TRUE(floor);
+    EXPECT_NEAR(floor->offset, -1.2, 0.002);
+}
+
+TEST(preprocess, says_nothing_where_there_is_nothing) {
+    EXPECT_FALSE(gnomon::guess_floor(clouds::cloud{}));
+    EXPECT_FALSE(gnomon::find_floor(clouds::cloud(50, {0, 0, 0})));
+    EXPECT_FALSE(gnomon::find_floor(clouds::cloud(50, {0, 0, 7})));
+    EXPECT_FALSE(gnomon::find_ceiling(clouds::sheet(100, 1), gnomon::plane{}));
+    for (const auto& [name, points] : clouds::degenerate()) {
+        SCOPED_TRACE(name);
+        const auto guess = gnomon::guess_floor(points);
+        const auto floor = gnomon::find_floor(points, guess.value_or(gnomon::plane{}));
+        EXPECT_TRUE(!floor || (floor->normal.allFinite() && std::isfinite(floor->offset)));
+        (void)gnomon::find_ceiling(points, floor.value_or(gnomon::plane{}));
+        (void)gnomon::between_bands(points, floor.value_or(gnomon::plane{}), 2.5);
+    }
+}
+
+TEST(preprocess, refuses_bands_without_width) {
+    const auto points = clouds::sheet(100, 1);
+    EXPECT_THROW((void)gnomon::find_floor(points, {}, {.band = 0.0}), std::invalid_argument);
+    EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = clouds::nan}),
+                 std::invalid_argument);
+}
+
+}  // namespace

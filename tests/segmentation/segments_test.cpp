@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/segmentation/segments.hpp>
+
+namespace {
+
+using index_list = std::vector<gnomon::point_index>;
+
+index_list members(const gnomon::segments& s, std::size_t label) {
+    return {s[label].begin(), s[label].end()};
+}
+
+TEST(segments, are_labels_and_groups_at_once) {
+    const gnomon::segments s(std::vector<std::int32_t>{1, 0, -1, 1, 0, 1});
+    ASSERT_EQ(s.size(), 2u);
+    EXPECT_EQ(members(s, 0), (index_list{1, 4}));
+    EXPECT_EQ(members(s, 1), (index_list{0, 3, 5}));
+    EXPECT_EQ(s.labels()[2], gnomon::unlabeled);
+}
+
+TEST(segments, may_be_none) {
+    EXPECT_TRUE(gnomon::segments().empty());
+    EXPECT_TRUE(gnomon::segments(std::vector<std::int32_t>{}).empty());
+    EXPECT_TRUE(gnomon::segments(std::vector<std::int32_t>{-1, -1}).empty());
+}
+
+TEST(segments, refuse_labels_that_mean_nothing) {
+    EXPECT_THROW(gnomon::segments(std::vector<std::int32_t>{0, -2}), std::invalid_argument);
+}
+
+TEST(segments, come_largest_first_and_by_their_smallest_point) {
+    gnomon::union_find sets(8);  // {0} {1,4} {2,5,7} {3,6}
+    sets.unite(1, 4);
+    sets.unite(7, 5);
+    sets.unite(2, 7);
+    sets.unite(6, 3);
+    const auto everyone = [](std::size_t) { return true; };
+    const auto s = gnomon::detail::segments_of(sets, 2, everyone);
+    ASSERT_EQ(s.size(), 3u);
+    EXPECT_EQ(members(s, 0), (index_list{2, 5, 7}));
+    EXPECT_EQ(members(s, 1), (index_list{1, 4}));
+    EXPECT_EQ(members(s, 2), (index_list{3, 6}));
+    EXPECT_EQ(s.labels()[0], gnomon::unlabeled);
+    EXPECT_EQ(gnomon::detail::segments_of(sets, 1, everyone).size(), 4u);
+    EXPECT_EQ(gnomon::detail::segments_of(sets, 0, [](std::size_t i) { return i != 0; }).size(),
+              3u);
+}
+
+}  // namespace
