@@ -26,8 +26,9 @@ namespace detail {
 inline void rotate_away(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
     if (a(p, q) == 0.0) return;
     const double theta = (a(q, q) - a(p, p)) / (2.0 * a(p, q));
-    const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::hypot(1.0, theta));
-    const double c = 1.0 / std::hypot(1.0, t);
+    // A theta whose square overflows gives t = 0, which is right to the last bit.
+    const double t = std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(1.0 + theta * theta));
+    const double c = 1.0 / std::sqrt(1.0 + t * t);
     const double s = t * c;
     a(p, p) -= t * a(p, q);
     a(q, q) += t * a(p, q);

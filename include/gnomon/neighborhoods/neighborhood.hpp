@@ -14,7 +14,6 @@
 /// Models: `knn`, `radius`; graphs: `adjacency`, and any std::vector<std::vector<point_index>>.
 #pragma once
 
-#include <compare>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -32,7 +31,12 @@ struct neighbor {
     double squared_distance;  ///< [m^2], see squared_distance()
     point_index index;
 
-    friend auto operator<=>(const neighbor&, const neighbor&) = default;
+    friend bool operator==(const neighbor&, const neighbor&) = default;
+    friend bool operator<(const neighbor& a, const neighbor& b) {
+        if (a.squared_distance != b.squared_distance)
+            return a.squared_distance < b.squared_distance;
+        return a.index < b.index;
+    }
 };
 
 /// size() points, and for each i a sized range of the indices of its neighbors.

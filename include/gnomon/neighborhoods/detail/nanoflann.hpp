@@ -87,14 +87,14 @@ class nearest_result_set : public nanoflann_result_set {
 
     bool addPoint(double squared_distance, point_index slot) {
         const neighbor candidate{squared_distance, slot};
-        if (full()) {
-            if (found_.back() < candidate) return true;
-            found_.pop_back();
+        if (!full()) {
+            found_.push_back(candidate);
+        } else if (!(candidate < found_.back())) {
+            return true;
         }
-        found_.push_back(candidate);
-        for (auto q = found_.end() - 1; q != found_.begin() && *q < q[-1]; --q) {
-            std::swap(*q, q[-1]);
-        }
+        neighbor* place = &found_.back();
+        for (; place != found_.data() && candidate < place[-1]; --place) *place = place[-1];
+        *place = candidate;
         return true;
     }
 

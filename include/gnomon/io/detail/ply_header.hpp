@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The header of a PLY file: which elements follow, and how their properties are encoded.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/ply_format.hpp>
+
+namespace gnomon::io::detail {
+
+/// A number, or a list of numbers that is preceded by its length.
+struct ply_property {
+    std::string name;
+    scalar_layout type;
+    std::optional<scalar_layout> length;  // of a list
+};
+
+struct ply_element {
+    std::string name;
+    std::uint64_t count;
+    std::vector<ply_property> properties;
+
+    /// The size of a row whose lists are all empty [bytes].
+    [[nodiscard]] std::size_t smallest_row() const {
+        std::size_t size = 0;
+        for (const ply_property& p : properties) size += p.length.value_or(p.type).size;
+        return size;
+    }
+};
+
+struct ply_header {
+    std::optional<ply_format> format;
+    std::vector<ply_element> elements;
+    viewpoint_table viewpoints;
+};
+
+[[nodiscard]] inline scalar_layout read_ply_type(splitter& words, const text_cursor& text) {
+    const std::string_view name = words.next().value_or("");
+    for (const ply_type& type : ply_types)
+        if (name == type.name || name == type.later_name) return type.layout;
+    text.fail(in_quotes(name) + " is not a type of PLY");
+}
+
+/// Reads what follows "property".
+[[nodiscard]] inline ply_property read_ply_property(splitter words, const text_cursor& text) {
+    ply_property result{};
+    splitter ahead = words;
+    if (ahead.next() == "list") {
+        result.length = read_ply_type(ahead, text);
+        if (result.length->kind == 'F') text.fail("a list must be counted in integers");
+        words = ahead;
+    }
+    result.type = read_ply_type(words, text);
+    result.name = words.next().value_or("");
+    if (result.name.empty()) text.fail("the property has no name");
+    return result;
+}
+
+/// Reads what follows "comment": `write_ply` notes the view point there, as PLY has no word for it.
+[[nodiscard]] inline std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
+    if (words.next() != "viewpoint") return std::nullopt;
+    Eigen::Vector3d result;
+    for (double& coordinate : result)
+        if (parse_number(words.next().value_or(""), coordinate) != std::errc{}) return std::nullopt;
+    if (words.next()) return std::nullopt;
+    return result;
+}
+
+/// Reads the header; leaves `text` before the first element.
+/// @throws gnomon::error  if it is damaged or not the header of a PLY file
+[[nodiscard]] inline ply_header read_ply_header(text_cursor& text) {
+    ply_header header;
+    if (text.words().next() != "ply") text.fail("not a PLY file");
+    for (;;) {
+        splitter words = text.words();
+        const std::string_view keyword = words.next().value_or("");
+        if (keyword == "end_header") break;
+        if (keyword == "comment") {
+            if (const auto viewpoint = read_viewpoint_comment(words))
+                header.viewpoints = *viewpoint;
+        } else if (keyword == "format") {
+            const std::string_view name = words.next().value_or("");
+            const auto found = std::find(ply_format_names.begin(), ply_format_names.end(), name);
+            if (found == ply_format_names.end())
+                text.fail(in_quotes(name) + " is not a PLY format");
+            header.format = static_cast<ply_format>(found - ply_format_names.begin());
+        } else if (keyword == "element") {
+            std::string name(words.next().value_or(""));
+            header.elements.push_back({std::move(name), text.count(words), {}});
+        } else if (keyword == "property") {
+            if (header.elements.empty()) text.fail("a property of no element");
+            header.elements.back().properties.push_back(read_ply_property(words, text));
+        } else if (keyword != "obj_info") {
+            text.fail(in_quotes(keyword) + " is not a keyword of PLY");
+        }
+    }
+    if (!header.format) text.fail("the header names no format");
+    return header;
+}
+
+}  // namespace gnomon::io::detail

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Rows of numbers to a scan: which column is x, which is a field that the caller asked for.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+
+namespace gnomon::io::detail {
+
+class scan_builder {
+  public:
+    /// @param columns  the names of the columns in the file; "_" is padding
+    /// @param wanted   the names of those that shall become fields
+    /// @param text     where the file names its columns, for the error
+    /// @throws gnomon::error  if x, y, z or a wanted column is missing
+    scan_builder(const std::vector<std::string>& columns, const std::vector<std::string>& wanted,
+                 const text_cursor& text)
+        : axes_{column(columns, "x", text), column(columns, "y", text),
+                column(columns, "z", text)} {
+        for (const std::string& name : wanted) {
+            sources_.push_back(column(columns, name, text));
+            result_.fields.push_back({name, {}});
+        }
+    }
+
+    /// Precondition: the caller has checked that the file really holds about so many points.
+    void reserve(std::size_t points) {
+        result_.points.reserve(points);
+        for (scalar_field& field : result_.fields) field.values.reserve(points);
+    }
+
+    /// Adds a point.
+    /// @param row  one value per column
+    void add(const std::vector<double>& row) {
+        result_.points.emplace_back(row[axes_[0]], row[axes_[1]], row[axes_[2]]);
+        for (std::size_t k = 0; k < sources_.size(); ++k)
+            result_.fields[k].values.push_back(row[sources_[k]]);
+    }
+
+    /// What was built, seen from `viewpoints`.
+    [[nodiscard]] scan finish(viewpoint_table viewpoints = {}) && {
+        result_.viewpoints = std::move(viewpoints);
+        return std::move(result_);
+    }
+
+  private:
+    [[nodiscard]] static std::size_t column(const std::vector<std::string>& columns,
+                                            const std::string& name, const text_cursor& text) {
+        const auto found = std::find(columns.begin(), columns.end(), name);
+        if (found != columns.end() && name != "_")
+            return static_cast<std::size_t>(found - columns.begin());
+
+        std::string there;
+        for (const std::string& each : columns)
+            if (each != "_") there += (there.empty() ? "" : ", ") + each;
+        text.fail("there is no field " + in_quotes(name) + "; there are: " + there);
+    }
+
+    std::array<std::size_t, 3> axes_;
+    std::vector<std::size_t> sources_;
+    scan result_;
+};
+
+}  // namespace gnomon::io::detail

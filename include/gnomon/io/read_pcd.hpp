@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Reads the point cloud files of PCL (PCD): ascii, binary and binary_compressed.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/byte_cursor.hpp>
+#include <gnomon/io/detail/lzf.hpp>
+#include <gnomon/io/detail/pcd_header.hpp>
+#include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/input.hpp>
+
+namespace gnomon::io {
+namespace detail {
+
+/// The names of the single values: "x", and "fpfh[0]", "fpfh[1]", ... of a field that has many.
+[[nodiscard]] inline std::vector<std::string> pcd_columns(const pcd_header& header) {
+    std::vector<std::string> result;
+    for (const pcd_field& field : header.fields) {
+        for (std::size_t k = 0; k < field.count; ++k) {
+            const bool is_single = field.count == 1 || field.name == "_";
+            result.push_back(is_single ? field.name : field.name + "[" + std::to_string(k) + "]");
+        }
+    }
+    return result;
+}
+
+/// Where in the data the values of one column lie: that of point i at first + i * stride [bytes].
+struct pcd_column {
+    scalar_layout type;
+    std::size_t first;
+    std::size_t stride;
+};
+
+/// The columns of point after point, each of `stride` bytes ...
+[[nodiscard]] inline std::vector<pcd_column> interleaved_columns(const pcd_header& header,
+                                                                 std::size_t stride) {
+    std::vector<pcd_column> result;
+    std::size_t first = 0;
+    for (const pcd_field& field : header.fields)
+        for (std::size_t k = 0; k < field.count; ++k, first += field.type.size)
+            result.push_back({field.type, first, stride});
+    return result;
+}
+
+/// ... and those of field after field, each for all the points.
+[[nodiscard]] inline std::vector<pcd_column> planar_columns(const pcd_header& header,
+                                                            std::size_t points) {
+    std::vector<pcd_column> result;
+    std::size_t first = 0;
+    for (const pcd_field& field : header.fields) {
+        for (std::size_t k = 0; k < field.count; ++k)
+            result.push_back({field.type, first + k * field.type.size, field.size()});
+        first += points * field.size();
+    }
+    return result;
+}
+
+/// Adds the points that lie in `data`. PCD says nothing about byte order; all its writers are
+/// little-endian.
+inline void add_pcd_points(scan_builder& builder, std::string_view data,
+                           const std::vector<pcd_column>& columns, std::size_t points) {
+    std::vector<double> row(columns.size());
+    builder.reserve(points);
+    for (std::size_t i = 0; i < points; ++i) {
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const pcd_column& c = columns[k];
+            row[k] = decode(data.data() + c.first + i * c.stride, c.type, std::endian::little);
+        }
+        builder.add(row);
+    }
+}
+
+inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_t points,
+                           std::size_t columns) {
+    text.require_rows(points, columns);
+    builder.reserve(static_cast<std::size_t>(points));
+    std::vector<double> row(columns);
+    for (std::uint64_t i = 0; i < points; ++i) {
+        splitter words = text.words();
+        for (double& value : row) value = text.number(words);
+        if (words.next()) text.fail("more values than the header declares");
+        builder.add(row);
+    }
+}
+
+inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
+                            std::size_t stride) {
+    bytes.require_rows(header.points, stride);
+    const auto points = static_cast<std::size_t>(header.points);
+    add_pcd_points(builder, bytes.take(points * stride), interleaved_columns(header, stride),
+                   points);
+}
+
+inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
+                                std::size_t stride) {
+    const auto size = [&bytes] {
+        return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
+    };
+    const std::size_t packed_size = size();
+    const std::size_t unpacked_size = size();
+    if (header.points != unpacked_size / stride || unpacked_size % stride != 0)
+        bytes.fail("the compressed data are not of the size that the header declares");
+    byte_cursor after = bytes;
+    const std::optional<std::string> data = unpack_lzf(after.take(packed_size), unpacked_size);
+    if (!data) bytes.fail("the compressed data are damaged");
+    const std::size_t points = unpacked_size / stride;
+    add_pcd_points(builder, *data, planar_columns(header, points), points);
+}
+
+}  // namespace detail
+
+/// Parses a PCD file. Points of NaN are kept; the position in VIEWPOINT becomes the view point [m].
+/// The points are left in the frame of the file: the orientation in VIEWPOINT is not applied.
+/// @param fields  names of further fields, e.g. "intensity" or, of many values, "fpfh[0]"
+/// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
+/// O(bytes)
+[[nodiscard]] inline scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
+    detail::text_cursor text(file);
+    const detail::pcd_header header = detail::read_pcd_header(text);
+    const std::vector<std::string> columns = detail::pcd_columns(header);
+    detail::scan_builder builder(columns, fields, text);
+
+    std::size_t stride = 0;
+    for (const detail::pcd_field& field : header.fields) stride += field.size();
+    const detail::byte_cursor bytes(file, text.offset());
+
+    if (header.data == "ascii")
+        detail::read_pcd_ascii(builder, text, header.points, columns.size());
+    else if (header.data == "binary")
+        detail::read_pcd_binary(builder, bytes, header, stride);
+    else if (header.data == "binary_compressed")
+        detail::read_pcd_compressed(builder, bytes, header, stride);
+    else
+        text.fail("DATA " + detail::in_quotes(header.data) + " is not known");
+    return std::move(builder).finish(header.viewpoints);
+}
+
+}  // namespace gnomon::io

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Reads the vertices of a PLY file (Turk 1994), whatever other elements stand before them.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/byte_cursor.hpp>
+#include <gnomon/io/detail/ply_header.hpp>
+#include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/input.hpp>
+
+namespace gnomon::io {
+namespace detail {
+
+/// The elements of an ascii file: one per line, and all of it.
+class ascii_rows {
+  public:
+    explicit ascii_rows(const text_cursor& text) : text_(text) {}
+
+    void require(const ply_element& e) const { text_.require_rows(e.count, e.properties.size()); }
+    void begin() { words_ = text_.words(); }
+    [[nodiscard]] double number(scalar_layout) { return text_.number(words_); }
+    void end() {
+        if (words_.next()) text_.fail("more values than the header declares");
+    }
+    [[noreturn]] void fail(const std::string& message) const { text_.fail(message); }
+
+  private:
+    text_cursor text_;
+    splitter words_;
+};
+
+/// The elements of a binary file.
+class binary_rows {
+  public:
+    binary_rows(byte_cursor bytes, std::endian order) : bytes_(bytes), order_(order) {}
+
+    void require(const ply_element& e) const { bytes_.require_rows(e.count, e.smallest_row()); }
+    void begin() {}
+    [[nodiscard]] double number(scalar_layout type) { return bytes_.number(type, order_); }
+    void end() {}
+    [[noreturn]] void fail(const std::string& message) const { bytes_.fail(message); }
+
+  private:
+    byte_cursor bytes_;
+    std::endian order_;
+};
+
+/// Reads one element into `row`: its numbers, without its lists.
+template <class Rows>
+void read_ply_row(Rows& rows, const ply_element& element, std::vector<double>& row) {
+    row.clear();
+    rows.begin();
+    for (const ply_property& p : element.properties) {
+        if (!p.length) {
+            row.push_back(rows.number(p.type));
+            continue;
+        }
+        const double length = rows.number(*p.length);
+        if (!(length >= 0 && length <= 0xffffffffU)) rows.fail("a list of impossible length");
+        for (auto left = static_cast<std::uint32_t>(length); left > 0; --left)
+            static_cast<void>(rows.number(p.type));
+    }
+    rows.end();
+}
+
+/// Reads the vertices, and first whatever is before them.
+template <class Rows>
+[[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, scan_builder builder) {
+    std::vector<double> row;
+    for (const ply_element& element : header.elements) {
+        const bool is_vertex = element.name == "vertex";
+        if (element.properties.empty()) continue;  // nothing of it is in the file
+        rows.require(element);
+        if (is_vertex) builder.reserve(static_cast<std::size_t>(element.count));
+        for (std::uint64_t i = 0; i < element.count; ++i) {
+            read_ply_row(rows, element, row);
+            if (is_vertex) builder.add(row);
+        }
+        if (is_vertex) break;
+    }
+    return std::move(builder).finish(header.viewpoints);
+}
+
+}  // namespace detail
+
+/// Parses a PLY file, ascii or binary of either byte order. Points of NaN are kept; a comment
+/// "viewpoint x y z", as `write_ply` leaves it, becomes the view point.
+/// @param fields  names of further properties of the vertices, e.g. "nx", that become fields
+/// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
+/// O(bytes)
+[[nodiscard]] inline scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
+    detail::text_cursor text(file);
+    const detail::ply_header header = detail::read_ply_header(text);
+
+    std::vector<std::string> columns;
+    for (const detail::ply_element& element : header.elements) {
+        if (element.name != "vertex") continue;
+        for (const detail::ply_property& p : element.properties)
+            if (!p.length) columns.push_back(p.name);
+        break;
+    }
+    detail::scan_builder builder(columns, fields, text);
+
+    if (header.format == ply_format::ascii)
+        return read_ply_vertices(detail::ascii_rows(text), header, std::move(builder));
+    const std::endian order =
+        header.format == ply_format::binary_big_endian ? std::endian::big : std::endian::little;
+    return read_ply_vertices(detail::binary_rows({file, text.offset()}, order), header,
+                             std::move(builder));
+}
+
+}  // namespace gnomon::io

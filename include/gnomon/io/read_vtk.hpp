@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Reads the points of a legacy VTK file (POLYDATA or UNSTRUCTURED_GRID, ASCII); cells and data
+/// that follow them are left unread.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/input.hpp>
+
+namespace gnomon::io {
+
+/// The words with which a legacy VTK file begins.
+inline constexpr std::string_view vtk_magic = "# vtk DataFile";
+
+namespace detail {
+
+/// Reads up to and including the line "POINTS n type".
+/// @return n
+[[nodiscard]] inline std::uint64_t read_vtk_header(text_cursor& text) {
+    if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
+    static_cast<void>(text.line());  // the title
+
+    const std::string_view encoding = text.words().next().value_or("");
+    if (encoding == "BINARY") text.fail("BINARY is not supported; save the file as ASCII");
+    if (encoding != "ASCII") text.fail("ASCII or BINARY is missing");
+
+    splitter words = text.words();
+    if (words.next() != "DATASET") text.fail("DATASET is missing");
+    const std::string_view dataset = words.next().value_or("");
+    if (dataset != "POLYDATA" && dataset != "UNSTRUCTURED_GRID")
+        text.fail("DATASET " + in_quotes(dataset) + " is not supported");
+
+    // Fields of the data set as a whole, e.g. the time, may come first.
+    do words = text.words();
+    while (words.next() != "POINTS");
+    const std::uint64_t points = text.count(words);
+    const std::string_view type = words.next().value_or("");
+    if (type != "float" && type != "double") text.fail("points of type " + in_quotes(type));
+    return points;
+}
+
+}  // namespace detail
+
+/// Parses a legacy VTK file. Points of NaN are kept; VTK knows no view point.
+/// @param fields  as for the other formats, but only "x", "y" and "z" are to be had
+/// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if a field
+///                        is asked for
+/// O(bytes)
+[[nodiscard]] inline scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
+    detail::text_cursor text(file);
+    const std::uint64_t points = detail::read_vtk_header(text);
+    detail::scan_builder builder({"x", "y", "z"}, fields, text);
+    text.require_rows(points, 3);
+    builder.reserve(static_cast<std::size_t>(points));
+
+    // The numbers run on over the lines as they like.
+    detail::splitter words;
+    std::vector<double> row;
+    for (std::uint64_t i = 0; i < points; ++i) {
+        for (row.clear(); row.size() < 3;) {
+            if (words.empty()) words = text.words();
+            row.push_back(text.number(words));
+        }
+        builder.add(row);
+    }
+    return std::move(builder).finish();
+}
+
+}  // namespace gnomon::io

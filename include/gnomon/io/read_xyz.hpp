@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Reads a text of one point per line: x y z, then whatever else, separated by blanks, commas or
+/// semicolons. What .xyz, .txt, .csv and .asc files have in common.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/input.hpp>
+
+namespace gnomon::io {
+namespace detail {
+
+/// The words of a line of values; where semicolons separate, a comma is not a separator (and so no
+/// decimal comma is mistaken for one).
+[[nodiscard]] inline splitter split_values(std::string_view line) {
+    return splitter(line, line.find(';') == std::string_view::npos ? ',' : ';');
+}
+
+/// Whether a line that begins with `word` holds values, be they damaged, and not names.
+[[nodiscard]] inline bool begins_values(std::string_view word) {
+    constexpr std::string_view beginnings = "+-.0123456789";
+    return is_number(word) || beginnings.find(word.substr(0, 1)) != std::string_view::npos;
+}
+
+/// Names the columns after the first line: what it says if it holds names, else "x", "y", "z",
+/// "column 3", "column 4", ...
+/// @param has_names  whether the line holds names
+[[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
+                                                          const text_cursor& text) {
+    const std::string_view axes = "xyz";
+    std::vector<std::string> result;
+    while (const auto word = words.next()) {
+        const std::size_t k = result.size();
+        const bool is_axis_of_another = word->size() == 1 &&
+                                        axes.find(*word) != std::string_view::npos &&
+                                        axes.find(*word) != k;
+        if (has_names && (is_number(*word) || is_axis_of_another))
+            text.fail(in_quotes(*word) + " cannot be the name of column " + std::to_string(k));
+        if (k < 3)
+            result.emplace_back(axes.substr(k, 1));
+        else
+            result.push_back(has_names ? std::string(*word) : "column " + std::to_string(k));
+    }
+    if (result.size() < 3) text.fail("fewer than three columns");
+    return result;
+}
+
+}  // namespace detail
+
+/// Parses a text with x y z first on each line. Blank lines and lines that begin with '#' or "//"
+/// are skipped; a first line that begins with no number names the columns.
+/// @param fields  names of further columns that become fields: those of the first line, or, counted
+///                from 0, "column 3", "column 4", ...
+/// @throws gnomon::error  for a line that is no row of as many numbers as the first, if there is no
+///                        point at all, or not all the fields
+/// O(bytes)
+[[nodiscard]] inline scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
+    detail::text_cursor text(file);
+    text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
+    std::optional<detail::scan_builder> builder;
+    std::vector<double> row;
+    bool has_points = false;
+    while (const auto line = text.line()) {
+        detail::splitter words = detail::split_values(*line);
+        if (words.empty()) continue;
+        detail::splitter ahead = words;
+        const std::string_view first = ahead.next().value_or("");
+        if (first.starts_with('#') || first.starts_with("//")) continue;
+        if (!builder) {
+            const bool has_names = !detail::begins_values(first);
+            const auto columns = detail::xyz_columns(words, has_names, text);
+            builder.emplace(columns, fields, text);
+            row.resize(columns.size());
+            if (has_names) continue;
+        }
+        for (double& value : row) value = text.number(words);
+        if (!words.empty()) text.fail("more values than on the lines before");
+        builder->add(row);
+        has_points = true;
+    }
+    if (!has_points) text.fail("no points");
+    return std::move(*builder).finish();
+}
+
+}  // namespace gnomon::io

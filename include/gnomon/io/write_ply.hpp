@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Writes points and what is known of them to a PLY file (Turk 1994), which all viewers open.
+#pragma once
+
+#include <bit>
+#include <charconv>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <limits>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/io/output_file.hpp>
+#include <gnomon/io/ply_format.hpp>
+#include <gnomon/io/property.hpp>
+
+namespace gnomon::io {
+
+struct ply_options {
+    ply_format format = ply_format::binary_little_endian;
+    field_type coordinates = field_type::float64;  ///< or float32
+};
+
+namespace detail {
+
+/// Appends `value` and a blank; floating-point numbers with as many digits as they need to be read
+/// back exactly.
+template <class T>
+void append_text(std::string& text, T value) {
+    char digits[32];
+    if constexpr (std::is_floating_point_v<T>) {
+        if (std::isnan(value)) value = std::numeric_limits<T>::quiet_NaN();  // drops its sign
+    }
+    const auto [end, problem] = std::to_chars(digits, digits + sizeof digits, value);
+    static_cast<void>(problem);  // the longest double has 24 characters
+    text.append(digits, end) += ' ';
+}
+
+/// `value` as a T.
+/// @throws std::invalid_argument  if T is an integer that cannot hold it
+template <class T>
+[[nodiscard]] T narrowed(double value) {
+    if constexpr (std::is_integral_v<T>) {
+        using limits = std::numeric_limits<T>;
+        gnomon::detail::require(value >= static_cast<double>(limits::min()) &&
+                                    value <= static_cast<double>(limits::max()) &&
+                                    value == std::trunc(value),
+                                "write_ply: a value does not fit the type of its property");
+    }
+    return static_cast<T>(value);
+}
+
+/// Appends one value of a row.
+inline void append_value(std::string& bytes, double value, field_type type, ply_format format) {
+    visit_type(ply_type_of(type).layout, [&](auto zero) {
+        const auto number = narrowed<decltype(zero)>(value);
+        if (format == ply_format::ascii)
+            append_text(bytes, number);
+        else
+            encode(
+                bytes, number,
+                format == ply_format::binary_big_endian ? std::endian::big : std::endian::little);
+    });
+}
+
+[[nodiscard]] inline std::string ply_header_text(std::size_t points,
+                                                 const viewpoint_table& viewpoints,
+                                                 const properties& columns, ply_options options) {
+    std::string text = "ply\nformat ";
+    text += ply_format_names[static_cast<std::size_t>(options.format)];
+    text += " 1.0\n";
+    if (viewpoints.positions().size() == 1) {
+        text += "comment viewpoint ";
+        for (const double coordinate : viewpoints.positions().front())
+            append_text(text, coordinate);
+        text.back() = '\n';
+    }
+    text += "element vertex " + std::to_string(points) + "\n";
+    const auto declare = [&text](field_type type, const std::string& name) {
+        text += "property " + std::string(ply_type_of(type).name) + " " + name + "\n";
+    };
+    for (const char* const axis : {"x", "y", "z"}) declare(options.coordinates, axis);
+    for (const property& column : columns) declare(column.type, column.name);
+    return text + "end_header\n";
+}
+
+/// The writer, whatever the points are.
+inline void write_ply_rows(const std::string& path, std::size_t points,
+                           const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+                           const viewpoint_table& viewpoints, const properties& columns,
+                           ply_options options) {
+    using gnomon::detail::require;
+    require(
+        options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
+        "write_ply: coordinates must be float32 or float64");
+    for (const property& column : columns) {
+        require(column.size == points, "write_ply: a property is for another number of points");
+        require(
+            !column.name.empty() && column.name.find_first_of(" \t\v\f\r\n") == std::string::npos,
+            "write_ply: the name of a property must be one word");
+    }
+
+    output_file file(path);
+    std::string bytes = ply_header_text(points, viewpoints, columns, options);
+    constexpr std::size_t chunk = 1 << 16;
+    for (std::size_t i = 0; i < points; ++i) {
+        for (const double coordinate : position_of(i))
+            append_value(bytes, coordinate, options.coordinates, options.format);
+        for (const property& column : columns)
+            append_value(bytes, column.value(i), column.type, options.format);
+        if (options.format == ply_format::ascii) bytes.back() = '\n';
+        if (bytes.size() >= chunk) {
+            file.write(bytes);
+            bytes.clear();
+        }
+    }
+    file.write(bytes);
+    file.commit();
+}
+
+}  // namespace detail
+
+/// Writes the file `path`, whole or not at all; an older one is replaced.
+/// @param points   their positions [m] are written exactly, as long as `coordinates` is float64;
+///                 NaN too. A single known view point goes into a comment that `read_ply` knows.
+/// @param columns  what else to write of each point
+/// @throws gnomon::error          if the system refuses, e.g. for a full disk
+/// @throws std::invalid_argument  before anything is written, for a property of another number of
+///                                points; with nothing left behind, for a value that its type
+///                                cannot hold
+/// O(points * properties)
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+void write_ply(const std::string& path, const R& points, const properties& columns = {},
+               ply_options options = {}, Proj projection = {}) {
+    const position_view<R, Proj> positions(points, std::move(projection));
+    detail::write_ply_rows(
+        path, positions.size(), [&positions](std::size_t i) { return positions[i]; },
+        viewpoints_of(points), columns, options);
+}
+
+}  // namespace gnomon::io
