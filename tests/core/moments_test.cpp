@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <gtest/gtest.h>
 
-#include <gnomon/core/moments.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/core/moments.hpp>
 
 namespace {
 

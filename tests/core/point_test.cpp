@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/core/point.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/core/point.hpp>
 
 namespace own {
 struct polar {

@@ -12,8 +12,8 @@
 namespace {
 
 static_assert(gnomon::point_range<gnomon::strided_view<float>>);
-static_assert(std::random_access_iterator<decltype(
-                  std::declval<const gnomon::strided_view<double>&>().begin())>);
+static_assert(std::random_access_iterator<
+              decltype(std::declval<const gnomon::strided_view<double>&>().begin())>);
 
 TEST(strided_view, reads_unaligned_fields_in_any_order) {
     // Records of 15 bytes: z, one byte, x, y, two bytes.

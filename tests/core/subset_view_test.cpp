@@ -3,9 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/core/subset_view.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/core/subset_view.hpp>
 
 TEST(subset_view, is_a_point_range_of_the_selected_points) {
     const auto points = clouds::in_cube(10, 1);

@@ -3,12 +3,11 @@
 #include <cmath>
 #include <vector>
 
-#include <gtest/gtest.h>
 #include <Eigen/Eigenvalues>
-
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include <gnomon/core/symmetric_eigen.hpp>
 
 namespace {
 
@@ -32,11 +31,20 @@ Eigen::Matrix3d with_spectrum(const Eigen::Vector3d& values, std::uint64_t seed)
 }
 
 TEST(symmetric_eigen, decomposes_every_rank_and_multiplicity_at_every_scale) {
-    const std::vector<Eigen::Vector3d> spectra = {
-        {3, 2, 1},       {1, 1, 1},           {1, 1, 0},         {1, 0, 0},
-        {0, 0, 0},       {1, 1, 1e-9},        {1, 1e-9, 1e-9},   {1, 1 - 1e-12, 1e-6},
-        {1, 1e-8, 0},    {1, 1e-15, 1e-30},   {1, 0.5, 0.5 - 1e-14}, {1, -1, 0},
-        {-1, -2, -3},    {1, 1e-3, 1e-3 * (1 - 1e-13)}};
+    const std::vector<Eigen::Vector3d> spectra = {{3, 2, 1},
+                                                  {1, 1, 1},
+                                                  {1, 1, 0},
+                                                  {1, 0, 0},
+                                                  {0, 0, 0},
+                                                  {1, 1, 1e-9},
+                                                  {1, 1e-9, 1e-9},
+                                                  {1, 1 - 1e-12, 1e-6},
+                                                  {1, 1e-8, 0},
+                                                  {1, 1e-15, 1e-30},
+                                                  {1, 0.5, 0.5 - 1e-14},
+                                                  {1, -1, 0},
+                                                  {-1, -2, -3},
+                                                  {1, 1e-3, 1e-3 * (1 - 1e-13)}};
     for (const double scale : {1e-290, 1e-12, 1.0, 1e12, 1e290}) {
         for (const auto& s : spectra) {
             for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -61,7 +69,8 @@ TEST(symmetric_eigen, agrees_with_eigen_s_iterative_solver) {
             const double gap = std::min(i > 0 ? e.values[i - 1] - e.values[i] : 1e9,
                                         i < 2 ? e.values[i] - e.values[i + 1] : 1e9);
             if (gap < 1e-3) continue;
-            ASSERT_NEAR(std::abs(e.vectors.col(i).dot(oracle.eigenvectors().col(2 - i))), 1.0, 1e-12);
+            ASSERT_NEAR(std::abs(e.vectors.col(i).dot(oracle.eigenvectors().col(2 - i))), 1.0,
+                        1e-12);
         }
     }
 }

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/core/viewpoints.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/core/viewpoints.hpp>
 
 namespace {
 

@@ -5,14 +5,14 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/neighborhoods/kd_tree.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/neighborhoods/kd_tree.hpp>
 
 namespace {
 
 /// Oracle: all finite points in canonical order about p.
-std::vector<gnomon::neighbor> by_brute_force(const clouds::cloud& points, const Eigen::Vector3d& p) {
+std::vector<gnomon::neighbor> by_brute_force(const clouds::cloud& points,
+                                             const Eigen::Vector3d& p) {
     std::vector<gnomon::neighbor> all;
     for (std::size_t j = 0; j < points.size(); ++j) {
         if (!gnomon::is_finite(points[j])) continue;
@@ -29,9 +29,9 @@ std::vector<clouds::named_cloud> searched_clouds() {
     all.push_back({"sheet", clouds::sheet(1500, 2)});
     all.push_back({"ties everywhere, more", clouds::on_grid(1500, 3)});
     all.push_back({"ties on an uneven grid", clouds::on_grid(1500, 3, 0.1)});
-    all.push_back({"at UTM coordinates", clouds::moved(clouds::on_grid(800, 9, 0.1),
-                                                       Eigen::Matrix3d::Identity(),
-                                                       {6e5, 4.8e6, 100})});
+    all.push_back(
+        {"at UTM coordinates", clouds::moved(clouds::on_grid(800, 9, 0.1),
+                                             Eigen::Matrix3d::Identity(), {6e5, 4.8e6, 100})});
     return all;
 }
 
@@ -47,8 +47,34 @@ TEST(kd_tree, nearest_equals_brute_force_ties_included) {
             for (const std::size_t k : {std::size_t{0}, std::size_t{1}, std::size_t{7},
                                         std::size_t{50}, points.size() + 3}) {
                 tree.nearest(points[i], k, i, found);
+                ASSERT_TRUE(
+                    std::equal(found.begin(), found.end(), expected.begin(),
+                               expected.begin() + std::ptrdiff_t(std::min(k, expected.size()))));
+            }
+        }
+    }
+}
+
+/// The k nearest and all that are as near as the k-th, but no more than 2 k.
+TEST(kd_tree, nearest_with_all_ties_equals_brute_force) {
+    for (const auto& [name, points] : searched_clouds()) {
+        SCOPED_TRACE(name);
+        const gnomon::kd_tree tree(points);
+        std::vector<gnomon::neighbor> found;
+        for (std::size_t i = 0; i < points.size(); i += 2) {
+            if (!gnomon::is_finite(points[i])) continue;
+            auto expected = by_brute_force(points, points[i]);
+            std::erase_if(expected, [i](const auto& q) { return q.index == i; });
+            for (const std::size_t k : {1u, 7u, 30u}) {
+                std::size_t n = std::min<std::size_t>(k, expected.size());
+                while (n > 0 && n < std::min<std::size_t>(2 * k, expected.size()) &&
+                       expected[n].squared_distance <=
+                           expected[k - 1].squared_distance * (1 + 1e-9)) {
+                    ++n;
+                }
+                tree.nearest(points[i], k, i, found, gnomon::tie_rule::all);
                 ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(),
-                                       expected.begin() + std::ptrdiff_t(std::min(k, expected.size()))));
+                                       expected.begin() + std::ptrdiff_t(n)));
             }
         }
     }

@@ -3,12 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
+#include "laws/neighborhood_laws.hpp"
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
-
-#include "laws/clouds.hpp"
-#include "laws/neighborhood_laws.hpp"
 
 namespace {
 
@@ -43,7 +42,10 @@ TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
     all.push_back({"sheet", clouds::sheet(3000, 2)});
     for (const auto& [name, points] : all) {
         SCOPED_TRACE(name);
-        for (const std::size_t k : {1u, 2u, 10u, 50u}) laws::neighborhood_laws(gnomon::knn{k}, points);
+        for (const std::size_t k : {1u, 2u, 10u, 50u}) {
+            laws::neighborhood_laws(gnomon::knn{k}, points);
+            laws::neighborhood_laws(gnomon::knn{k, gnomon::tie_rule::all}, points);
+        }
         for (const double r : {0.0, 0.03, 0.25}) laws::neighborhood_laws(gnomon::radius{r}, points);
         laws::neighborhood_laws(scan_line{}, points);
     }

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/neighborhoods/radius.hpp>
-
 #include "laws/clouds.hpp"
+#include <gnomon/neighborhoods/radius.hpp>
 
 namespace {
 

@@ -6,12 +6,11 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/anisotropy.hpp>
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/plane_pca.hpp>
-
-#include "laws/clouds.hpp"
 
 namespace {
 
@@ -22,7 +21,8 @@ clouds::cloud scan_lines(double gap, double sigma = 0.001) {
     gnomon::random_stream random(1);
     clouds::cloud points;
     for (int line = 0; line < 40; ++line) {
-        for (int i = 0; i < 100; ++i) points.push_back({0.002 * i, gap * line, sigma * random.gaussian()});
+        for (int i = 0; i < 100; ++i)
+            points.push_back({0.002 * i, gap * line, sigma * random.gaussian()});
     }
     return points;
 }
@@ -43,8 +43,10 @@ TEST(anisotropy, repair_reaches_the_next_scan_line) {
         changed += was_anisotropic;
         EXPECT_EQ(surface[i].neighbors, was_anisotropic ? 60u : 30u);
         // The mean distance is renewed with the normal, which Eq. (4.3) relies on.
-        if (was_anisotropic) EXPECT_GT(surface[i].mean_distance, before[i].mean_distance);
-        else EXPECT_EQ(surface[i].normal, before[i].normal);
+        if (was_anisotropic)
+            EXPECT_GT(surface[i].mean_distance, before[i].mean_distance);
+        else
+            EXPECT_EQ(surface[i].normal, before[i].normal);
     }
     EXPECT_EQ(changed, flagged);
 }

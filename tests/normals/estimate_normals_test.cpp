@@ -6,14 +6,13 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
+#include "laws/estimator_laws.hpp"
 #include <gnomon/core/strided_view.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
-
-#include "laws/clouds.hpp"
-#include "laws/estimator_laws.hpp"
 
 namespace {
 

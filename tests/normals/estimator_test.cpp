@@ -3,11 +3,10 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/normals/estimator.hpp>
-#include <gnomon/normals/plane_pca.hpp>
-
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_pca.hpp>
 
 namespace {
 

@@ -5,17 +5,17 @@
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 
-#include "laws/clouds.hpp"
-
 namespace {
 
 /// Eq. (3.20) holds afterwards for every point and its own view point.
-void expect_faces(const clouds::cloud& points, const auto& surface, const gnomon::viewpoint_table& v) {
+void expect_faces(const clouds::cloud& points, const auto& surface,
+                  const gnomon::viewpoint_table& v) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_LE(surface[i].normal.dot(points[i] - v[i]), 0.0);
     }
@@ -31,7 +31,9 @@ TEST(orient_normals, faces_the_view_point_of_each_point) {
         scan_of_point.push_back(static_cast<gnomon::point_index>(i % 2));
     }
     const gnomon::viewpoint_table tables[] = {
-        {}, gnomon::viewpoint_table(Eigen::Vector3d(0.5, 0.5, 3)), gnomon::viewpoint_table(per_point),
+        {},
+        gnomon::viewpoint_table(Eigen::Vector3d(0.5, 0.5, 3)),
+        gnomon::viewpoint_table(per_point),
         gnomon::viewpoint_table({{0, 0, 5}, {0, 0, -5}}, scan_of_point)};
     for (const auto& table : tables) {
         auto oriented = surface;
@@ -45,7 +47,8 @@ TEST(orient_normals, faces_the_view_point_of_each_point) {
 }
 
 TEST(orient_normals, refuses_a_surface_of_other_points) {
-    auto surface = gnomon::estimate_normals(clouds::sheet(5, 1), gnomon::knn{3}, gnomon::plane_pca{});
+    auto surface =
+        gnomon::estimate_normals(clouds::sheet(5, 1), gnomon::knn{3}, gnomon::plane_pca{});
     EXPECT_THROW(gnomon::orient_normals(clouds::sheet(6, 1), surface), std::invalid_argument);
 }
 

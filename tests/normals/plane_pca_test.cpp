@@ -3,13 +3,12 @@
 #include <cmath>
 #include <cstdint>
 
-#include <gtest/gtest.h>
 #include <Eigen/SVD>
-
-#include <gnomon/normals/plane_pca.hpp>
+#include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
+#include <gnomon/normals/plane_pca.hpp>
 
 namespace {
 
@@ -85,9 +84,10 @@ TEST(plane_pca, says_what_is_wrong) {
     EXPECT_EQ(fit(p, clouds::cloud{{1, 0, 0}, {0, 1, 0}}).trust, trust::good);
     EXPECT_EQ(fit(p, clouds::cloud{{1, 0, 0}, {2, 0, 0}, {-5, 0, 0}}).trust, trust::degenerate);
     EXPECT_EQ(fit(p, clouds::cloud(5, p)).trust, trust::degenerate);
-    EXPECT_EQ(fit(p, clouds::cloud{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
-                  .trust,
-              trust::degenerate);  // a ball
+    EXPECT_EQ(
+        fit(p, clouds::cloud{{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}})
+            .trust,
+        trust::degenerate);  // a ball
     EXPECT_EQ(fit(p, clouds::cloud{{1, 0, 0}, {-1, 0, 0}, {0, 0.05, 0}, {0, -0.05, 0}}).trust,
               trust::weak);  // nearly one scan line
     EXPECT_EQ(fit(p, clouds::cloud{{1, 0, 0}, {0, clouds::nan, 0}, {0, 0, 1}}).trust,

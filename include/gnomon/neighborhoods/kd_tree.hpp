@@ -47,17 +47,18 @@ class kd_tree {
     [[nodiscard]] std::size_t size() const { return index_of_slot_.size(); }
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
-    /// out, in canonical order; fewer if there are no more. O(k log n) on average.
-    /// Precondition: p is finite.
+    /// out, in canonical order; fewer if there are no more, and up to twice as many if the rule
+    /// asks for all ties. O(k log n) on average. Precondition: p is finite.
     void nearest(const Eigen::Vector3d& p, std::size_t k, std::size_t except,
-                 std::vector<neighbor>& found) const {
+                 std::vector<neighbor>& found, tie_rule rule = tie_rule::by_index) const {
         found.clear();
         // One more than asked for; if `except` is not among them, the last one was not needed.
-        detail::nearest_result_set results(k + 1, found);
+        detail::nearest_result_set results(k + 1, rule, found);
         find(p, results);
         for (neighbor& q : found) q.index = index_of_slot_[q.index];
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
-        if (found.size() > k) found.pop_back();
+        const std::size_t most = rule == tie_rule::all ? 2 * k : k;
+        if (found.size() > most) found.resize(most);
     }
 
     /// Calls visit(neighbor) for each point at most `radius` [m] from `p`, the point at p itself

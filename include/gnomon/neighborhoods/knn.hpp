@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The k nearest neighbors: exact, without the point itself (which is told by its index, so that
-/// duplicates of it do count), ties at the k-th place to the smaller index (Klasing 2010,
-/// Sec. 3.2.2).
+/// duplicates of it do count), with a rule for ties at the k-th place (Klasing 2010, Sec. 3.2.2).
 #pragma once
 
 #include <cstddef>
@@ -16,6 +15,7 @@
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/tree_search.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace gnomon {
 
@@ -23,6 +23,7 @@ namespace gnomon {
 /// finite points gives rings of n - 1.
 struct knn {
     std::size_t k = 50;  ///< number of neighbors, at least 1; the thesis's choice, Sec. 4.4.1
+    tie_rule ties = tie_rule::by_index;  ///< `all` for what must not depend on the points' order
 
     /// The stored graph, which every floor above accepts. O(n k log n).
     /// @throws std::invalid_argument  if k is 0
@@ -45,7 +46,7 @@ struct knn {
     /// The ring of point i at p.
     void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring);
+        tree.nearest(p, k, i, ring, ties);
     }
 };
 

@@ -39,6 +39,16 @@ struct neighbor {
     }
 };
 
+/// What becomes of points that are all as near as the k-th neighbor.
+enum class tie_rule : bool {
+    by_index,  ///< exactly k neighbors: of equals those of smaller index
+    /// All of them, as long as no more than 2 k neighbors come together; equal is what differs by
+    /// less than 1e-9 of the squared distance. The ring then depends neither on the order of the
+    /// points nor on where the cloud lies and how it is turned, also for depth cameras, whose
+    /// quantised points are full of ties.
+    all
+};
+
 /// size() points, and for each i a sized range of the indices of its neighbors.
 template <class G>
 concept neighborhood_graph = requires(const G& graph, std::size_t i) {

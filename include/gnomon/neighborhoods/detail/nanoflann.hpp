@@ -72,22 +72,23 @@ struct nanoflann_result_set {
     static void sort() {}  // ours keep their own order
 };
 
-/// Keeps the k best neighbors in canonical order.
+/// Keeps the k nearest points in canonical order, and those that the rule adds to them.
 class nearest_result_set : public nanoflann_result_set {
   public:
-    nearest_result_set(std::size_t k, std::vector<neighbor>& found) : k_(k), found_(found) {}
+    nearest_result_set(std::size_t k, tie_rule rule, std::vector<neighbor>& found)
+        : k_(k), most_(rule == tie_rule::all ? 2 * k : k), found_(found) {}
 
     [[nodiscard]] std::size_t size() const { return found_.size(); }
     [[nodiscard]] bool empty() const { return found_.empty(); }
-    [[nodiscard]] bool full() const { return found_.size() == k_; }
+    [[nodiscard]] bool full() const { return found_.size() >= k_; }
     [[nodiscard]] double worstDist() const {
-        return full() ? just_beyond(found_.back().squared_distance)
-                      : std::numeric_limits<double>::infinity();
+        return full() ? just_beyond(limit()) : std::numeric_limits<double>::infinity();
     }
 
     bool addPoint(double squared_distance, point_index slot) {
         const neighbor candidate{squared_distance, slot};
-        if (!full()) {
+        if (found_.size() < most_) {
+            if (full() && squared_distance > limit()) return true;
             found_.push_back(candidate);
         } else if (!(candidate < found_.back())) {
             return true;
@@ -95,11 +96,19 @@ class nearest_result_set : public nanoflann_result_set {
         neighbor* place = &found_.back();
         for (; place != found_.data() && candidate < place[-1]; --place) *place = place[-1];
         *place = candidate;
+        while (found_.size() > k_ && found_.back().squared_distance > limit()) found_.pop_back();
         return true;
     }
 
   private:
+    /// The squared distance up to which a point counts as near as the k-th. Precondition: full().
+    [[nodiscard]] double limit() const {
+        const double kth = found_[k_ - 1].squared_distance;
+        return most_ == k_ ? kth : kth * (1.0 + 1e-9);
+    }
+
     std::size_t k_;
+    std::size_t most_;
     std::vector<neighbor>& found_;
 };
 
