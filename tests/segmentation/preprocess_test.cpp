@@ -90,6 +90,22 @@ TEST(preprocess, sets_a_tilted_room_upright_and_removes_floor_and_ceiling) {
     }
 }
 
+/// A carpet of clutter, five centimetres high on one side of the room, does not tilt the floor.
+TEST(preprocess, floor_is_not_lifted_by_what_lies_on_it) {
+    gnomon::random_stream random(5);
+    clouds::cloud points;
+    for (int i = 0; i < 6000; ++i) {
+        const double x = random.uniform(0.0, 4.0);
+        const double y = random.uniform(0.0, 4.0);
+        points.push_back({x, y, 0.002 * random.gaussian()});
+        if (i % 4 == 0) points.push_back({0.25 * x, y, random.uniform(0.03, 0.07)});
+    }
+    const auto floor = gnomon::find_floor(points);
+    ASSERT_TRUE(floor);
+    EXPECT_LT(std::acos(floor->normal.z()), gnomon::degrees(0.05).radians());
+    EXPECT_NEAR(floor->offset, 0.0, 0.002);
+}
+
 TEST(preprocess, level_with_is_a_rotation_for_every_floor) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const gnomon::plane floor{clouds::random_rotation(seed).col(0), 0.7};
