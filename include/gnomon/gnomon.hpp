@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// gnomon: range scans into meaning. The table of contents, floor by floor; each header sees its own
-/// floor and those above it in this list, except that simulation and io stand beside the tower and
-/// see core alone.
+/// gnomon: range scans into meaning. The table of contents, floor by floor: each header sees its
+/// own floor and those above it in this list, except that simulation and io stand beside the tower
+/// and see core alone.
 #pragma once
 
 #include <gnomon/version.hpp>
 
+// The order is that of the floors.
+// clang-format off
 #include <gnomon/core.hpp>
 #include <gnomon/neighborhoods.hpp>
 #include <gnomon/normals.hpp>
@@ -15,3 +17,4 @@
 
 #include <gnomon/simulation.hpp>
 #include <gnomon/io.hpp>
+// clang-format on

@@ -39,8 +39,9 @@ namespace detail {
 
 /// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
 /// @param fields  names of further columns that become fields of the scan, in this order
-/// @throws gnomon::error  if the file is damaged or has not all the fields; it lists those there
-/// are O(bytes)
+/// @throws gnomon::error  if the file is damaged or has not all the fields; it lists
+///                        those there are
+/// Complexity: O(bytes).
 [[nodiscard]] inline scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);

@@ -124,7 +124,7 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 /// The points are left in the frame of the file: the orientation in VIEWPOINT is not applied.
 /// @param fields  names of further fields, e.g. "intensity" or, of many values, "fpfh[0]"
 /// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
-/// O(bytes)
+/// Complexity: O(bytes).
 [[nodiscard]] inline scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);

@@ -96,7 +96,7 @@ template <class Rows>
 /// "viewpoint x y z", as `write_ply` leaves it, becomes the view point.
 /// @param fields  names of further properties of the vertices, e.g. "nx", that become fields
 /// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
-/// O(bytes)
+/// Complexity: O(bytes).
 [[nodiscard]] inline scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::ply_header header = detail::read_ply_header(text);

@@ -54,7 +54,7 @@ namespace detail {
 /// @param fields  as for the other formats, but only "x", "y" and "z" are to be had
 /// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if a field
 ///                        is asked for
-/// O(bytes)
+/// Complexity: O(bytes).
 [[nodiscard]] inline scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);

@@ -62,7 +62,7 @@ namespace detail {
 ///                from 0, "column 3", "column 4", ...
 /// @throws gnomon::error  for a line that is no row of as many numbers as the first, if there is no
 ///                        point at all, or not all the fields
-/// O(bytes)
+/// Complexity: O(bytes).
 [[nodiscard]] inline scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors

@@ -78,11 +78,9 @@ template <class R, class Proj = std::identity>
 
 /// The floor: the plane through the points in a band about itself.
 ///
-/// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees of the
-/// floor
-/// @return the plane, its normal on the side of the guess's; nothing where the points of the band
-/// do
-///         not determine one
+/// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
+/// @return the plane, its normal on the side of the guess's; nothing where the points of the
+///         band do not determine one
 /// @throws std::invalid_argument  unless the band is positive
 /// Complexity: O(n) per refit, a handful of them, at most 50.
 template <class R, class Proj = std::identity>

@@ -1,0 +1,132 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Keeps the floors of include/gnomon apart.
+
+A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
+contain includes only: gnomon/<floor>.hpp every public header of its floor, gnomon.hpp every
+umbrella. Some foreign headers are kept out, for what they cost or break. No header includes itself
+in a circle.
+"""
+
+import pathlib
+import re
+import sys
+
+INCLUDE_DIR = pathlib.Path(__file__).resolve().parent.parent / "include"
+
+# The floors that each floor may see beside itself.
+BELOW = {
+    "core": [],
+    "neighborhoods": ["core"],
+    "normals": ["core", "neighborhoods"],
+    "features": ["core", "neighborhoods", "normals"],
+    "segmentation": ["core", "neighborhoods", "normals", "features"],
+    "occlusion": ["core", "neighborhoods", "normals", "features", "segmentation"],
+    "recognition": ["core", "neighborhoods", "normals", "features", "segmentation", "occlusion"],
+    "simulation": ["core"],
+    "io": ["core"],
+}
+
+FORBIDDEN = {
+    "Eigen/Dense": "include the Eigen modules that are used",
+    "Eigen/Eigen": "include the Eigen modules that are used",
+    "execution": "does not link where oneTBB's headers are installed",
+    "filesystem": "too dear",
+    "iostream": "too dear; nothing is ever printed",
+    "random": "too dear, and its distributions differ between libraries",
+    "ranges": "clang with libstdc++ refuses its views, and too dear",
+    "regex": "too dear",
+}
+NANOFLANN_HOME = "gnomon/neighborhoods/detail/"
+
+INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.M)
+NOT_IN_UMBRELLA = re.compile(r"^(?!\s*$|//|#pragma once$|#include <gnomon/[\w/]+\.hpp>$)", re.M)
+
+problems = []
+
+
+def problem(header, text):
+    problems.append(f"include/{header}: {text}")
+
+
+def floor_of(header):
+    """The floor that a header stands on; None for umbrellas and version.hpp."""
+    parts = header.split("/")
+    return parts[1] if len(parts) > 2 else None
+
+
+def check_header(header, includes):
+    """One header on a floor."""
+    floor = floor_of(header)
+    if floor not in BELOW:
+        problem(header, f"no floor is called '{floor}'")
+        return
+    for include in includes:
+        if include in FORBIDDEN:
+            problem(header, f"<{include}>: {FORBIDDEN[include]}")
+        elif include == "nanoflann.hpp" and not header.startswith(NANOFLANN_HOME):
+            problem(header, f"nanoflann is only for {NANOFLANN_HOME}")
+        elif include.startswith("gnomon/") and include != "gnomon/version.hpp":
+            other = floor_of(include)
+            if other is None:
+                problem(header, f"<{include}> is an umbrella, for users only")
+            elif other != floor and other not in BELOW[floor]:
+                problem(header, f"<{include}>: {floor} does not see {other}")
+
+
+def check_umbrella(header, text, includes, wanted):
+    """One umbrella: nothing but includes, of all the headers in `wanted`."""
+    if NOT_IN_UMBRELLA.search(text):
+        problem(header, "an umbrella contains includes only")
+    for missing in sorted(wanted - set(includes)):
+        problem(header, f"does not include <{missing}>")
+    for stranger in sorted(set(includes) - wanted):
+        problem(header, f"<{stranger}> is not its own")
+
+
+def find_circles(graph):
+    """Depth-first search for headers that include themselves."""
+    done, path = set(), []
+
+    def visit(header):
+        if header in path:
+            problem(header, "includes itself: " + " > ".join(path[path.index(header):] + [header]))
+        elif header not in done:
+            path.append(header)
+            for include in graph.get(header, []):
+                visit(include)
+            done.add(path.pop())
+
+    for header in sorted(graph):
+        visit(header)
+
+
+def main():
+    texts = {
+        file.relative_to(INCLUDE_DIR).as_posix(): file.read_text(encoding="utf-8")
+        for file in sorted(INCLUDE_DIR.rglob("*.hpp"))
+    }
+    graph = {header: INCLUDE.findall(text) for header, text in texts.items()}
+    floors = {floor_of(header) for header in texts} - {None}
+
+    for header in texts:
+        if floor_of(header):
+            check_header(header, graph[header])
+    for floor in sorted(floors):
+        umbrella = f"gnomon/{floor}.hpp"
+        public = {h for h in texts if floor_of(h) == floor and "/detail/" not in h}
+        if umbrella not in texts:
+            problem(umbrella, "is missing")
+        else:
+            check_umbrella(umbrella, texts[umbrella], graph[umbrella], public)
+    check_umbrella("gnomon/gnomon.hpp", texts["gnomon/gnomon.hpp"], graph["gnomon/gnomon.hpp"],
+                   {f"gnomon/{floor}.hpp" for floor in floors} | {"gnomon/version.hpp"})
+    find_circles(graph)
+
+    for line in problems:
+        print(line)
+    print(f"{len(texts)} headers on {len(floors)} floors, {len(problems)} problems")
+    sys.exit(1 if problems else 0)
+
+
+main()

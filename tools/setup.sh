@@ -1,0 +1,50 @@
+# shellcheck shell=sh
+# SPDX-License-Identifier: BSL-1.0
+# Sourced by the run.sh scripts: sees to it that packages are there.
+
+# set_up PACKAGE... [-- OPTIONAL_PACKAGE...]: installs what is missing of these, on systems of the
+# Debian family; elsewhere it only says what it would have installed. Never fails: if something
+# that is needed is really missing, CMake says what. Optional packages are those that older or newer
+# releases do not have.
+set_up() {
+    if ! command -v dpkg-query >/dev/null; then
+        echo "This is no Debian or Ubuntu: please have the counterparts of these installed: $*"
+        return 0
+    fi
+
+    missing= optional= into=missing
+    for package in "$@"; do
+        if [ "$package" = -- ]; then
+            into=optional
+        elif ! dpkg-query -W -f '${Status}' "$package" 2>/dev/null | grep -q 'ok installed'; then
+            if [ $into = missing ]; then missing="$missing $package"; else optional="$optional $package"; fi
+        fi
+    done
+    [ -n "$missing$optional" ] || return 0
+
+    as_root=
+    if [ "$(id -u)" -ne 0 ]; then
+        if ! command -v sudo >/dev/null; then
+            echo "Neither root nor sudo: please have these installed:$missing$optional"
+            return 0
+        fi
+        as_root=sudo
+        [ -t 0 ] || as_root="sudo -n"  # nobody there to type a password
+    fi
+
+    echo "Installing$missing$optional"
+    $as_root apt-get update -qq || echo "apt-get update failed; going on with what is known"
+    for package in $optional; do
+        if apt-cache show "$package" >/dev/null 2>&1; then missing="$missing $package"; fi
+    done
+    if [ -n "$missing" ]; then
+        # shellcheck disable=SC2086  # a list of words
+        $as_root env DEBIAN_FRONTEND=noninteractive \
+            apt-get install -y -qq --no-install-recommends $missing ||
+            echo "apt-get could not install$missing; going on with what is there"
+    fi
+}
+
+# What every build needs, and what the examples need beside it.
+build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev"
+example_packages="libstb-dev nlohmann-json3-dev"
