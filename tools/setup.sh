@@ -12,7 +12,7 @@ set_up() {
         return 0
     fi
 
-    missing= optional= into=missing
+    missing='' optional='' into=missing
     for package in "$@"; do
         if [ "$package" = -- ]; then
             into=optional
@@ -22,7 +22,7 @@ set_up() {
     done
     [ -n "$missing$optional" ] || return 0
 
-    as_root=
+    as_root=''
     if [ "$(id -u)" -ne 0 ]; then
         if ! command -v sudo >/dev/null; then
             echo "Neither root nor sudo: please have these installed:$missing$optional"

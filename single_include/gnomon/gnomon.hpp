@@ -223,18 +223,20 @@ void for_each_chunk(const X& run, std::size_t n, auto&& work) {
 
 namespace gnomon {
 
-/// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from a
-/// point p.
+/// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from
+/// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
 struct moments {
     std::size_t count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2]
+    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2], its lower half
 
     /// Takes in the neighbor at `offset` [m] from the point.
     void add(const Eigen::Vector3d& offset) {
         ++count;
-        sum += offset;
-        outer.noalias() += offset * offset.transpose();
+        for (int j = 0; j < 3; ++j) {
+            sum[j] += offset[j];
+            for (int i = j; i < 3; ++i) outer(i, j) += offset[i] * offset[j];
+        }
     }
 
     /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
@@ -247,8 +249,13 @@ struct moments {
   private:
     [[nodiscard]] Eigen::Matrix3d covariance(std::size_t n) const {
         const double w = 1.0 / static_cast<double>(n);
-        const Eigen::Vector3d mean = w * sum;
-        return w * outer - mean * mean.transpose();
+        Eigen::Matrix3d c;
+        for (int j = 0; j < 3; ++j) {
+            for (int i = j; i < 3; ++i) {
+                c(i, j) = c(j, i) = w * outer(i, j) - (w * sum[i]) * (w * sum[j]);
+            }
+        }
+        return c;
     }
 };
 
@@ -263,8 +270,8 @@ namespace gnomon {
 
 /// The points x with normal . x = offset.
 struct plane {
-    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit length
-    double offset = 0.0;                                ///< [m]
+    Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< unit length
+    double offset = 0.0;                    ///< [m]
 
     /// Distance [m] of x from the plane, positive on the normal's side.
     [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
@@ -631,23 +638,26 @@ struct spectrum {
 
     spectrum() = default;
     /// Clamps what rounding made negative.
-    explicit spectrum(const Eigen::Vector3d& variances) : lambda(variances.cwiseMax(0.0)) {}
+    explicit spectrum(const Eigen::Vector3d& variances) : lambda(variances) {
+        for (int i = 0; i < 3; ++i) lambda[i] = std::max(lambda[i], 0.0);
+    }
 
     /// The standard deviations [m], proportional to the singular values s_1 >= s_2 >= s_3.
-    [[nodiscard]] Eigen::Vector3d deviations() const { return lambda.cwiseSqrt(); }
+    [[nodiscard]] Eigen::Vector3d deviations() const {
+        return {std::sqrt(lambda[0]), std::sqrt(lambda[1]), std::sqrt(lambda[2])};
+    }
 
     /// sigma_sv = 3 s_3 / (s_1 + s_2 + s_3), Eq. (3.28): 0 for a plane, 1 for a ball; 0 for a
     /// single place.
     [[nodiscard]] double surface_variation() const {
         const Eigen::Vector3d s = deviations();
-        return s[0] > 0.0 ? 3.0 * s[2] / s.sum() : 0.0;
+        return s[0] > 0.0 ? 3.0 * s[2] / (s[0] + s[1] + s[2]) : 0.0;
     }
 
     /// sigma_ar = s_2 / s_1, Eq. (3.19): near 0 where all points lie on one scan line; 0 for a
     /// single place.
     [[nodiscard]] double aspect_ratio() const {
-        const Eigen::Vector3d s = deviations();
-        return s[0] > 0.0 ? s[1] / s[0] : 0.0;
+        return lambda[0] > 0.0 ? std::sqrt(lambda[1] / lambda[0]) : 0.0;
     }
 };
 
@@ -883,10 +893,12 @@ inline void rotate_away(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
 /// at most five sweeps in our tests.
 [[nodiscard]] inline eigen_decomposition symmetric_eigen(const Eigen::Matrix3d& a) {
     eigen_decomposition e{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
-    const double scale = a.cwiseAbs().maxCoeff();
+    double scale = 0.0;  // brought to one, so that no square below over- or underflows
+    for (int i = 0; i < 9; ++i) scale = std::max(scale, std::abs(a.data()[i]));
     if (scale < std::numeric_limits<double>::min()) return e;
+    Eigen::Matrix3d d;
+    for (int i = 0; i < 9; ++i) d.data()[i] = a.data()[i] / scale;
 
-    Eigen::Matrix3d d = a / scale;  // so that no square below over- or underflows
     constexpr double negligible = std::numeric_limits<double>::epsilon() / 64;
     constexpr int max_sweeps = 12;
     for (int sweep = 0; sweep < max_sweeps; ++sweep) {
@@ -896,11 +908,11 @@ inline void rotate_away(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
         detail::rotate_away(d, e.vectors, 1, 2);
     }
 
-    e.values = scale * d.diagonal();
+    for (int i = 0; i < 3; ++i) e.values[i] = scale * d(i, i);
     const auto order = [&e](int i, int j) {
         if (e.values[i] >= e.values[j]) return;
         std::swap(e.values[i], e.values[j]);
-        e.vectors.col(i).swap(e.vectors.col(j));
+        for (int r = 0; r < 3; ++r) std::swap(e.vectors(r, i), e.vectors(r, j));
     };
     order(0, 1);
     order(1, 2);
@@ -1170,7 +1182,7 @@ struct nanoflann_metric {
     explicit nanoflann_metric(const nanoflann_points& p) : points(p) {}
 
     [[nodiscard]] double evalMetric(const double* q, std::size_t i, std::size_t) const {
-        return squared_distance(Eigen::Map<const Eigen::Vector3d>(q), points.positions[i]);
+        return squared_distance({q[0], q[1], q[2]}, points.positions[i]);
     }
     [[nodiscard]] double accum_dist(double a, double b, std::size_t) const {
         return (a - b) * (a - b);
@@ -1540,7 +1552,8 @@ class surfel_maker {
         static_cast<estimate_t<E>&>(s) = checked(p);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
-            for (const Eigen::Vector3d& q : positions_) s.mean_distance += (q - p).norm();
+            for (const Eigen::Vector3d& q : positions_)
+                s.mean_distance += std::sqrt(squared_distance(q, p));
             s.mean_distance /= static_cast<double>(positions_.size());
         }
         if (s.trust == trust::good && resolution(p) > coarse * s.mean_distance) {
@@ -1556,7 +1569,7 @@ class surfel_maker {
     /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
     static double resolution(const Eigen::Vector3d& p) {
         return static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
-               p.cwiseAbs().maxCoeff();
+               std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     }
 
     /// The estimate, with the promises kept that an estimator may have broken: a usable normal is
@@ -1817,7 +1830,8 @@ struct plane_pca {
         plane_fit fit;
         if (m.count < 2) return fit;
         const Eigen::Matrix3d covariance = m.covariance_with_point();  // Eq. (3.5)
-        if (!covariance.allFinite()) {
+        // The trace is a sum of squares: whatever is not finite shows in it.
+        if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) {
             fit.trust = gnomon::trust::not_finite;
             return fit;
         }
@@ -1883,21 +1897,25 @@ template <class R, class Proj = std::identity>
     }
     const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
     frame.centroid = origin + m.sum / static_cast<double>(m.count);
+    frame.box_center = frame.centroid;
     frame.axes = e.vectors;
     frame.axes.col(1) = frame.axes.col(2).cross(frame.axes.col(0));  // right-handed
     frame.spectrum = spectrum(e.values);
 
     constexpr double inf = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(inf);
-    Eigen::Vector3d high = Eigen::Vector3d::Constant(-inf);
-    for (std::size_t i = first; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
-        const Eigen::Vector3d along = frame.axes.transpose() * (p[i] - frame.centroid);
-        low = low.cwiseMin(along);
-        high = high.cwiseMax(along);
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Vector3d axis = frame.axes.col(a);
+        double low = inf;
+        double high = -inf;
+        for (std::size_t i = first; i < p.size(); ++i) {
+            if (!is_finite(p[i])) continue;
+            const double along = axis.dot(p[i] - frame.centroid);
+            low = std::min(low, along);
+            high = std::max(high, along);
+        }
+        frame.box_size[a] = high - low;
+        frame.box_center += 0.5 * (low + high) * axis;
     }
-    frame.box_center = frame.centroid + frame.axes * (0.5 * (low + high));
-    frame.box_size = high - low;
     return frame;
 }
 
@@ -2293,7 +2311,11 @@ struct leveling {
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        return rotation * p + lift * Eigen::Vector3d::UnitZ();
+        Eigen::Vector3d q(0.0, 0.0, lift);
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
+        }
+        return q;
     }
 };
 
@@ -2306,7 +2328,7 @@ struct leveling {
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
-                                               const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ(),
+                                               const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                                Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
@@ -2335,7 +2357,7 @@ template <class R, class Proj = std::identity>
     plane floor = guess;
     double band = search.band;
     for (int refit = 0; refit < 50; ++refit) {
-        const Eigen::Vector3d origin = floor.offset * floor.normal;
+        const Eigen::Vector3d origin(floor.offset * floor.normal);
         moments m;
         std::vector<double> distances;
         for (std::size_t i = 0; i < p.size(); ++i) {
@@ -2405,21 +2427,18 @@ template <class R, class Proj = std::identity>
 /// The motion that turns the floor's normal to z by the smallest rotation and lays the floor into
 /// z = 0. The points stay untouched: apply it where you need it.
 [[nodiscard]] inline leveling level_with(const plane& floor) {
-    const Eigen::Vector3d n = floor.normal;
-    // Two reflections make the rotation: across the plane between n and z, then across that of z.
-    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d& n = floor.normal;
     leveling level;
-    const Eigen::Vector3d half = n + z;
-    if (half.squaredNorm() > 1e-24) {
-        const auto reflect = [](const Eigen::Vector3d& about) -> Eigen::Matrix3d {
-            return 2.0 / about.squaredNorm() * about * about.transpose() -
-                   Eigen::Matrix3d::Identity();
-        };
-        level.rotation = reflect(half) * reflect(n);
+    level.lift = -floor.offset;
+    const double h = 1.0 + n.z();
+    if (h > 1e-12) {
+        // Rodrigues' formula for the rotation about n x z, written out.
+        level.rotation << 1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x(),  //
+            -n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y(),                //
+            n.x(), n.y(), n.z();
     } else {
         level.rotation.diagonal() << 1.0, -1.0, -1.0;  // upside down: half a turn about x
     }
-    level.lift = -floor.offset;
     return level;
 }
 
@@ -2626,34 +2645,37 @@ struct upright_box {
         }
         if (axis < 0 || enter > leave) return std::nullopt;
         const bool negative = d[axis] > 0.0;  // the ray enters through the face that looks at it
-        const Eigen::Vector3d normal = (negative ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
+        Eigen::Vector3d normal(0.0, 0.0, 0.0);
+        normal[axis] = negative ? -1.0 : 1.0;
         return ray_hit{enter, turned(normal, yaw), 2 * axis + (negative ? 1 : 0)};
     }
 };
 
 /// An upright cylinder on z = 0. Surfaces: 6 the mantle, 7 the top.
 struct upright_cylinder {
-    Eigen::Vector2d axis;  ///< the x and y of its axis
+    double x;  ///< where its axis stands
+    double y;
     double radius;
     double height;
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const Eigen::Vector3d& from,
                                                    const Eigen::Vector3d& u) const {
-        const Eigen::Vector2d o = from.head<2>() - axis;
-        const Eigen::Vector2d d = u.head<2>();
-        const double a = d.squaredNorm();
-        const double b = o.dot(d);
-        const double discriminant = b * b - a * (o.squaredNorm() - radius * radius);
+        // Seen from above the mantle is a circle: |o + t u| = radius.
+        const double ox = from.x() - x;
+        const double oy = from.y() - y;
+        const double a = u.x() * u.x() + u.y() * u.y();
+        const double b = ox * u.x() + oy * u.y();
+        const double discriminant = b * b - a * (ox * ox + oy * oy - radius * radius);
         if (discriminant < 0.0 || a == 0.0) return std::nullopt;
         const double t = (-b - std::sqrt(discriminant)) / a;
         const double z = from.z() + t * u.z();
         if (t > 0.0 && z >= 0.0 && z <= height) {
-            const Eigen::Vector2d n = (o + t * d) / radius;
-            return ray_hit{t, {n.x(), n.y(), 0.0}, 6};
+            return ray_hit{t, {(ox + t * u.x()) / radius, (oy + t * u.y()) / radius, 0.0}, 6};
         }
         const double t_top = (height - from.z()) / u.z();
-        if (from.z() > height && t_top > 0.0 && (o + t_top * d).norm() <= radius) {
-            return ray_hit{t_top, Eigen::Vector3d::UnitZ(), 7};
+        if (from.z() > height && t_top > 0.0 &&
+            std::hypot(ox + t_top * u.x(), oy + t_top * u.y()) <= radius) {
+            return ray_hit{t_top, {0.0, 0.0, 1.0}, 7};
         }
         return std::nullopt;
     }
@@ -2668,7 +2690,7 @@ struct box_and_cylinder_scene {
     explicit box_and_cylinder_scene(double scale)
         : sensor(0.0, 0.0, 0.8),
           box{{2.2, -0.55, 0.30 * scale}, Eigen::Vector3d::Constant(0.30 * scale), degrees(30)},
-          cylinder{{2.4, 0.55}, 0.30 * scale, 0.90 * scale} {}
+          cylinder{2.4, 0.55, 0.30 * scale, 0.90 * scale} {}
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const Eigen::Vector3d& u) const {
         // At no scale up to 1.5 does one hide a part of the other.

@@ -11,18 +11,20 @@
 
 namespace gnomon {
 
-/// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from a
-/// point p.
+/// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from
+/// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
 struct moments {
     std::size_t count = 0;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2]
+    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2], its lower half
 
     /// Takes in the neighbor at `offset` [m] from the point.
     void add(const Eigen::Vector3d& offset) {
         ++count;
-        sum += offset;
-        outer.noalias() += offset * offset.transpose();
+        for (int j = 0; j < 3; ++j) {
+            sum[j] += offset[j];
+            for (int i = j; i < 3; ++i) outer(i, j) += offset[i] * offset[j];
+        }
     }
 
     /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
@@ -35,8 +37,13 @@ struct moments {
   private:
     [[nodiscard]] Eigen::Matrix3d covariance(std::size_t n) const {
         const double w = 1.0 / static_cast<double>(n);
-        const Eigen::Vector3d mean = w * sum;
-        return w * outer - mean * mean.transpose();
+        Eigen::Matrix3d c;
+        for (int j = 0; j < 3; ++j) {
+            for (int i = j; i < 3; ++i) {
+                c(i, j) = c(j, i) = w * outer(i, j) - (w * sum[i]) * (w * sum[j]);
+            }
+        }
+        return c;
     }
 };
 

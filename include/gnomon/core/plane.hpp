@@ -9,8 +9,8 @@ namespace gnomon {
 
 /// The points x with normal . x = offset.
 struct plane {
-    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();  ///< unit length
-    double offset = 0.0;                                ///< [m]
+    Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< unit length
+    double offset = 0.0;                    ///< [m]
 
     /// Distance [m] of x from the plane, positive on the normal's side.
     [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {

@@ -23,23 +23,26 @@ struct spectrum {
 
     spectrum() = default;
     /// Clamps what rounding made negative.
-    explicit spectrum(const Eigen::Vector3d& variances) : lambda(variances.cwiseMax(0.0)) {}
+    explicit spectrum(const Eigen::Vector3d& variances) : lambda(variances) {
+        for (int i = 0; i < 3; ++i) lambda[i] = std::max(lambda[i], 0.0);
+    }
 
     /// The standard deviations [m], proportional to the singular values s_1 >= s_2 >= s_3.
-    [[nodiscard]] Eigen::Vector3d deviations() const { return lambda.cwiseSqrt(); }
+    [[nodiscard]] Eigen::Vector3d deviations() const {
+        return {std::sqrt(lambda[0]), std::sqrt(lambda[1]), std::sqrt(lambda[2])};
+    }
 
     /// sigma_sv = 3 s_3 / (s_1 + s_2 + s_3), Eq. (3.28): 0 for a plane, 1 for a ball; 0 for a
     /// single place.
     [[nodiscard]] double surface_variation() const {
         const Eigen::Vector3d s = deviations();
-        return s[0] > 0.0 ? 3.0 * s[2] / s.sum() : 0.0;
+        return s[0] > 0.0 ? 3.0 * s[2] / (s[0] + s[1] + s[2]) : 0.0;
     }
 
     /// sigma_ar = s_2 / s_1, Eq. (3.19): near 0 where all points lie on one scan line; 0 for a
     /// single place.
     [[nodiscard]] double aspect_ratio() const {
-        const Eigen::Vector3d s = deviations();
-        return s[0] > 0.0 ? s[1] / s[0] : 0.0;
+        return lambda[0] > 0.0 ? std::sqrt(lambda[1] / lambda[0]) : 0.0;
     }
 };
 

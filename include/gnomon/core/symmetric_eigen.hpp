@@ -6,6 +6,7 @@
 /// ball and the zero matrix are ordinary inputs.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -56,10 +57,12 @@ inline void rotate_away(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
 /// at most five sweeps in our tests.
 [[nodiscard]] inline eigen_decomposition symmetric_eigen(const Eigen::Matrix3d& a) {
     eigen_decomposition e{Eigen::Vector3d::Zero(), Eigen::Matrix3d::Identity()};
-    const double scale = a.cwiseAbs().maxCoeff();
+    double scale = 0.0;  // brought to one, so that no square below over- or underflows
+    for (int i = 0; i < 9; ++i) scale = std::max(scale, std::abs(a.data()[i]));
     if (scale < std::numeric_limits<double>::min()) return e;
+    Eigen::Matrix3d d;
+    for (int i = 0; i < 9; ++i) d.data()[i] = a.data()[i] / scale;
 
-    Eigen::Matrix3d d = a / scale;  // so that no square below over- or underflows
     constexpr double negligible = std::numeric_limits<double>::epsilon() / 64;
     constexpr int max_sweeps = 12;
     for (int sweep = 0; sweep < max_sweeps; ++sweep) {
@@ -69,11 +72,11 @@ inline void rotate_away(Eigen::Matrix3d& a, Eigen::Matrix3d& v, int p, int q) {
         detail::rotate_away(d, e.vectors, 1, 2);
     }
 
-    e.values = scale * d.diagonal();
+    for (int i = 0; i < 3; ++i) e.values[i] = scale * d(i, i);
     const auto order = [&e](int i, int j) {
         if (e.values[i] >= e.values[j]) return;
         std::swap(e.values[i], e.values[j]);
-        e.vectors.col(i).swap(e.vectors.col(j));
+        for (int r = 0; r < 3; ++r) std::swap(e.vectors(r, i), e.vectors(r, j));
     };
     order(0, 1);
     order(1, 2);

@@ -6,6 +6,7 @@
 /// Klasing 2010, Sec. 3.5.1 (and Sec. 4.5, Fig. 4.14 for the boxes).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <limits>
@@ -52,21 +53,25 @@ template <class R, class Proj = std::identity>
     }
     const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
     frame.centroid = origin + m.sum / static_cast<double>(m.count);
+    frame.box_center = frame.centroid;
     frame.axes = e.vectors;
     frame.axes.col(1) = frame.axes.col(2).cross(frame.axes.col(0));  // right-handed
     frame.spectrum = spectrum(e.values);
 
     constexpr double inf = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d low = Eigen::Vector3d::Constant(inf);
-    Eigen::Vector3d high = Eigen::Vector3d::Constant(-inf);
-    for (std::size_t i = first; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
-        const Eigen::Vector3d along = frame.axes.transpose() * (p[i] - frame.centroid);
-        low = low.cwiseMin(along);
-        high = high.cwiseMax(along);
+    for (int a = 0; a < 3; ++a) {
+        const Eigen::Vector3d axis = frame.axes.col(a);
+        double low = inf;
+        double high = -inf;
+        for (std::size_t i = first; i < p.size(); ++i) {
+            if (!is_finite(p[i])) continue;
+            const double along = axis.dot(p[i] - frame.centroid);
+            low = std::min(low, along);
+            high = std::max(high, along);
+        }
+        frame.box_size[a] = high - low;
+        frame.box_center += 0.5 * (low + high) * axis;
     }
-    frame.box_center = frame.centroid + frame.axes * (0.5 * (low + high));
-    frame.box_size = high - low;
     return frame;
 }
 

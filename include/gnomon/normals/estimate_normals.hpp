@@ -3,6 +3,7 @@
 /// Normals for all points of a cloud: any neighborhood, any estimator, one loop.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
@@ -55,7 +56,8 @@ class surfel_maker {
         static_cast<estimate_t<E>&>(s) = checked(p);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
-            for (const Eigen::Vector3d& q : positions_) s.mean_distance += (q - p).norm();
+            for (const Eigen::Vector3d& q : positions_)
+                s.mean_distance += std::sqrt(squared_distance(q, p));
             s.mean_distance /= static_cast<double>(positions_.size());
         }
         if (s.trust == trust::good && resolution(p) > coarse * s.mean_distance) {
@@ -71,7 +73,7 @@ class surfel_maker {
     /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
     static double resolution(const Eigen::Vector3d& p) {
         return static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
-               p.cwiseAbs().maxCoeff();
+               std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     }
 
     /// The estimate, with the promises kept that an estimator may have broken: a usable normal is

@@ -7,6 +7,8 @@
 /// Robotics, TUM 2010, Eq. (3.2) and Alg. 3.1; Hoppe et al. 1992.
 #pragma once
 
+#include <cmath>
+
 #include <Eigen/Core>
 
 #include <gnomon/core/moments.hpp>
@@ -46,7 +48,8 @@ struct plane_pca {
         plane_fit fit;
         if (m.count < 2) return fit;
         const Eigen::Matrix3d covariance = m.covariance_with_point();  // Eq. (3.5)
-        if (!covariance.allFinite()) {
+        // The trace is a sum of squares: whatever is not finite shows in it.
+        if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) {
             fit.trust = gnomon::trust::not_finite;
             return fit;
         }

@@ -51,7 +51,11 @@ struct leveling {
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        return rotation * p + lift * Eigen::Vector3d::UnitZ();
+        Eigen::Vector3d q(0.0, 0.0, lift);
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
+        }
+        return q;
     }
 };
 
@@ -64,7 +68,7 @@ struct leveling {
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
-                                               const Eigen::Vector3d& up = Eigen::Vector3d::UnitZ(),
+                                               const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                                Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
@@ -93,7 +97,7 @@ template <class R, class Proj = std::identity>
     plane floor = guess;
     double band = search.band;
     for (int refit = 0; refit < 50; ++refit) {
-        const Eigen::Vector3d origin = floor.offset * floor.normal;
+        const Eigen::Vector3d origin(floor.offset * floor.normal);
         moments m;
         std::vector<double> distances;
         for (std::size_t i = 0; i < p.size(); ++i) {
@@ -163,21 +167,18 @@ template <class R, class Proj = std::identity>
 /// The motion that turns the floor's normal to z by the smallest rotation and lays the floor into
 /// z = 0. The points stay untouched: apply it where you need it.
 [[nodiscard]] inline leveling level_with(const plane& floor) {
-    const Eigen::Vector3d n = floor.normal;
-    // Two reflections make the rotation: across the plane between n and z, then across that of z.
-    const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d& n = floor.normal;
     leveling level;
-    const Eigen::Vector3d half = n + z;
-    if (half.squaredNorm() > 1e-24) {
-        const auto reflect = [](const Eigen::Vector3d& about) -> Eigen::Matrix3d {
-            return 2.0 / about.squaredNorm() * about * about.transpose() -
-                   Eigen::Matrix3d::Identity();
-        };
-        level.rotation = reflect(half) * reflect(n);
+    level.lift = -floor.offset;
+    const double h = 1.0 + n.z();
+    if (h > 1e-12) {
+        // Rodrigues' formula for the rotation about n x z, written out.
+        level.rotation << 1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x(),  //
+            -n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y(),                //
+            n.x(), n.y(), n.z();
     } else {
         level.rotation.diagonal() << 1.0, -1.0, -1.0;  // upside down: half a turn about x
     }
-    level.lift = -floor.offset;
     return level;
 }
 

@@ -80,34 +80,37 @@ struct upright_box {
         }
         if (axis < 0 || enter > leave) return std::nullopt;
         const bool negative = d[axis] > 0.0;  // the ray enters through the face that looks at it
-        const Eigen::Vector3d normal = (negative ? -1.0 : 1.0) * Eigen::Vector3d::Unit(axis);
+        Eigen::Vector3d normal(0.0, 0.0, 0.0);
+        normal[axis] = negative ? -1.0 : 1.0;
         return ray_hit{enter, turned(normal, yaw), 2 * axis + (negative ? 1 : 0)};
     }
 };
 
 /// An upright cylinder on z = 0. Surfaces: 6 the mantle, 7 the top.
 struct upright_cylinder {
-    Eigen::Vector2d axis;  ///< the x and y of its axis
+    double x;  ///< where its axis stands
+    double y;
     double radius;
     double height;
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const Eigen::Vector3d& from,
                                                    const Eigen::Vector3d& u) const {
-        const Eigen::Vector2d o = from.head<2>() - axis;
-        const Eigen::Vector2d d = u.head<2>();
-        const double a = d.squaredNorm();
-        const double b = o.dot(d);
-        const double discriminant = b * b - a * (o.squaredNorm() - radius * radius);
+        // Seen from above the mantle is a circle: |o + t u| = radius.
+        const double ox = from.x() - x;
+        const double oy = from.y() - y;
+        const double a = u.x() * u.x() + u.y() * u.y();
+        const double b = ox * u.x() + oy * u.y();
+        const double discriminant = b * b - a * (ox * ox + oy * oy - radius * radius);
         if (discriminant < 0.0 || a == 0.0) return std::nullopt;
         const double t = (-b - std::sqrt(discriminant)) / a;
         const double z = from.z() + t * u.z();
         if (t > 0.0 && z >= 0.0 && z <= height) {
-            const Eigen::Vector2d n = (o + t * d) / radius;
-            return ray_hit{t, {n.x(), n.y(), 0.0}, 6};
+            return ray_hit{t, {(ox + t * u.x()) / radius, (oy + t * u.y()) / radius, 0.0}, 6};
         }
         const double t_top = (height - from.z()) / u.z();
-        if (from.z() > height && t_top > 0.0 && (o + t_top * d).norm() <= radius) {
-            return ray_hit{t_top, Eigen::Vector3d::UnitZ(), 7};
+        if (from.z() > height && t_top > 0.0 &&
+            std::hypot(ox + t_top * u.x(), oy + t_top * u.y()) <= radius) {
+            return ray_hit{t_top, {0.0, 0.0, 1.0}, 7};
         }
         return std::nullopt;
     }
@@ -122,7 +125,7 @@ struct box_and_cylinder_scene {
     explicit box_and_cylinder_scene(double scale)
         : sensor(0.0, 0.0, 0.8),
           box{{2.2, -0.55, 0.30 * scale}, Eigen::Vector3d::Constant(0.30 * scale), degrees(30)},
-          cylinder{{2.4, 0.55}, 0.30 * scale, 0.90 * scale} {}
+          cylinder{2.4, 0.55, 0.30 * scale, 0.90 * scale} {}
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const Eigen::Vector3d& u) const {
         // At no scale up to 1.5 does one hide a part of the other.

@@ -48,7 +48,7 @@ struct nanoflann_metric {
     explicit nanoflann_metric(const nanoflann_points& p) : points(p) {}
 
     [[nodiscard]] double evalMetric(const double* q, std::size_t i, std::size_t) const {
-        return squared_distance(Eigen::Map<const Eigen::Vector3d>(q), points.positions[i]);
+        return squared_distance({q[0], q[1], q[2]}, points.positions[i]);
     }
     [[nodiscard]] double accum_dist(double a, double b, std::size_t) const {
         return (a - b) * (a - b);
