@@ -16,6 +16,8 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
+static_assert(NANOFLANN_VERSION >= 0x142, "gnomon needs nanoflann 1.4.3, which calls itself 0x142");
+
 namespace gnomon::detail {
 
 #if NANOFLANN_VERSION >= 0x150

@@ -1,0 +1,12 @@
+// expect: constraints? not satisfied(.|\n)*estimator|no matching function(.|\n)*estimator
+// SPDX-License-Identifier: BSL-1.0
+#include <vector>
+
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+
+int main() {
+    const std::vector<Eigen::Vector3d> points(10);
+    const auto forgot_the_ring = [](const Eigen::Vector3d& p) { return p; };
+    (void)gnomon::estimate_normals(points, gnomon::knn{}, forgot_the_ring);
+}
