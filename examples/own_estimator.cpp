@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: BSL-1.0
+// How do I try a normal estimator of my own against those of the library?
+#include <cmath>
+#include <cstdio>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <gnomon/gnomon.hpp>
+
+namespace {
+
+// [own_estimator]
+// A lambda that returns a vector will do: the normal of the triangle of the first two neighbors.
+const auto first_triangle = [](const auto& p, auto ring) -> Eigen::Vector3d {
+    if (ring.size() < 2) return Eigen::Vector3d::Zero();
+    return (ring[0] - p).cross(ring[1] - p);
+};
+
+// A struct can have parameters and say what its result is worth: a plane fit in which near
+// neighbors count more than far ones.
+struct gaussian_pca {
+    double width = 0.02;  // [m]
+
+    gnomon::plane_fit operator()(const Eigen::Vector3d& p, gnomon::ring_view ring) const {
+        double weights = 1.0;  // that of the point itself
+        Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+        Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
+        for (const Eigen::Vector3d& q : ring) {
+            const Eigen::Vector3d d = q - p;
+            const double w = std::exp(-0.5 * d.squaredNorm() / (width * width));
+            weights += w;
+            mean += w * d;
+            outer += w * d * d.transpose();
+        }
+        mean /= weights;
+        const auto e =
+            gnomon::symmetric_eigen(outer / weights - mean * mean.transpose());
+
+        gnomon::plane_fit fit;
+        fit.spectrum = gnomon::spectrum(e.values);
+        fit.trust = ring.size() < 2 ? gnomon::trust::too_few_neighbors : gnomon::trust::good;
+        fit.normal = e.vectors.col(2);
+        return fit;
+    }
+};
+// [own_estimator]
+
+void report(const char* name, const gnomon::true_scan& truth, const auto& estimator) {
+    const auto surface = gnomon::estimate_normals(truth.scan, gnomon::knn{.k = 50}, estimator,
+                                                  gnomon::threads{});
+    std::printf("%-28s gamma %.4f\n", name, gnomon::mean_gamma(surface, truth.normals));
+}
+
+}  // namespace
+
+int main() {
+    const auto truth = gnomon::simulate(gnomon::box_and_cylinder{.sigma = 0.005});
+    report("first_triangle (a lambda)", truth, first_triangle);
+    report("gaussian_pca (a struct)", truth, gaussian_pca{.width = 0.02});
+    report("plane_pca (the library's)", truth, gnomon::plane_pca{});
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A segmented scan in one picture: two views side by side, captions above, a legend below.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "image.hpp"
+#include "palette.hpp"
+#include "scene.hpp"
+#include "splat.hpp"
+
+namespace picture {
+
+/// A number with a comma at the thousands.
+[[nodiscard]] inline std::string with_commas(std::size_t n) {
+    std::string digits = std::to_string(n);
+    for (std::size_t i = digits.size(); i > 3; i -= 3) digits.insert(i - 3, 1, ',');
+    return digits;
+}
+
+/// What there is to say: "1 point", "2 points".
+[[nodiscard]] inline std::string counted(std::size_t n, const std::string& thing) {
+    return with_commas(n) + " " + thing + (n == 1 ? "" : "s");
+}
+
+/// The picture of a segmented scan.
+/// @param splats         its finite points
+/// @param segment_sizes  number of points by label
+/// @param viewpoint      where the sensor stood [m]
+/// @param up             against gravity; guessed if not known
+[[nodiscard]] inline image picture_of(const std::vector<splat>& splats,
+                                      const std::vector<std::size_t>& segment_sizes,
+                                      const Eigen::Vector3d& viewpoint,
+                                      const std::optional<Eigen::Vector3d>& up = {}) {
+    constexpr int margin = 24;
+    constexpr int width = 764;
+    constexpr int height = 660;
+    constexpr int top = 60;
+    constexpr color line{222, 224, 228};
+    image sheet(3 * margin + 2 * width, top + height + 80);
+
+    if (splats.empty()) {
+        sheet.write(margin, margin, "no points");
+    } else {
+        int x = margin;
+        for (const view& v : scene(splats, viewpoint, up).views()) {
+            sheet.write(x, 22, v.caption);
+            sheet.fill(x - 1, top - 1, x + width + 1, top + height + 1, line);
+            sheet.paste(drawn(splats, v.from, width, height, v.back), x, top);
+            x += width + margin;
+        }
+    }
+
+    const int y = top + height + 30;
+    const std::string title =
+        counted(splats.size(), "point") + ", " + counted(segment_sizes.size(), "segment");
+    sheet.write(margin, y, title);
+    int x = margin + image::width_of(title) + 40;
+    for (std::size_t label = 0; label < segment_sizes.size() && label < 8; ++label) {
+        const std::string text = with_commas(segment_sizes[label]);
+        const int end = x + 28 + image::width_of(text) + 24;
+        if (end > sheet.width()) break;
+        sheet.fill(x, y - 4, x + 20, y + 18, color_of(static_cast<std::int32_t>(label)));
+        sheet.write(x + 28, y, text);
+        x = end;
+    }
+    return sheet;
+}
+
+}  // namespace picture

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// How do points become surfaces? Each is drawn as a little disc that lies in its surface and just
+/// reaches the next one; the nearest wins. Shading by the normal, and a darker rim wherever
+/// something stands in front of something else, let shapes be read.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "camera.hpp"
+#include "image.hpp"
+#include "palette.hpp"
+
+namespace picture {
+
+/// A point as it is drawn.
+struct splat {
+    Eigen::Vector3d position;  ///< finite [m]
+    Eigen::Vector3d normal;    ///< unit length towards the sensor, or zero
+    double radius;             ///< [m]
+    std::int32_t label;        ///< of its segment, -1 for none
+};
+
+/// What is drawn of surfaces that turn their back to the camera.
+enum class backs { shown, hidden };
+
+/// An image with depth, into which splats are drawn.
+class canvas {
+  public:
+    canvas(int width, int height)
+        : colors_(width, height),
+          depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), far_away) {}
+
+    /// Draws one splat as `from` sees it; those of no segment small.
+    void draw(const splat& s, const camera& from) {
+        const Eigen::Vector3d q = from.project(s.position);
+        if (!(q.z() > 0.0) || !(std::abs(q.x()) < 1e6) || !(std::abs(q.y()) < 1e6)) return;
+        const Eigen::Vector3d towards = (from.position - s.position).normalized();
+        const double cosine = s.normal.dot(towards);
+        const double smallest = s.label < 0 ? 1.5 : 2.0;  // pixels
+        const double largest = s.label < 0 ? 4.0 : 20.0;
+        const double pixels = std::clamp(from.focal * s.radius / q.z(), smallest, largest);
+        const double radius = pixels * q.z() / from.focal;
+        // In steps, so that surfaces look smooth although their normals are noisy.
+        const double facing = std::round(12.0 * std::abs(cosine)) / 12.0;
+        const double light = s.normal.isZero() ? 0.8 : 0.55 + 0.45 * facing;
+        const color c = mixed(color{}, color_of(s.label), light);
+
+        const int x1 = std::min(colors_.width() - 1, static_cast<int>(std::floor(q.x() + pixels)));
+        const int y1 = std::min(colors_.height() - 1, static_cast<int>(std::floor(q.y() + pixels)));
+        for (int y = std::max(0, static_cast<int>(std::ceil(q.y() - pixels))); y <= y1; ++y) {
+            for (int x = std::max(0, static_cast<int>(std::ceil(q.x() - pixels))); x <= x1; ++x) {
+                double depth = q.z();
+                if (std::hypot(x - q.x(), y - q.y()) > smallest) {
+                    if (s.normal.isZero()) continue;  // no more than a dot
+                    const Eigen::Vector3d ray = from.ray(x, y);
+                    depth = s.normal.dot(s.position - from.position) / s.normal.dot(ray);
+                    const Eigen::Vector3d hit = from.position + depth * ray;
+                    if (!((hit - s.position).squaredNorm() <= radius * radius)) continue;
+                }
+                double& nearest = depth_[index(x, y)];
+                if (depth > 0.0 && depth < nearest) {
+                    nearest = depth;
+                    colors_.at(x, y) = c;
+                }
+            }
+        }
+    }
+
+    /// Darkens what lies behind its neighbors in the picture (eye-dome lighting, Boucheny 2009).
+    void darken_steps() {
+        constexpr int distance = 2;      // pixels
+        constexpr double noise = 0.006;  // of the depth: no step
+        constexpr double most = 0.05;
+        constexpr double strength = 6.0;
+        std::vector<double> log_depth = depth_;
+        for (double& depth : log_depth) depth = std::log(depth);
+        for (int y = 0; y < colors_.height(); ++y) {
+            for (int x = 0; x < colors_.width(); ++x) {
+                const double own = log_depth[index(x, y)];
+                if (own == far_away) continue;
+                double behind = 0.0;
+                for (const int dy : {-distance, 0, distance}) {
+                    for (const int dx : {-distance, 0, distance}) {
+                        if (x + dx < 0 || x + dx >= colors_.width()) continue;
+                        if (y + dy < 0 || y + dy >= colors_.height()) continue;
+                        const double step = own - log_depth[index(x + dx, y + dy)];
+                        behind += std::clamp(step - noise, 0.0, most);
+                    }
+                }
+                if (behind > 0.0) {
+                    color& c = colors_.at(x, y);
+                    c = mixed(color{}, c, std::exp(-strength * behind));
+                }
+            }
+        }
+    }
+
+    /// The image at half its size, four pixels becoming one.
+    [[nodiscard]] image halved() const {
+        image half(colors_.width() / 2, colors_.height() / 2);
+        for (int y = 0; y < half.height(); ++y) {
+            for (int x = 0; x < half.width(); ++x) {
+                half.at(x, y) = mixed(
+                    mixed(colors_.at(2 * x, 2 * y), colors_.at(2 * x + 1, 2 * y), 0.5),
+                    mixed(colors_.at(2 * x, 2 * y + 1), colors_.at(2 * x + 1, 2 * y + 1), 0.5),
+                    0.5);
+            }
+        }
+        return half;
+    }
+
+  private:
+    static constexpr double far_away = std::numeric_limits<double>::infinity();
+
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(colors_.width()) +
+               static_cast<std::size_t>(x);
+    }
+
+    image colors_;
+    std::vector<double> depth_;
+};
+
+/// The splats as `from` sees them, `width` x `height` pixels; the points of segments fill it.
+[[nodiscard]] inline image drawn(const std::vector<splat>& splats, camera from, int width,
+                                 int height, backs back) {
+    const auto hidden = [&](const splat& s) {
+        return back == backs::hidden && s.normal.dot(from.position - s.position) < 0.0;
+    };
+    std::vector<Eigen::Vector3d> all;
+    std::vector<Eigen::Vector3d> important;
+    for (const splat& s : splats) {
+        if (hidden(s)) continue;
+        all.push_back(s.position);
+        if (s.label >= 0) important.push_back(s.position);
+    }
+    canvas large(2 * width, 2 * height);  // drawn twice as large, for smooth edges
+    frame(from, 4 * important.size() > all.size() ? important : all, 2 * width, 2 * height);
+    for (const splat& s : splats) {
+        if (!hidden(s)) large.draw(s, from);
+    }
+    large.darken_steps();
+    return large.halved();
+}
+
+}  // namespace picture
