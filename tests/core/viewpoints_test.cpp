@@ -29,6 +29,7 @@ TEST(viewpoint_table, speaks_for_the_cloud_the_scan_or_the_point) {
 
 TEST(viewpoint_table, refuses_points_of_missing_scans_and_wrong_sizes) {
     EXPECT_THROW(gnomon::viewpoint_table({a}, {0, 1}), std::invalid_argument);
+    EXPECT_FALSE(gnomon::viewpoint_table({a, b}, {}).covers(7));
     const auto points = clouds::in_cube(3, 1);
     EXPECT_THROW((void)gnomon::with_viewpoints(points, gnomon::viewpoint_table(std::vector{a, b})),
                  std::invalid_argument);

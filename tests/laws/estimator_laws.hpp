@@ -41,8 +41,13 @@ inline neighborhood_sample sample_neighborhood(std::uint64_t seed) {
 template <gnomon::estimator E>
 gnomon::surfel<gnomon::estimate_t<E>> estimate_one(const E& estimate, const Eigen::Vector3d& p,
                                                    const clouds::cloud& ring) {
-    gnomon::detail::surfel_maker<E, double> make(estimate);
-    return make(p, ring, [](const Eigen::Vector3d& q) { return q; });
+    clouds::cloud points{p};
+    points.insert(points.end(), ring.begin(), ring.end());
+    std::vector<std::vector<gnomon::point_index>> graph(points.size());
+    for (std::size_t j = 1; j < points.size(); ++j) {
+        graph[0].push_back(static_cast<gnomon::point_index>(j));
+    }
+    return gnomon::estimate_normals(points, graph, estimate)[0];
 }
 
 /// A usable normal has unit length, an unusable one is zero, and nothing is ever NaN.

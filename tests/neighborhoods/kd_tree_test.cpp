@@ -100,6 +100,21 @@ TEST(kd_tree, ball_equals_brute_force_rim_included) {
     }
 }
 
+/// Asking for all ties, for nobody in particular, or for more than there are.
+TEST(kd_tree, gives_no_more_than_asked_for) {
+    const auto points = clouds::in_cube(500, 4);
+    const gnomon::kd_tree tree(points);
+    std::vector<gnomon::neighbor> found;
+    for (const auto rule : {gnomon::tie_rule::by_index, gnomon::tie_rule::all}) {
+        tree.nearest({0.5, 0.5, 0.5}, 9, gnomon::kd_tree::no_point, found, rule);
+        EXPECT_EQ(found.size(), 9u);
+        for (const std::size_t k : {std::size_t{500}, std::size_t{1} << 63, ~std::size_t{0}}) {
+            tree.nearest(points[3], k, 3, found, rule);
+            EXPECT_EQ(found.size(), 499u);
+        }
+    }
+}
+
 TEST(kd_tree, answers_for_places_that_are_no_points) {
     const auto points = clouds::in_cube(500, 4);
     const gnomon::kd_tree tree(points);

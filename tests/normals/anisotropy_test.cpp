@@ -73,6 +73,15 @@ TEST(anisotropy, repair_is_the_same_on_any_number_of_threads) {
     for (std::size_t i = 0; i < points.size(); ++i) EXPECT_EQ(one[i].normal, four[i].normal);
 }
 
+TEST(anisotropy, doubles_even_the_largest_k) {
+    const auto points = clouds::sheet(50, 1);
+    const knn policy{.k = ~std::size_t{0} / 2 + 1};
+    auto surface = gnomon::estimate_normals(points, policy, plane_pca{});
+    gnomon::repair_anisotropic(points, surface, policy, plane_pca{},
+                               {.min_aspect_ratio = 1.0, .doublings = 3});
+    EXPECT_EQ(surface[0].neighbors, 49u);
+}
+
 TEST(anisotropy, survives_every_cloud_and_refuses_a_foreign_surface) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

@@ -42,6 +42,22 @@ struct returns_text {
     std::string operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
 };
 
+/// One that forgets to normalise.
+struct too_long {
+    gnomon::plane_fit operator()(const Eigen::Vector3d& p, gnomon::ring_view ring) const {
+        gnomon::plane_fit fit = gnomon::plane_pca{}(p, ring);
+        fit.normal *= 2.0;
+        return fit;
+    }
+};
+
+struct returns_matrix {
+    Eigen::Matrix3d operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+};
+struct returns_float {
+    Eigen::Vector3f operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+};
+static_assert(!gnomon::estimator<returns_matrix> && gnomon::estimator<returns_float>);
 static_assert(gnomon::estimator<gnomon::plane_pca>);
 static_assert(gnomon::estimator<decltype(largest_triangle)>);
 static_assert(gnomon::estimator<decltype([](const auto& p, auto) { return p; })>);
@@ -59,6 +75,7 @@ TEST(estimator, laws_hold_for_a_lambda_that_returns_a_vector) {
 
 TEST(estimator, the_driver_keeps_the_promises_that_an_estimator_breaks) {
     laws::normals_are_unit_or_zero(broken{});
+    laws::normals_are_unit_or_zero(too_long{});
     const auto points = clouds::sheet(20, 1);
     for (const auto& s : gnomon::estimate_normals(points, gnomon::knn{5}, broken{})) {
         EXPECT_EQ(s.trust, gnomon::trust::not_finite);

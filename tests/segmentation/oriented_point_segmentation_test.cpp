@@ -77,6 +77,9 @@ TEST(segment_oriented_points, refuses_bad_arguments) {
     EXPECT_THROW((void)gnomon::segment_oriented_points(fewer, s.surface, thresholds),
                  std::invalid_argument);
     EXPECT_THROW((void)count(s, gnomon::joint_distance{.radius = -1}), std::invalid_argument);
+    gnomon::two_thresholds obtuse = thresholds;
+    obtuse.max_angle = gnomon::degrees(91);
+    EXPECT_THROW((void)count(s, obtuse), std::invalid_argument);
 }
 
 }  // namespace

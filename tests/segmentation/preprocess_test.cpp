@@ -106,6 +106,33 @@ TEST(preprocess, floor_is_not_lifted_by_what_lies_on_it) {
     EXPECT_NEAR(floor->offset, 0.0, 0.002);
 }
 
+/// Neither UTM coordinates nor strays far below and above change what is found.
+TEST(preprocess, finds_floor_and_ceiling_at_utm_coordinates_and_among_strays) {
+    const room truth = furnished_room(3);
+    const Eigen::Matrix3d r = tilted(gnomon::degrees(1.5), 0.7);
+    auto points = clouds::moved(truth.points, r, {6e5, 4.8e6, 100});
+    for (const double z : {-1e6, -500.0, 400.0, 1e9}) points.push_back({6e5, 4.8e6, z});
+    const auto guess = gnomon::guess_floor(points);
+    ASSERT_TRUE(guess);
+    EXPECT_NEAR(guess->offset, 100.0, 0.3);
+    const auto floor = gnomon::find_floor(points, *guess, {.band = 0.2});
+    ASSERT_TRUE(floor);
+    const double error = std::acos(std::min(1.0, floor->normal.dot(r.col(2))));
+    EXPECT_LT(gnomon::radians(error), gnomon::degrees(0.05));
+    const auto ceiling = gnomon::find_ceiling(points, *floor);
+    ASSERT_TRUE(ceiling);
+    EXPECT_NEAR(*ceiling, 2.5, 0.01);
+}
+
+TEST(preprocess, level_with_is_a_rotation_nearly_upside_down) {
+    for (const double tilt : {1e-3, 1e-5, 1e-7, 1e-9, 1e-12}) {
+        const Eigen::Vector3d n(std::sin(tilt) * 0.6, std::sin(tilt) * 0.8, -std::cos(tilt));
+        const auto level = gnomon::level_with({n, 0.0});
+        const Eigen::Matrix3d gram = level.rotation.transpose() * level.rotation;
+        EXPECT_LT((gram - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+    }
+}
+
 TEST(preprocess, level_with_is_a_rotation_for_every_floor) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const gnomon::plane floor{clouds::random_rotation(seed).col(0), 0.7};

@@ -152,6 +152,31 @@ TEST(segment_surfaces, partition_survives_permutation_translation_and_rotation) 
     }
 }
 
+/// A regular grid, where every neighbor is exactly as far as the mean: turning it changes nothing.
+TEST(segment_surfaces, partition_of_a_grid_survives_rotation) {
+    clouds::cloud grid;
+    for (int i = 0; i < 40; ++i) {
+        for (int j = 0; j < 40; ++j) grid.push_back({0.1 * i, 0.1 * j, 0.0});
+    }
+    const knn policy{.k = 4, .ties = gnomon::tie_rule::all};
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        const auto turned = clouds::moved(grid, clouds::random_rotation(seed), {1, 2, 3});
+        const auto surface = gnomon::estimate_normals(turned, policy, plane_pca{});
+        EXPECT_EQ(gnomon::segment_surfaces(turned, surface, {.min_points = 1}).size(), 1u);
+    }
+}
+
+/// At the ends of the range of angles: equal normals are equal, and anything goes at 90 degrees.
+TEST(segment_surfaces, means_what_it_says_at_0_and_90_degrees) {
+    auto s = unit_scenes::corner();
+    EXPECT_EQ(
+        gnomon::segment_surfaces(s.points, s.surface, {.max_angle = gnomon::degrees(0)}).size(),
+        2u);
+    EXPECT_EQ(
+        gnomon::segment_surfaces(s.points, s.surface, {.max_angle = gnomon::degrees(90)}).size(),
+        1u);
+}
+
 TEST(segment_surfaces, survives_every_cloud) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

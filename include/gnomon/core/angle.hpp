@@ -1,12 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// An angle that knows its unit: `degrees(5)` and `radians(0.087)` are the only ways to make one,
-/// so that a threshold is never read in the wrong unit.
+/// An angle that knows its unit: `degrees(5)` and `radians(0.087)` make one, a bare
+/// number does not, so that a threshold is never read in the wrong unit.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
 #include <numbers>
+
+#include <gnomon/core/error.hpp>
 
 namespace gnomon {
 
@@ -41,5 +44,16 @@ class angle {
 
 [[nodiscard]] inline double cos(angle a) { return std::cos(a.radians()); }
 [[nodiscard]] inline double sin(angle a) { return std::sin(a.radians()); }
+
+namespace detail {
+
+/// The cosine that directions at most `a` apart reach, rounding allowed for.
+/// @throws std::invalid_argument  unless `a` lies between 0 and 90 degrees
+[[nodiscard]] inline double min_cosine(angle a) {
+    require(a >= degrees(0) && a <= degrees(90), "an angle must lie between 0 and 90 degrees");
+    return std::max(0.0, cos(a) - 1e-15);
+}
+
+}  // namespace detail
 
 }  // namespace gnomon

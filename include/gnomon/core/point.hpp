@@ -16,8 +16,8 @@
 
 namespace gnomon {
 
-/// Index of a point in its range. 32 bits keep neighbor graphs small; ranges of 2^32 points or
-/// more are refused with `std::invalid_argument`.
+/// Index of a point in its range. 32 bits keep neighbor graphs small; ranges of 2^32 - 1 points
+/// or more are refused with `std::invalid_argument`.
 using point_index = std::uint32_t;
 
 /// Specialise this for a point type of your own:

@@ -24,7 +24,7 @@ class random_stream {
     /// Uniform in [0, 1).
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Uniform in [low, high).
+    /// Uniform in [low, high], up to rounding.
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
     /// Standard normal (Box and Muller 1958).

@@ -14,17 +14,23 @@
 #include <gnomon/core/detail/index_iterator.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/viewpoints.hpp>
 
 namespace gnomon {
 
-/// Models `point_range`; refers to both the points and the indices.
+/// Models `point_range` and `has_viewpoints`; refers to both the points and the indices.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 class subset_view {
   public:
+    /// Those of the selected points.
+    viewpoint_table viewpoints;
+
     /// Precondition: every index is below the number of points.
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
-        : points_(points, std::move(projection)), indices_(indices) {}
+        : viewpoints(viewpoints_of(points).subset(indices)),
+          points_(points, std::move(projection)),
+          indices_(indices) {}
 
     [[nodiscard]] std::size_t size() const { return indices_.size(); }
     [[nodiscard]] auto begin() const { return detail::index_iterator(this, 0); }

@@ -24,10 +24,9 @@ class union_find {
 
     [[nodiscard]] std::size_t size() const { return parent_.size(); }
 
-    /// The smallest element of the set of i, once no other thread unites. Amortised nearly
-    /// constant.
+    /// The smallest element of the set of i, once no other thread unites. O(log n) amortised.
     point_index find(point_index i) {
-        // Path halving: parents only ever decrease, so a lost race costs a step and no more.
+        // Path halving: whatever is stored is an ancestor, so a lost race costs a step, no more.
         for (point_index p = load(i); p != i; p = load(i)) {
             const point_index grandparent = load(p);
             if (grandparent != p) at(i).store(grandparent, std::memory_order_relaxed);

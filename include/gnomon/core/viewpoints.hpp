@@ -8,6 +8,7 @@
 #include <concepts>
 #include <cstddef>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -26,16 +27,19 @@ class viewpoint_table {
     viewpoint_table() = default;
 
     /// One view point [m] for the whole cloud.
-    explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint) : positions_{viewpoint} {}
+    explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint)
+        : positions_{viewpoint}, of_(speaks_for::cloud) {}
 
     /// One view point [m] per point, in the points' order.
     explicit viewpoint_table(std::vector<Eigen::Vector3d> per_point)
-        : positions_(std::move(per_point)), per_point_(true) {}
+        : positions_(std::move(per_point)), of_(speaks_for::point) {}
 
     /// One view point [m] per scan, and for each point the number of its scan.
     /// @throws std::invalid_argument  if a number has no scan
     viewpoint_table(std::vector<Eigen::Vector3d> per_scan, std::vector<point_index> scan_of_point)
-        : positions_(std::move(per_scan)), scan_of_point_(std::move(scan_of_point)) {
+        : positions_(std::move(per_scan)),
+          scan_of_point_(std::move(scan_of_point)),
+          of_(speaks_for::scan) {
         for (const point_index s : scan_of_point_)
             detail::require(s < positions_.size(), "viewpoint_table: a point of a missing scan");
     }
@@ -48,22 +52,42 @@ class viewpoint_table {
 
     /// Whether the table speaks of each of `points` points: always, unless it lists them.
     [[nodiscard]] bool covers(std::size_t points) const {
-        if (per_point_) return positions_.size() == points;
-        return scan_of_point_.empty() || scan_of_point_.size() == points;
+        if (of_ == speaks_for::point) return positions_.size() == points;
+        return of_ != speaks_for::scan || scan_of_point_.size() == points;
     }
 
     /// The view point of point i [m]; the origin where none is known.
     /// Precondition: covers(n) for the n points of the cloud, and i < n.
     [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const {
-        if (positions_.empty()) return Eigen::Vector3d::Zero();
-        if (per_point_) return positions_[i];
-        return positions_[scan_of_point_.empty() ? 0 : scan_of_point_[i]];
+        switch (of_) {
+            case speaks_for::cloud:
+                return positions_.front();
+            case speaks_for::scan:
+                return positions_[scan_of_point_[i]];
+            case speaks_for::point:
+                return positions_[i];
+            case speaks_for::nobody:
+                break;
+        }
+        return Eigen::Vector3d(0.0, 0.0, 0.0);
+    }
+
+    /// The view points of some of the points, in the order of `indices`.
+    /// Precondition: covers(n) and every index is below n.
+    [[nodiscard]] viewpoint_table subset(std::span<const point_index> indices) const {
+        if (of_ == speaks_for::nobody || of_ == speaks_for::cloud) return *this;
+        std::vector<Eigen::Vector3d> chosen;
+        chosen.reserve(indices.size());
+        for (const point_index i : indices) chosen.push_back((*this)[i]);
+        return viewpoint_table(std::move(chosen));
     }
 
   private:
+    enum class speaks_for : char { nobody, cloud, scan, point };
+
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
-    bool per_point_ = false;
+    speaks_for of_ = speaks_for::nobody;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.

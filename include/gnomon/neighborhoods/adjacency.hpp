@@ -43,7 +43,7 @@ class adjacency {
     }
 
     /// Number of points.
-    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
 
     /// The neighbors of point i, in the order in which they were found.
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {

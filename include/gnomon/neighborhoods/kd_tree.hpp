@@ -5,8 +5,10 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -24,6 +26,9 @@ namespace gnomon {
 /// go. Queries are const and thread-safe.
 class kd_tree {
   public:
+    /// A number that no point has.
+    static constexpr std::size_t no_point = std::numeric_limits<std::size_t>::max();
+
     /// Indexes all finite points of the range. O(n log n).
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -47,18 +52,20 @@ class kd_tree {
     [[nodiscard]] std::size_t size() const { return index_of_slot_.size(); }
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
-    /// out, in canonical order; fewer if there are no more, and up to twice as many if the rule
-    /// asks for all ties. O(k log n) on average. Precondition: p is finite.
+    /// out (`no_point` for none), in canonical order; fewer if there are no more, and up to twice
+    /// as many if the rule asks for all ties. O(log n + k^2) on average: meant for k up to
+    /// hundreds. Precondition: p is finite.
     void nearest(const Eigen::Vector3d& p, std::size_t k, std::size_t except,
                  std::vector<neighbor>& found, tie_rule rule = tie_rule::by_index) const {
         found.clear();
-        // One more than asked for; if `except` is not among them, the last one was not needed.
+        k = std::min(k, size());
+        if (k == 0) return;
+        // One more than asked for: `except` may be among them.
         detail::nearest_result_set results(k + 1, rule, found);
         find(p, results);
         for (neighbor& q : found) q.index = index_of_slot_[q.index];
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
-        const std::size_t most = rule == tie_rule::all ? 2 * k : k;
-        if (found.size() > most) found.resize(most);
+        detail::keep_nearest(found, k, rule);
     }
 
     /// Calls visit(neighbor) for each point at most `radius` [m] from `p`, the point at p itself

@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -25,7 +27,7 @@ struct knn {
     std::size_t k = 50;  ///< number of neighbors, at least 1; the thesis's choice, Sec. 4.4.1
     tie_rule ties = tie_rule::by_index;  ///< `all` for what must not depend on the points' order
 
-    /// The stored graph, which every floor above accepts. O(n k log n).
+    /// The stored graph, which every floor above accepts. O(n (log n + k^2)).
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -42,6 +44,9 @@ struct knn {
         detail::require(k > 0, "knn: k must be at least 1");
         return detail::tree_search<knn, R, Proj>(*this, points, std::move(projection));
     }
+
+    template <class R, class Proj = std::identity>
+    void search(const R&& points, Proj projection = {}) const = delete;
 
     /// The ring of point i at p.
     void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,

@@ -11,12 +11,15 @@
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/tree_search.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace gnomon {
 
@@ -41,6 +44,9 @@ struct radius {
         detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
         return detail::tree_search<radius, R, Proj>(*this, points, std::move(projection));
     }
+
+    template <class R, class Proj = std::identity>
+    void search(const R&& points, Proj projection = {}) const = delete;
 
     /// The ring of point i at p.
     void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,

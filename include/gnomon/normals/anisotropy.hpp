@@ -8,6 +8,8 @@
 /// sigma_ar < 0.1. The mean neighbor distance, Eq. (4.2), is renewed with it.
 #pragma once
 
+#include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <numeric>
@@ -18,7 +20,9 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
 
@@ -36,7 +40,8 @@ struct anisotropy_repair {
     int doublings = 1;              ///< how often k may be doubled; the thesis does so once
 };
 
-/// Estimates again, from doubled k, every finite point whose neighborhood is anisotropic.
+/// Estimates again, from doubled k, every finite point whose neighborhood is anisotropic. Orient
+/// the normals afterwards, not before.
 ///
 /// @param surface  what estimate_normals gave for `points` and `policy`; changed in place
 /// @return the number of points that were estimated again
@@ -58,23 +63,21 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
                surface[i].aspect_ratio() >= repair.min_aspect_ratio;
     };
 
-    std::size_t repaired = 0;
+    std::erase_if(flagged, settled);
+    const std::size_t repaired = repair.doublings > 0 ? flagged.size() : 0;
+    if (repaired == 0) return 0;
+
+    const kd_tree tree(points, projection);
     knn wider = policy;
-    for (int round = 0; round < repair.doublings; ++round) {
+    for (int round = 0; round < repair.doublings && !flagged.empty(); ++round) {
+        wider.k = 2 * std::min(wider.k, p.size());
+        const auto found = [&](std::size_t i, std::vector<neighbor>& ring) -> auto& {
+            wider.find(tree, p[i], i, ring);
+            return ring;
+        };
+        const auto index_of = [&flagged](std::size_t f) { return flagged[f]; };
+        detail::estimate_at(run, flagged.size(), index_of, p, found, estimate, surface);
         std::erase_if(flagged, settled);
-        if (flagged.empty()) break;
-        if (round == 0) repaired = flagged.size();
-        wider.k *= 2;
-        const auto search = wider.search(points, projection);
-        for_each_chunk(run, flagged.size(), [&](std::size_t begin, std::size_t end) {
-            detail::surfel_maker<E, detail::coordinate_t<R, Proj>> make(estimate);
-            std::vector<neighbor> ring;
-            for (std::size_t f = begin; f < end; ++f) {
-                const std::size_t i = flagged[f];
-                search(i, ring);
-                surface[i] = make(p[i], ring, [&p](const neighbor& q) { return p[q.index]; });
-            }
-        });
     }
     return repaired;
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Normals for all points of a cloud: any neighborhood, any estimator, one loop.
+/// Normals for all points of a cloud: any neighborhood, any estimator, one loop for all of them.
 #pragma once
 
 #include <algorithm>
@@ -34,30 +34,32 @@ struct surfel : Estimate {
 
 namespace detail {
 
-/// The rings of one chunk of points, brought into estimators one by one through one buffer.
-template <estimator E, class Scalar>
+[[nodiscard]] inline point_index index_in(point_index i) { return i; }
+[[nodiscard]] inline point_index index_in(const neighbor& q) { return q.index; }
+
+/// Makes surface elements of the points of a position_view one by one, through one buffer.
+template <estimator E, class Points>
 class surfel_maker {
   public:
-    explicit surfel_maker(const E& estimate) : estimate_(estimate) {}
+    surfel_maker(const E& estimate, const Points& points) : estimate_(estimate), points_(points) {}
 
-    /// The surface element of the point at `p`, whose neighbors `position_of` gives for each
-    /// element of `ring`.
-    template <class Ring, class PositionOf>
-    surfel<estimate_t<E>> operator()(const Eigen::Vector3d& p, const Ring& ring,
-                                     const PositionOf& position_of) {
+    /// The surface element of point i with the neighbors in `ring`.
+    surfel<estimate_t<E>> operator()(std::size_t i, const auto& ring) {
+        const Eigen::Vector3d p = points_[i];
         surfel<estimate_t<E>> s;
         if (!is_finite(p)) {
             s.trust = trust::not_finite;
-            s.normal = Eigen::Vector3d::Zero();
+            s.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
             return s;
         }
         positions_.clear();
-        for (const auto& q : ring) positions_.push_back(position_of(q));
+        for (const auto& q : ring) positions_.push_back(points_[index_in(q)]);
         static_cast<estimate_t<E>&>(s) = checked(p);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
-            for (const Eigen::Vector3d& q : positions_)
+            for (const Eigen::Vector3d& q : positions_) {
                 s.mean_distance += std::sqrt(squared_distance(q, p));
+            }
             s.mean_distance /= static_cast<double>(positions_.size());
         }
         if (s.trust == trust::good && resolution(p) > coarse * s.mean_distance) {
@@ -72,44 +74,57 @@ class surfel_maker {
 
     /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
     static double resolution(const Eigen::Vector3d& p) {
-        return static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
+        return static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
                std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
     }
 
-    /// The estimate, with the promises kept that an estimator may have broken: a usable normal is
-    /// finite, an unusable one is zero.
+    /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
+    /// unit length, an unusable one is zero.
     estimate_t<E> checked(const Eigen::Vector3d& p) const {
         const ring_view ring(positions_);
-        using result = std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>;
         estimate_t<E> e;
-        if constexpr (normal_estimate<result>) {
+        if constexpr (normal_estimate<estimator_result_t<E>>) {
             e = std::invoke(estimate_, p, ring);
         } else {
-            e.normal = std::invoke(estimate_, p, ring);
-            const double length = e.normal.norm();
-            if (length > 0.0 && std::isfinite(length)) {
-                e.normal /= length;
-                e.trust = trust::good;
-            }
+            e.normal = position(std::invoke(estimate_, p, ring));
+            e.trust = trust::good;
         }
-        if (!e.normal.allFinite()) e.trust = trust::not_finite;
-        if (!usable(e.trust)) e.normal = Eigen::Vector3d::Zero();
+        if (usable(e.trust)) {
+            const double length = e.normal.norm();
+            if (!std::isfinite(length)) e.trust = trust::not_finite;
+            if (length == 0.0) e.trust = trust::degenerate;
+            if (length != 1.0) e.normal /= length;
+        }
+        if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;
     }
 
     const E& estimate_;
+    const Points& points_;
     std::vector<Eigen::Vector3d> positions_;
 };
 
-template <class R, class Proj>
-using coordinate_t = typename position_view<R, Proj>::scalar;
+/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from the rings that ring_of(i,
+/// buffer) gives, which may use the buffer.
+template <execution X, estimator E, class Points>
+void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points, auto&& ring_of,
+                 const E& estimate, std::vector<surfel<estimate_t<E>>>& surface) {
+    for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+        surfel_maker<E, Points> make(estimate, points);
+        std::vector<neighbor> buffer;
+        for (std::size_t j = begin; j < end; ++j) {
+            const std::size_t i = index_of(j);
+            surface[i] = make(i, ring_of(i, buffer));
+        }
+    });
+}
 
 }  // namespace detail
 
 /// The surface elements of all points, in their order: from a stored graph.
 ///
 /// @param points      any point range of n points
-/// @param graph       the neighbors of each of the n points
+/// @param graph       the neighbors of each of the n points, indices below n
 /// @param estimate    any estimator
 /// @param run         `sequential{}` or `threads{n}`; the result is the same bytes
 /// @param projection  makes a point of an element of the range
@@ -127,16 +142,15 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: the graph is of other points");
     std::vector<surfel<estimate_t<E>>> surface(p.size());
-    for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
-        detail::surfel_maker<E, detail::coordinate_t<R, Proj>> make(estimate);
-        for (std::size_t i = begin; i < end; ++i) {
-            surface[i] = make(p[i], graph[i], [&p](point_index j) { return p[j]; });
-        }
-    });
+    const auto listed = [&graph](std::size_t i, auto&) -> decltype(auto) { return graph[i]; };
+    detail::estimate_at(run, p.size(), std::identity{}, p, listed, estimate, surface);
     return surface;
 }
 
-/// The same from a neighborhood policy: searched and estimated point by point, nothing stored.
+/// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
+/// the policy streams.
+/// @throws std::invalid_argument  if the policy's parameters are out of range, e.g. k = 0
+/// Complexity: one search and one call of the estimator per point.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 [[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
@@ -145,15 +159,12 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
+        const auto found = [&search](std::size_t i, std::vector<neighbor>& ring) -> auto& {
+            search(i, ring);
+            return ring;
+        };
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
-            detail::surfel_maker<E, detail::coordinate_t<R, Proj>> make(estimate);
-            std::vector<neighbor> ring;
-            for (std::size_t i = begin; i < end; ++i) {
-                search(i, ring);
-                surface[i] = make(p[i], ring, [&p](const neighbor& q) { return p[q.index]; });
-            }
-        });
+        detail::estimate_at(run, p.size(), std::identity{}, p, found, estimate, surface);
         return surface;
     } else {
         return estimate_normals(points, policy(points, run, projection), estimate, run, projection);

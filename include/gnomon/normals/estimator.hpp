@@ -19,6 +19,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
 
 namespace gnomon {
@@ -28,17 +29,20 @@ using ring_view = std::span<const Eigen::Vector3d>;
 
 /// The least an estimate must tell.
 template <class T>
-concept normal_estimate = requires(const T& estimate) {
-    { estimate.normal } -> std::convertible_to<Eigen::Vector3d>;
-    { estimate.trust } -> std::convertible_to<trust>;
+concept normal_estimate = std::default_initializable<T> && requires(T& estimate) {
+    { estimate.normal } -> std::same_as<Eigen::Vector3d&>;
+    { estimate.trust } -> std::same_as<trust&>;
 };
 
+/// What e(point, ring) gives.
+template <class E>
+using estimator_result_t =
+    std::remove_cvref_t<std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>>;
+
 /// e(point, ring) gives a `normal_estimate` or a bare 3-vector. Const and thread-safe.
-template <class E, class Point = Eigen::Vector3d, class Ring = ring_view>
-concept estimator =
-    std::invocable<const E&, const Point&, Ring> &&
-    (normal_estimate<std::invoke_result_t<const E&, const Point&, Ring>> ||
-     std::convertible_to<std::invoke_result_t<const E&, const Point&, Ring>, Eigen::Vector3d>);
+template <class E>
+concept estimator = std::invocable<const E&, const Eigen::Vector3d&, ring_view> &&
+                    (normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
 
 /// What the driver makes of a bare vector: normalised, with a trust that tells whether it could be.
 struct bare_estimate {
@@ -47,11 +51,8 @@ struct bare_estimate {
 };
 
 /// The type that an estimator's results are kept in.
-template <class E>
-    requires estimator<E>
-using estimate_t = std::conditional_t<
-    normal_estimate<std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>>,
-    std::remove_cvref_t<std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>>,
-    bare_estimate>;
+template <estimator E>
+using estimate_t = std::conditional_t<normal_estimate<estimator_result_t<E>>, estimator_result_t<E>,
+                                      bare_estimate>;
 
 }  // namespace gnomon

@@ -41,7 +41,7 @@ struct two_thresholds {
 
     [[nodiscard]] bool accepts(double, const Eigen::Vector3d& n_i,
                                const Eigen::Vector3d& n_j) const {
-        return std::abs(n_i.dot(n_j)) >= cos(max_angle);
+        return std::abs(n_i.dot(n_j)) >= detail::min_cosine(max_angle);
     }
 };
 
@@ -66,8 +66,8 @@ struct oriented_point_segmentation {
 ///
 /// @param surface  elements with a member `normal`, one per point; zero vectors join nothing
 /// @return the segments of at least `min_points` points, largest first
-/// @throws std::invalid_argument  if surface and points differ in size, or for a radius that is
-///                                negative, infinite or NaN
+/// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
+///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
 /// Complexity: as segment_points.
 template <class R, indexed_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>

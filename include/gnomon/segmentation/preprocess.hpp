@@ -97,14 +97,16 @@ template <class R, class Proj = std::identity>
     plane floor = guess;
     double band = search.band;
     for (int refit = 0; refit < 50; ++refit) {
-        const Eigen::Vector3d origin(floor.offset * floor.normal);
+        // Moments about a point of the band, so that nothing is lost far from the origin.
+        std::optional<Eigen::Vector3d> origin;
         moments m;
         std::vector<double> distances;
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_finite(p[i])) continue;
             const double d = std::abs(floor.signed_distance(p[i]));
             if (d > band) continue;
-            m.add(p[i] - origin);
+            if (!origin) origin = p[i];
+            m.add(p[i] - *origin);
             distances.push_back(d);
         }
         if (m.count < 3) return std::nullopt;
@@ -113,7 +115,8 @@ template <class R, class Proj = std::identity>
 
         plane next{e.vectors.col(2), 0.0};
         if (next.normal.dot(floor.normal) < 0.0) next.normal = -next.normal;
-        next.offset = next.normal.dot(origin + m.sum / static_cast<double>(m.count));
+        const Eigen::Vector3d centroid = *origin + m.sum / static_cast<double>(m.count);
+        next.offset = next.normal.dot(centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
         // deviations of what lies there (1.4826 times the median for a normal distribution).
@@ -122,7 +125,7 @@ template <class R, class Proj = std::identity>
         const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
 
         const bool rests = (next.normal - floor.normal).norm() < 1e-9 &&
-                           std::abs(next.offset - floor.offset) < 1e-9 &&
+                           std::abs(floor.signed_distance(centroid)) < 1e-8 &&
                            std::abs(narrower - band) < 1e-9;
         floor = next;
         band = narrower;
@@ -161,6 +164,7 @@ template <class R, class Proj = std::identity>
         sum += height;
         ++near;
     }
+    if (near == 0) return std::nullopt;
     return sum / static_cast<double>(near);
 }
 
@@ -170,8 +174,10 @@ template <class R, class Proj = std::identity>
     const Eigen::Vector3d& n = floor.normal;
     leveling level;
     level.lift = -floor.offset;
-    const double h = 1.0 + n.z();
-    if (h > 1e-12) {
+    // 1 + n_z, without cancellation where the scan is nearly upside down.
+    const double across = n.x() * n.x() + n.y() * n.y();
+    const double h = n.z() >= 0.0 ? 1.0 + n.z() : across / (1.0 - n.z());
+    if (h > 0.0) {
         // Rodrigues' formula for the rotation about n x z, written out.
         level.rotation << 1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x(),  //
             -n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y(),                //

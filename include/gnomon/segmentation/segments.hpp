@@ -36,7 +36,7 @@ class segments {
             last = std::max(last, l);
         }
         // Counting sort by label; the points of a group stay in ascending order.
-        begin_.assign(static_cast<std::size_t>(last + 1) + 1, 0);
+        begin_.assign(static_cast<std::size_t>(std::int64_t{last} + 2), 0);
         for (const std::int32_t l : labels_) {
             if (l != unlabeled) ++begin_[static_cast<std::size_t>(l) + 1];
         }
@@ -50,7 +50,7 @@ class segments {
     }
 
     /// Number of segments.
-    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+    [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
     [[nodiscard]] bool empty() const { return size() == 0; }
 
     /// The indices of the points of segment `label`, ascending.

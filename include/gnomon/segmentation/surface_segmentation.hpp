@@ -51,24 +51,28 @@ template <surfel_range Surface>
 class smooth_link {
   public:
     smooth_link(const Surface& surface, const surface_segmentation& options, std::size_t points)
-        : surface_(surface), options_(options), min_cosine_(cos(options.max_angle)) {
+        : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
         require(std::ranges::size(surface) == points,
                 "segment_surfaces: the surface is of other points");
         require(options.max_distance >= 0.0,
                 "segment_surfaces: max_distance must not be negative or NaN");
-        require(options.max_angle >= degrees(0) && options.max_angle <= degrees(90),
-                "segment_surfaces: max_angle must lie between 0 and 90 degrees");
     }
 
-    /// rho_s of point i [m], Eq. (4.3)
+    /// rho_s of point i [m], Eq. (4.3). The margin lets a neighbor in that is as far as the mean
+    /// says but for rounding, as on regular grids, so that turning the cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
-        return std::min(double{surface_[i].mean_distance}, options_.max_distance);
+        constexpr double margin = 1.0 + 1e-9;
+        return std::min(margin * static_cast<double>(surface_[i].mean_distance),
+                        options_.max_distance);
     }
 
     /// Whether the normals agree; never for a missing normal, the zero vector.
     [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
-        const double cosine = surface_[i].normal.dot(surface_[q.index].normal);
-        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_ && cosine != 0.0;
+        const Eigen::Vector3d& n_i = surface_[i].normal;
+        const Eigen::Vector3d& n_j = surface_[q.index].normal;
+        if (n_i.isZero(0.0) || n_j.isZero(0.0)) return false;
+        const double cosine = n_i.dot(n_j);
+        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
     }
 
   private:
@@ -102,8 +106,9 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 }
 
 /// The same over a stored graph: no second search, and of the points within the radius only those
-/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from,
-/// it differs from the exact one only at points repaired from a wider neighborhood.
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was
+/// estimated from it differs from the exact one only at points repaired from a wider neighborhood,
+/// and where more neighbors tie than the graph lists.
 /// @throws std::invalid_argument  also if graph and points differ in size
 template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
           class Proj = std::identity>

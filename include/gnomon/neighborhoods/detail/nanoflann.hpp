@@ -6,6 +6,7 @@
 /// result sets report a limit that is a hair larger and then decide by themselves, exactly.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <vector>
@@ -60,10 +61,12 @@ struct nanoflann_metric {
 using nanoflann_tree =
     nanoflann::KDTreeSingleIndexAdaptor<nanoflann_metric, nanoflann_points, 3, point_index>;
 
-/// A limit that nanoflann must not prune at: its bounds err by a few ulp per level of the tree.
-[[nodiscard]] inline double just_beyond(double squared_distance) {
-    constexpr double margin = 1.0 + 1e-12;
-    return squared_distance * margin + std::numeric_limits<double>::min();
+/// A limit that nanoflann must not prune at: its bounds err by a few ulp per level of the tree, and
+/// ties may be a little farther than the k-th.
+[[nodiscard]] inline double just_beyond(double squared_distance,
+                                        tie_rule rule = tie_rule::by_index) {
+    const double margin = rule == tie_rule::all ? 2e-9 : 1e-12;
+    return squared_distance * (1.0 + margin) + std::numeric_limits<double>::min();
 }
 
 /// What both result sets share with every nanoflann version.
@@ -74,43 +77,48 @@ struct nanoflann_result_set {
     static void sort() {}  // ours keep their own order
 };
 
-/// Keeps the k nearest points in canonical order, and those that the rule adds to them.
+/// Cuts a list in canonical order to the k nearest, and those that the rule adds to them.
+/// Precondition: k > 0.
+inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule rule) {
+    if (found.size() <= k) return;
+    std::size_t kept = k;
+    if (rule == tie_rule::all) {
+        const double limit = found[k - 1].squared_distance * (1.0 + 1e-9);
+        while (kept < std::min(found.size(), 2 * k) && found[kept].squared_distance <= limit) {
+            ++kept;
+        }
+    }
+    found.resize(kept);
+}
+
+/// Collects the k nearest points in canonical order, and those that the rule adds to them.
 class nearest_result_set : public nanoflann_result_set {
   public:
     nearest_result_set(std::size_t k, tie_rule rule, std::vector<neighbor>& found)
-        : k_(k), most_(rule == tie_rule::all ? 2 * k : k), found_(found) {}
+        : k_(k), rule_(rule), found_(found) {}
 
     [[nodiscard]] std::size_t size() const { return found_.size(); }
     [[nodiscard]] bool empty() const { return found_.empty(); }
     [[nodiscard]] bool full() const { return found_.size() >= k_; }
     [[nodiscard]] double worstDist() const {
-        return full() ? just_beyond(limit()) : std::numeric_limits<double>::infinity();
+        return full() ? just_beyond(found_.back().squared_distance, rule_)
+                      : std::numeric_limits<double>::infinity();
     }
 
     bool addPoint(double squared_distance, point_index slot) {
         const neighbor candidate{squared_distance, slot};
-        if (found_.size() < most_) {
-            if (full() && squared_distance > limit()) return true;
-            found_.push_back(candidate);
-        } else if (!(candidate < found_.back())) {
-            return true;
-        }
+        if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return true;
+        found_.push_back(candidate);
         neighbor* place = &found_.back();
         for (; place != found_.data() && candidate < place[-1]; --place) *place = place[-1];
         *place = candidate;
-        while (found_.size() > k_ && found_.back().squared_distance > limit()) found_.pop_back();
+        keep_nearest(found_, k_, rule_);
         return true;
     }
 
   private:
-    /// The squared distance up to which a point counts as near as the k-th. Precondition: full().
-    [[nodiscard]] double limit() const {
-        const double kth = found_[k_ - 1].squared_distance;
-        return most_ == k_ ? kth : kth * (1.0 + 1e-9);
-    }
-
     std::size_t k_;
-    std::size_t most_;
+    tie_rule rule_;
     std::vector<neighbor>& found_;
 };
 

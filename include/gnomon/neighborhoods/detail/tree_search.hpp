@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What the tree-based policies share: points with a kd-tree over them, and the two doors.
+/// What the tree-based policies share: points with a kd-tree over them.
 #pragma once
 
 #include <cstddef>

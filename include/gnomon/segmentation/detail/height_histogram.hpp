@@ -30,14 +30,25 @@ class height_histogram {
             if (h >= from) heights.push_back(h);
         }
         if (heights.empty()) return;
-        const auto [low, high] = std::minmax_element(heights.begin(), heights.end());
-        lowest_ = *low;
-        // A stray point at 1e9 m must not ask for 1e11 bins: what is too high goes to the last one.
+        // A stray point a kilometer below or above must neither be the floor nor ask for all
+        // memory: the histogram spans all but one in a thousand at either end, and a million bins
+        // at most.
+        const auto quantile = [&heights](std::size_t rank) {
+            const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(rank);
+            std::nth_element(heights.begin(), nth, heights.end());
+            return *nth;
+        };
+        const std::size_t cut = heights.size() / 1000;
+        lowest_ = quantile(cut);
+        const double highest = quantile(heights.size() - 1 - cut);
         constexpr double most_bins = 1 << 20;
-        const double bins = std::min(std::floor((*high - *low) / bin) + 1.0, most_bins);
-        counts_.assign(static_cast<std::size_t>(bins), 0);
+        counts_.assign(static_cast<std::size_t>(std::min((highest - lowest_) / bin, most_bins)) + 1,
+                       0);
         for (const double h : heights) {
-            ++counts_[static_cast<std::size_t>(std::min((h - lowest_) / bin, bins - 1.0))];
+            const double b = std::floor((h - lowest_) / bin);
+            if (b >= 0.0 && b < static_cast<double>(counts_.size())) {
+                ++counts_[static_cast<std::size_t>(b)];
+            }
         }
     }
 
