@@ -34,8 +34,7 @@ struct gaussian_pca {
             outer += w * d * d.transpose();
         }
         mean /= weights;
-        const auto e =
-            gnomon::symmetric_eigen(outer / weights - mean * mean.transpose());
+        const auto e = gnomon::symmetric_eigen(outer / weights - mean * mean.transpose());
 
         gnomon::plane_fit fit;
         fit.spectrum = gnomon::spectrum(e.values);
@@ -47,8 +46,8 @@ struct gaussian_pca {
 // [own_estimator]
 
 void report(const char* name, const gnomon::true_scan& truth, const auto& estimator) {
-    const auto surface = gnomon::estimate_normals(truth.scan, gnomon::knn{.k = 50}, estimator,
-                                                  gnomon::threads{});
+    const auto surface =
+        gnomon::estimate_normals(truth.scan, gnomon::knn{.k = 50}, estimator, gnomon::threads{});
     std::printf("%-28s gamma %.4f\n", name, gnomon::mean_gamma(surface, truth.normals));
 }
 

@@ -10,8 +10,8 @@ int main(int argc, char** argv) try {
     const gnomon::scan scan = argc > 1 ? gnomon::io::read(argv[1])  // .ply, .pcd, .vtk, text
                                        : gnomon::simulate(gnomon::box_and_cylinder{}).scan;
 
-    const gnomon::knn neighbors{.k = 50};
-    auto surface = gnomon::estimate_normals(scan, neighbors, gnomon::plane_pca{}, gnomon::threads{});
+    const gnomon::knn nearest{.k = 50};
+    auto surface = gnomon::estimate_normals(scan, nearest, gnomon::plane_pca{}, gnomon::threads{});
     gnomon::orient_normals(scan, surface);  // towards where each point was seen from
 
     const gnomon::segments parts =

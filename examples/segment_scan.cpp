@@ -35,6 +35,7 @@ using json = nlohmann::ordered_json;
 struct result {
     std::vector<surfel> surface;
     gnomon::segments segments;
+    std::vector<bool> left_out;  ///< with the floor
     double normals_seconds = 0.0;
     double segmentation_seconds = 0.0;
 };
@@ -51,6 +52,7 @@ gnomon::scan scan_of(const options& o) {
 template <class Points>
 result surfaces_of(const Points& points, const options& o) {
     result r;
+    r.left_out.assign(points.size(), false);
     const stopwatch normals;
     {
         const progress telling("estimating normals");
@@ -89,9 +91,11 @@ result surfaces_without_floor(const gnomon::scan& scan, const options& o) {
     result part = surfaces_of(
         gnomon::with_viewpoints(rest, gnomon::viewpoint_table(std::move(viewpoints))), o);
 
+    part.left_out.assign(scan.size(), true);
     std::vector<surfel> surface(scan.size());
     std::vector<std::int32_t> labels(scan.size(), gnomon::unlabeled);
     for (std::size_t i = 0; i < kept.size(); ++i) {
+        part.left_out[kept[i]] = false;
         surface[kept[i]] = part.surface[i];
         labels[kept[i]] = part.segments.labels()[i];
     }
@@ -121,11 +125,11 @@ json description_of(const gnomon::scan& scan, const gnomon::segments& segments) 
     return list;
 }
 
-/// The finite points as they are drawn.
+/// The points as they are drawn: those that are finite and were not left out.
 std::vector<picture::splat> splats_of(const gnomon::scan& scan, const result& r) {
     std::vector<picture::splat> splats;
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (!gnomon::is_finite(scan.points[i])) continue;
+        if (!gnomon::is_finite(scan.points[i]) || r.left_out[i]) continue;
         const surfel& s = r.surface[i];
         // k points that fill a disc at the distance rho_bar on average are 1.5 rho_bar sqrt(pi / k)
         // apart; a little more than that closes the surface, for points that lie in rows too.

@@ -77,7 +77,7 @@ class canvas {
     /// Darkens what lies behind its neighbors in the picture (eye-dome lighting, Boucheny 2009).
     void darken_steps() {
         constexpr int distance = 2;      // pixels
-        constexpr double noise = 0.006;  // of the depth: no step
+        constexpr double noise = 0.012;  // of the depth: no step
         constexpr double most = 0.05;
         constexpr double strength = 6.0;
         std::vector<double> log_depth = depth_;

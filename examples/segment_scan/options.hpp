@@ -62,21 +62,23 @@ Number number_of(const std::string& option, std::string_view text) {
     Number number{};
     const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
     if (problem == std::errc::result_out_of_range) {
-        throw usage_error(option + ": " + std::string(text) + " is out of range");
+        throw usage_error(option + ": " + std::string(text) + " is too large or too small");
     }
     if (problem != std::errc{} || end != text.data() + text.size()) {
-        throw usage_error(option + ": '" + std::string(text) + "' is not a number" +
-                          (std::is_integral_v<Number> ? " like 50" : ""));
+        throw usage_error(
+            option + ": '" + std::string(text) + "' is not " +
+            (std::is_integral_v<Number> ? "a whole number of 0 or more" : "a number"));
     }
     return number;
 }
 
-/// The same, and in [low, high].
+/// The same, and in [low, high], which `range` puts in words.
 template <class Number>
-Number number_within(const std::string& option, std::string_view text, Number low, Number high) {
+Number number_within(const std::string& option, std::string_view text, Number low, Number high,
+                     const char* range) {
     const Number number = number_of<Number>(option, text);
     if (!(number >= low && number <= high)) {
-        throw usage_error(option + ": " + std::string(text) + " is out of range");
+        throw usage_error(option + ": must be " + range + ", not " + std::string(text));
     }
     return number;
 }
@@ -87,7 +89,7 @@ inline Eigen::Vector3d vector_of(const std::string& option, std::string_view tex
     for (int i = 0; i < 3; ++i) {
         const std::size_t comma = text.find(',');
         if ((comma == text.npos) != (i == 2)) throw usage_error(option + ": wants X,Y,Z");
-        v[i] = number_within(option, text.substr(0, comma), -1e9, 1e9);
+        v[i] = number_within(option, text.substr(0, comma), -1e9, 1e9, "within 1e9 m");
         if (i < 2) text.remove_prefix(comma + 1);
     }
     return v;
@@ -103,20 +105,23 @@ inline constexpr option_with_value options_with_value[] = {
     {"--out", [](options& o, const std::string&, const std::string& value) { o.out = value; }},
     {"--k",
      [](options& o, const std::string& name, const std::string& value) {
-         o.neighborhood.k = number_within<std::size_t>(name, value, 1, 100'000);
+         o.neighborhood.k =
+             number_within<std::size_t>(name, value, 1, 100'000, "from 1 to 100,000");
      }},
     {"--max-angle",
      [](options& o, const std::string& name, const std::string& value) {
-         o.segmentation.max_angle = gnomon::degrees(number_within(name, value, 0.0, 90.0));
+         o.segmentation.max_angle =
+             gnomon::degrees(number_within(name, value, 0.0, 90.0, "from 0 to 90"));
      }},
     {"--max-distance",
      [](options& o, const std::string& name, const std::string& value) {
          constexpr double infinity = std::numeric_limits<double>::infinity();
-         o.segmentation.max_distance = number_within(name, value, 0.0, infinity);
+         o.segmentation.max_distance = number_within(name, value, 0.0, infinity, "0 or more");
      }},
     {"--min-points",
      [](options& o, const std::string& name, const std::string& value) {
-         o.segmentation.min_points = number_within<std::size_t>(name, value, 1, 1'000'000'000);
+         o.segmentation.min_points =
+             number_within<std::size_t>(name, value, 1, 1'000'000'000, "from 1 to 1,000,000,000");
      }},
     {"--viewpoint", [](options& o, const std::string& name,
                        const std::string& value) { o.viewpoint = vector_of(name, value); }},
@@ -127,7 +132,7 @@ inline constexpr option_with_value options_with_value[] = {
      }},
     {"--threads",
      [](options& o, const std::string& name, const std::string& value) {
-         o.threads.n = number_within(name, value, 0u, 1024u);
+         o.threads.n = number_within(name, value, 0u, 1024u, "from 0 to 1,024");
      }},
 };
 
