@@ -85,11 +85,7 @@ result surfaces_without_floor(const gnomon::scan& scan, const options& o) {
     std::printf("floor%s left out, %s left\n", ceiling ? " and ceiling" : "",
                 picture::counted(kept.size(), "point").c_str());
 
-    std::vector<Eigen::Vector3d> viewpoints;
-    for (const gnomon::point_index i : kept) viewpoints.push_back(scan.viewpoints[i]);
-    const gnomon::subset_view rest(scan, kept);
-    result part = surfaces_of(
-        gnomon::with_viewpoints(rest, gnomon::viewpoint_table(std::move(viewpoints))), o);
+    result part = surfaces_of(gnomon::subset_view(scan, kept), o);
 
     part.left_out.assign(scan.size(), true);
     std::vector<surfel> surface(scan.size());
