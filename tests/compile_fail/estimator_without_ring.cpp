@@ -1,5 +1,5 @@
-// expect: constraints? not satisfied(.|\n)*estimator|no matching function(.|\n)*estimator
 // SPDX-License-Identifier: BSL-1.0
+// expect: constraints? not satisfied(.|\n)*estimator|no matching function(.|\n)*estimator
 #include <vector>
 
 #include <gnomon/neighborhoods/knn.hpp>
