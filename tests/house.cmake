@@ -56,6 +56,8 @@ foreach(floor IN LISTS floors)
         add_executable(${floor}_tests_single ${sources})
         target_link_libraries(${floor}_tests_single PRIVATE single_settings)
         target_precompile_headers(${floor}_tests_single REUSE_FROM single_headers)
+        set_target_properties(${floor}_tests_single PROPERTIES
+            UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)
         add_test(NAME single_header.${floor} COMMAND ${floor}_tests_single)
         set_tests_properties(single_header.${floor} PROPERTIES LABELS single_header TIMEOUT 600)
     endif()
