@@ -864,6 +864,9 @@ class subset_view {
           points_(points, std::move(projection)),
           indices_(indices) {}
 
+    subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
+    subset_view(const R& points, std::vector<point_index>&& indices, Proj p = {}) = delete;
+
     [[nodiscard]] std::size_t size() const { return indices_.size(); }
     [[nodiscard]] auto begin() const { return detail::index_iterator(this, 0); }
     [[nodiscard]] auto end() const {
@@ -1646,8 +1649,8 @@ class surfel_maker {
         if (usable(e.trust)) {
             const double length = e.normal.norm();
             if (!std::isfinite(length)) e.trust = trust::not_finite;
-            if (length == 0.0) e.trust = trust::degenerate;
-            if (length != 1.0) e.normal /= length;
+            if (length < 1e-150) e.trust = trust::degenerate;
+            if (usable(e.trust) && length != 1.0) e.normal /= length;
         }
         if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;
@@ -1756,7 +1759,7 @@ struct anisotropy_repair {
 ///
 /// @param surface  what estimate_normals gave for `points` and `policy`; changed in place
 /// @return the number of points that were estimated again
-/// @throws std::invalid_argument  if surface and points differ in size
+/// @throws std::invalid_argument  if surface and points differ in size, or k is 0
 /// Complexity: one kd-tree, and one search and estimate per flagged point and doubling.
 template <class R, estimator E, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj> && has_aspect_ratio<estimate_t<E>>
@@ -1774,6 +1777,7 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
                surface[i].aspect_ratio() >= repair.min_aspect_ratio;
     };
 
+    detail::require(policy.k > 0, "repair_anisotropic: k must be at least 1");
     std::erase_if(flagged, settled);
     const std::size_t repaired = repair.doublings > 0 ? flagged.size() : 0;
     if (repaired == 0) return 0;
@@ -1781,7 +1785,8 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
     const kd_tree tree(points, projection);
     knn wider = policy;
     for (int round = 0; round < repair.doublings && !flagged.empty(); ++round) {
-        wider.k = 2 * std::min(wider.k, p.size());
+        if (wider.k >= p.size()) break;  // there are no more neighbors to be had
+        wider.k *= 2;
         const auto found = [&](std::size_t i, std::vector<neighbor>& ring) -> auto& {
             wider.find(tree, p[i], i, ring);
             return ring;
@@ -2094,6 +2099,9 @@ namespace detail {
 
 namespace gnomon::detail {
 
+/// The radius of a point that joins nothing, be it as near as it may.
+inline constexpr double no_search = -1.0;
+
 /// Joins points to segments. Points that are not finite stay unlabeled.
 template <class Points>
 class linker {
@@ -2128,7 +2136,9 @@ class linker {
     void link_listed(const G& graph, auto&& radius_of, auto&& link, const X& run) {
         for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double limit = radius_of(i) * radius_of(i);
+                const double radius = radius_of(i);
+                if (!(radius >= 0.0)) continue;
+                const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
                     const neighbor q{squared_distance(p, points_[j]), j};
@@ -2148,7 +2158,7 @@ class linker {
   private:
     void link_one(const kd_tree& tree, std::size_t i, double radius, auto&& link) {
         const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return;
+        if (!is_finite(p) || !(radius >= 0.0)) return;
         tree.for_each_within(p, radius, [&](const neighbor& q) {
             if (q.index != i && link(i, q)) sets_.unite(static_cast<point_index>(i), q.index);
         });
@@ -2228,7 +2238,9 @@ template <class R, indexed_range Surface, oriented_dissimilarity D, execution X 
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
     const kd_tree tree(points, std::move(projection));
-    const auto radius_of = [&](std::size_t) { return double{dissimilarity.radius}; };
+    const auto radius_of = [&](std::size_t i) {
+        return surface[i].normal.isZero(0.0) ? detail::no_search : double{dissimilarity.radius};
+    };
     const auto similar = [&](std::size_t i, const neighbor& q) {
         const Eigen::Vector3d& n_i = surface[i].normal;
         const Eigen::Vector3d& n_j = surface[q.index].normal;
@@ -2443,7 +2455,7 @@ template <class R, class Proj = std::identity>
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_finite(p[i])) continue;
             const double d = std::abs(floor.signed_distance(p[i]));
-            if (d > band) continue;
+            if (!(d <= band)) continue;
             if (!origin) origin = p[i];
             m.add(p[i] - *origin);
             distances.push_back(d);
@@ -2543,7 +2555,7 @@ template <class R, class Proj = std::identity>
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (height <= bands.floor) continue;
+        if (!(height > bands.floor)) continue;
         if (ceiling && height >= *ceiling - bands.ceiling) continue;
         kept.push_back(static_cast<point_index>(i));
     }
@@ -2594,9 +2606,11 @@ class smooth_link {
                 "segment_surfaces: max_distance must not be negative or NaN");
     }
 
-    /// rho_s of point i [m], Eq. (4.3). The margin lets a neighbor in that is as far as the mean
-    /// says but for rounding, as on regular grids, so that turning the cloud changes nothing.
+    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
+    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
+    /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
+        if (surface_[i].normal.isZero(0.0)) return no_search;
         constexpr double margin = 1.0 + 1e-9;
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);

@@ -82,6 +82,13 @@ TEST(anisotropy, doubles_even_the_largest_k) {
     EXPECT_EQ(surface[0].neighbors, 49u);
 }
 
+TEST(anisotropy, refuses_k_zero) {
+    const auto points = clouds::sheet(50, 1);
+    auto surface = gnomon::estimate_normals(points, knn{5}, plane_pca{});
+    EXPECT_THROW(gnomon::repair_anisotropic(points, surface, knn{0}, plane_pca{}),
+                 std::invalid_argument);
+}
+
 TEST(anisotropy, survives_every_cloud_and_refuses_a_foreign_surface) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

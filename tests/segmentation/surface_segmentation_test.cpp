@@ -177,6 +177,16 @@ TEST(segment_surfaces, means_what_it_says_at_0_and_90_degrees) {
         1u);
 }
 
+/// A negative or NaN distance in a surface made by hand joins nothing.
+TEST(segment_surfaces, joins_nothing_within_no_distance) {
+    for (const double bad : {-5.0, clouds::nan}) {
+        auto s = unit_scenes::smooth();
+        for (auto& e : s.surface) e.mean_distance = bad;
+        EXPECT_TRUE(gnomon::segment_surfaces(s.points, s.surface).empty());
+        EXPECT_TRUE(gnomon::segment_surfaces(s.points, knn{5}(s.points), s.surface).empty());
+    }
+}
+
 TEST(segment_surfaces, survives_every_cloud) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

@@ -8,6 +8,7 @@
 #include <functional>
 #include <span>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -31,6 +32,9 @@ class subset_view {
         : viewpoints(viewpoints_of(points).subset(indices)),
           points_(points, std::move(projection)),
           indices_(indices) {}
+
+    subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
+    subset_view(const R& points, std::vector<point_index>&& indices, Proj p = {}) = delete;
 
     [[nodiscard]] std::size_t size() const { return indices_.size(); }
     [[nodiscard]] auto begin() const { return detail::index_iterator(this, 0); }

@@ -45,7 +45,7 @@ struct anisotropy_repair {
 ///
 /// @param surface  what estimate_normals gave for `points` and `policy`; changed in place
 /// @return the number of points that were estimated again
-/// @throws std::invalid_argument  if surface and points differ in size
+/// @throws std::invalid_argument  if surface and points differ in size, or k is 0
 /// Complexity: one kd-tree, and one search and estimate per flagged point and doubling.
 template <class R, estimator E, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj> && has_aspect_ratio<estimate_t<E>>
@@ -63,6 +63,7 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
                surface[i].aspect_ratio() >= repair.min_aspect_ratio;
     };
 
+    detail::require(policy.k > 0, "repair_anisotropic: k must be at least 1");
     std::erase_if(flagged, settled);
     const std::size_t repaired = repair.doublings > 0 ? flagged.size() : 0;
     if (repaired == 0) return 0;
@@ -70,7 +71,8 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
     const kd_tree tree(points, projection);
     knn wider = policy;
     for (int round = 0; round < repair.doublings && !flagged.empty(); ++round) {
-        wider.k = 2 * std::min(wider.k, p.size());
+        if (wider.k >= p.size()) break;  // there are no more neighbors to be had
+        wider.k *= 2;
         const auto found = [&](std::size_t i, std::vector<neighbor>& ring) -> auto& {
             wider.find(tree, p[i], i, ring);
             return ring;

@@ -92,8 +92,8 @@ class surfel_maker {
         if (usable(e.trust)) {
             const double length = e.normal.norm();
             if (!std::isfinite(length)) e.trust = trust::not_finite;
-            if (length == 0.0) e.trust = trust::degenerate;
-            if (length != 1.0) e.normal /= length;
+            if (length < 1e-150) e.trust = trust::degenerate;
+            if (usable(e.trust) && length != 1.0) e.normal /= length;
         }
         if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;

@@ -82,7 +82,9 @@ template <class R, indexed_range Surface, oriented_dissimilarity D, execution X 
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
     const kd_tree tree(points, std::move(projection));
-    const auto radius_of = [&](std::size_t) { return double{dissimilarity.radius}; };
+    const auto radius_of = [&](std::size_t i) {
+        return surface[i].normal.isZero(0.0) ? detail::no_search : double{dissimilarity.radius};
+    };
     const auto similar = [&](std::size_t i, const neighbor& q) {
         const Eigen::Vector3d& n_i = surface[i].normal;
         const Eigen::Vector3d& n_j = surface[q.index].normal;

@@ -104,7 +104,7 @@ template <class R, class Proj = std::identity>
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_finite(p[i])) continue;
             const double d = std::abs(floor.signed_distance(p[i]));
-            if (d > band) continue;
+            if (!(d <= band)) continue;
             if (!origin) origin = p[i];
             m.add(p[i] - *origin);
             distances.push_back(d);
@@ -204,7 +204,7 @@ template <class R, class Proj = std::identity>
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (height <= bands.floor) continue;
+        if (!(height > bands.floor)) continue;
         if (ceiling && height >= *ceiling - bands.ceiling) continue;
         kept.push_back(static_cast<point_index>(i));
     }

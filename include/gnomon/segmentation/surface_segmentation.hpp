@@ -58,9 +58,11 @@ class smooth_link {
                 "segment_surfaces: max_distance must not be negative or NaN");
     }
 
-    /// rho_s of point i [m], Eq. (4.3). The margin lets a neighbor in that is as far as the mean
-    /// says but for rounding, as on regular grids, so that turning the cloud changes nothing.
+    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
+    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
+    /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
+        if (surface_[i].normal.isZero(0.0)) return no_search;
         constexpr double margin = 1.0 + 1e-9;
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);

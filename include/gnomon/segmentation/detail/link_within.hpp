@@ -22,6 +22,9 @@
 
 namespace gnomon::detail {
 
+/// The radius of a point that joins nothing, be it as near as it may.
+inline constexpr double no_search = -1.0;
+
 /// Joins points to segments. Points that are not finite stay unlabeled.
 template <class Points>
 class linker {
@@ -56,7 +59,9 @@ class linker {
     void link_listed(const G& graph, auto&& radius_of, auto&& link, const X& run) {
         for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                const double limit = radius_of(i) * radius_of(i);
+                const double radius = radius_of(i);
+                if (!(radius >= 0.0)) continue;
+                const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
                     const neighbor q{squared_distance(p, points_[j]), j};
@@ -76,7 +81,7 @@ class linker {
   private:
     void link_one(const kd_tree& tree, std::size_t i, double radius, auto&& link) {
         const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return;
+        if (!is_finite(p) || !(radius >= 0.0)) return;
         tree.for_each_within(p, radius, [&](const neighbor& q) {
             if (q.index != i && link(i, q)) sets_.unite(static_cast<point_index>(i), q.index);
         });
