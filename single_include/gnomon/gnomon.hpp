@@ -1183,6 +1183,109 @@ class adjacency {
 
 }  // namespace gnomon
 
+// -------- gnomon/neighborhoods/detail/places.hpp -------------------------------------------------
+
+/// @file
+/// The finite points of a range, told apart by where they are: each position once, with the indices
+/// of the points that lie there. Scans hold many points at one place (drivers that report invalid
+/// returns as the origin, cells of a grid, one scan merged twice); a tree over places needs to look
+/// at them once.
+
+namespace gnomon::detail {
+
+/// Places are numbered by the first of their points.
+class places {
+  public:
+    /// Of any indexed range of Eigen::Vector3d. O(n) on average.
+    template <class Positions>
+    explicit places(const Positions& points) {
+        indices_.reserve(points.size());
+        positions_.reserve(points.size());
+        std::vector<point_index> place_of;  // of each finite point, so far in `indices_`
+        place_of.reserve(points.size());
+        hash_table numbers(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Vector3d p = points[i];
+            if (!is_finite(p)) continue;
+            const point_index number = numbers.find_or_add(p, positions_);
+            if (number == positions_.size()) positions_.push_back(p);
+            place_of.push_back(number);
+            indices_.push_back(static_cast<point_index>(i));
+        }
+        if (positions_.size() < indices_.size()) group(place_of);
+    }
+
+    /// The number of places.
+    [[nodiscard]] std::size_t size() const { return positions_.size(); }
+    /// The number of points at all places together.
+    [[nodiscard]] std::size_t points() const { return indices_.size(); }
+
+    [[nodiscard]] const Eigen::Vector3d& position(std::size_t place) const {
+        return positions_[place];
+    }
+    /// The indices of the points there, ascending and at least one.
+    [[nodiscard]] std::span<const point_index> at(std::size_t place) const {
+        if (begin_.empty()) return {indices_.data() + place, 1};
+        return {indices_.data() + begin_[place], indices_.data() + begin_[place + 1]};
+    }
+
+  private:
+    /// Open addressing, linear probing, at most half full.
+    class hash_table {
+      public:
+        explicit hash_table(std::size_t points)
+            : slots_(std::bit_ceil(2 * points + 2), empty), mask_(slots_.size() - 1) {}
+
+        /// The number of the place at p; positions.size(), now taken, if there is none yet.
+        point_index find_or_add(const Eigen::Vector3d& p,
+                                const std::vector<Eigen::Vector3d>& positions) {
+            std::size_t s = hash(p) & mask_;
+            while (slots_[s] != empty && !equal(positions[slots_[s]], p)) s = (s + 1) & mask_;
+            if (slots_[s] == empty) slots_[s] = static_cast<point_index>(positions.size());
+            return slots_[s];
+        }
+
+      private:
+        static constexpr point_index empty = std::numeric_limits<point_index>::max();
+
+        static bool equal(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+            return p.x() == q.x() && p.y() == q.y() && p.z() == q.z();
+        }
+
+        static std::size_t hash(const Eigen::Vector3d& p) {
+            std::uint64_t h = 0;
+            for (const double x : {p.x(), p.y(), p.z()}) {
+                h ^= std::bit_cast<std::uint64_t>(x + 0.0);  // -0.0 is where 0.0 is
+                h *= 0x9e3779b97f4a7c15;                     // 2^64 / golden ratio, odd
+                h ^= h >> 32;
+            }
+            return static_cast<std::size_t>(h);
+        }
+
+        std::vector<point_index> slots_;
+        std::size_t mask_;
+    };
+
+    /// Puts the indices of each place side by side (a counting sort, which keeps them ascending).
+    void group(const std::vector<point_index>& place_of) {
+        begin_.assign(size() + 1, 0);
+        for (const point_index place : place_of) ++begin_[place + 1];
+        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+        std::vector<point_index> next(begin_.begin(), begin_.end() - 1);
+        std::vector<point_index> grouped(indices_.size());
+        for (std::size_t i = 0; i < place_of.size(); ++i) {
+            grouped[next[place_of[i]]++] = indices_[i];
+        }
+        indices_ = std::move(grouped);
+    }
+
+    std::vector<Eigen::Vector3d> positions_;
+    std::vector<point_index> indices_;
+    std::vector<point_index> begin_;  // of each place in indices_; empty if each holds one point
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/nanoflann.hpp ----------------------------------------------
 
 /// @file
@@ -1201,13 +1304,13 @@ using nanoflann_parameters = nanoflann::SearchParameters;
 using nanoflann_parameters = nanoflann::SearchParams;
 #endif
 
-/// The points in the tree, as nanoflann wants to see them.
-struct nanoflann_points {
-    std::vector<Eigen::Vector3d> positions;
+/// The places in the tree, as nanoflann wants to see them.
+struct nanoflann_places : places {
+    using places::places;
 
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return positions.size(); }
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return size(); }
     [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return positions[i][static_cast<Eigen::Index>(axis)];
+        return position(i)[static_cast<Eigen::Index>(axis)];
     }
     template <class Box>
     bool kdtree_get_bbox(Box&) const {
@@ -1220,12 +1323,12 @@ struct nanoflann_metric {
     using ElementType = double;
     using DistanceType = double;
 
-    const nanoflann_points& points;
+    const nanoflann_places& all;
 
-    explicit nanoflann_metric(const nanoflann_points& p) : points(p) {}
+    explicit nanoflann_metric(const nanoflann_places& p) : all(p) {}
 
     [[nodiscard]] double evalMetric(const double* q, std::size_t i, std::size_t) const {
-        return squared_distance({q[0], q[1], q[2]}, points.positions[i]);
+        return squared_distance({q[0], q[1], q[2]}, all.position(i));
     }
     [[nodiscard]] double accum_dist(double a, double b, std::size_t) const {
         return (a - b) * (a - b);
@@ -1233,7 +1336,7 @@ struct nanoflann_metric {
 };
 
 using nanoflann_tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann_metric, nanoflann_points, 3, point_index>;
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann_metric, nanoflann_places, 3, point_index>;
 
 /// A limit that nanoflann must not prune at: its bounds err by a few ulp per level of the tree, and
 /// ties may be a little farther than the k-th.
@@ -1268,8 +1371,9 @@ inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule r
 /// Collects the k nearest points in canonical order, and those that the rule adds to them.
 class nearest_result_set : public nanoflann_result_set {
   public:
-    nearest_result_set(std::size_t k, tie_rule rule, std::vector<neighbor>& found)
-        : k_(k), rule_(rule), found_(found) {}
+    nearest_result_set(const places& all, std::size_t k, tie_rule rule,
+                       std::vector<neighbor>& found)
+        : all_(all), k_(k), rule_(rule), found_(found) {}
 
     [[nodiscard]] std::size_t size() const { return found_.size(); }
     [[nodiscard]] bool empty() const { return found_.empty(); }
@@ -1279,24 +1383,32 @@ class nearest_result_set : public nanoflann_result_set {
                       : std::numeric_limits<double>::infinity();
     }
 
-    bool addPoint(double squared_distance, point_index slot) {
-        const neighbor candidate{squared_distance, slot};
-        if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return true;
-        found_.push_back(candidate);
-        neighbor* place = &found_.back();
-        for (; place != found_.data() && candidate < place[-1]; --place) *place = place[-1];
-        *place = candidate;
-        keep_nearest(found_, k_, rule_);
+    bool addPoint(double squared_distance, point_index place) {
+        const auto points = all_.at(place);
+        const std::size_t most = rule_ == tie_rule::all ? 2 * k_ : k_;
+        for (const point_index index : points.first(std::min(points.size(), most))) {
+            add({squared_distance, index});
+        }
         return true;
     }
 
   private:
+    void add(const neighbor& candidate) {
+        if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return;
+        found_.push_back(candidate);
+        neighbor* slot = &found_.back();
+        for (; slot != found_.data() && candidate < slot[-1]; --slot) *slot = slot[-1];
+        *slot = candidate;
+        keep_nearest(found_, k_, rule_);
+    }
+
+    const places& all_;
     std::size_t k_;
     tie_rule rule_;
     std::vector<neighbor>& found_;
 };
 
-/// Hands every point within a limit, the limit included, to a visitor.
+/// Hands every place within a limit, the limit included, to a visitor.
 template <class Visitor>
 class ball_result_set : public nanoflann_result_set {
   public:
@@ -1308,10 +1420,10 @@ class ball_result_set : public nanoflann_result_set {
     [[nodiscard]] bool full() const { return true; }
     [[nodiscard]] double worstDist() const { return just_beyond(squared_radius_); }
 
-    bool addPoint(double squared_distance, point_index slot) {
+    bool addPoint(double squared_distance, point_index place) {
         if (squared_distance > squared_radius_) return true;
         ++visited_;
-        visit_(neighbor{squared_distance, slot});
+        visit_(squared_distance, place);
         return true;
     }
 
@@ -1332,7 +1444,7 @@ class ball_result_set : public nanoflann_result_set {
 namespace gnomon {
 
 /// An index over points. Keeps a copy of the finite ones (about 40 bytes each), so the range may
-/// go. Queries are const and thread-safe.
+/// go. Points that coincide are one place in it, however many. Queries are const and thread-safe.
 class kd_tree {
   public:
     /// A number that no point has.
@@ -1342,23 +1454,16 @@ class kd_tree {
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit kd_tree(const R& points, Proj projection = {})
-        : points_(std::make_unique<detail::nanoflann_points>()) {
-        const position_view<R, Proj> positions(points, std::move(projection));
-        points_->positions.reserve(positions.size());
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            const Eigen::Vector3d p = positions[i];
-            if (!is_finite(p)) continue;
-            points_->positions.push_back(p);
-            index_of_slot_.push_back(static_cast<point_index>(i));
-        }
+        : places_(std::make_unique<detail::nanoflann_places>(
+              position_view<R, Proj>(points, std::move(projection)))) {
         constexpr std::size_t leaf_size = 12;  // fastest of 8 to 32 for k = 20 to 50
         tree_ = std::make_unique<detail::nanoflann_tree>(
-            3, *points_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+            3, *places_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
         tree_->buildIndex();
     }
 
     /// The number of finite points.
-    [[nodiscard]] std::size_t size() const { return index_of_slot_.size(); }
+    [[nodiscard]] std::size_t size() const { return places_->points(); }
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
     /// out (`no_point` for none), in canonical order; fewer if there are no more, and up to twice
@@ -1370,9 +1475,8 @@ class kd_tree {
         k = std::min(k, size());
         if (k == 0) return;
         // One more than asked for: `except` may be among them.
-        detail::nearest_result_set results(k + 1, rule, found);
+        detail::nearest_result_set results(*places_, k + 1, rule, found);
         find(p, results);
-        for (neighbor& q : found) q.index = index_of_slot_[q.index];
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
         detail::keep_nearest(found, k, rule);
     }
@@ -1381,10 +1485,19 @@ class kd_tree {
     /// included, in no particular order. Precondition: p is finite.
     template <std::invocable<neighbor> Visitor>
     void for_each_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
-        const auto visit_point = [&](const neighbor& q) {
-            visit(neighbor{q.squared_distance, index_of_slot_[q.index]});
+        for_each_place_within(p, radius, [&](double squared_distance, auto points) {
+            for (const point_index i : points) visit(neighbor{squared_distance, i});
+        });
+    }
+
+    /// The same by place: calls visit(squared distance [m^2], indices of all points there), the
+    /// indices ascending, once for points that coincide.
+    template <std::invocable<double, std::span<const point_index>> Visitor>
+    void for_each_place_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
+        const auto visit_place = [&](double squared_distance, point_index place) {
+            visit(squared_distance, places_->at(place));
         };
-        detail::ball_result_set results(radius * radius, visit_point);
+        detail::ball_result_set results(radius * radius, visit_place);
         find(p, results);
     }
 
@@ -1394,9 +1507,8 @@ class kd_tree {
         if (size() > 0) tree_->findNeighbors(results, p.data(), detail::nanoflann_parameters());
     }
 
-    std::unique_ptr<detail::nanoflann_points> points_;  // the tree refers to it
+    std::unique_ptr<detail::nanoflann_places> places_;  // the tree refers to it
     std::unique_ptr<detail::nanoflann_tree> tree_;
-    std::vector<point_index> index_of_slot_;  // ascending, so that ties by slot are ties by index
 };
 
 }  // namespace gnomon
@@ -2117,6 +2229,21 @@ class linker {
         });
     }
 
+    /// Joins every finite point with all points within the radius. Coincident points are looked at
+    /// together, so that thousands at one place cost no more than thousands elsewhere.
+    template <execution X>
+    void link_all(const kd_tree& tree, double radius, const X& run) {
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const Eigen::Vector3d p = points_[i];
+                if (!is_finite(p)) continue;
+                tree.for_each_place_within(p, radius, [&](double, auto place) {
+                    sets_.unite(static_cast<point_index>(i), place.front());
+                });
+            }
+        });
+    }
+
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
     /// result depends on the order of the points, so it runs on one thread.
     void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
@@ -2291,13 +2418,13 @@ template <class R, execution X = sequential, class Proj = std::identity>
                     "segment_points: the radius must be finite and not negative");
     const position_view<R, Proj> p(points, projection);
     const kd_tree tree(points, std::move(projection));
-    const auto radius_of = [&](std::size_t) { return options.radius; };
-    const auto always = [](std::size_t, const neighbor&) { return true; };
     detail::linker linker(p);
     if (options.greedy) {
-        linker.link_greedily(tree, radius_of, always);
+        linker.link_greedily(
+            tree, [&](std::size_t) { return options.radius; },
+            [](std::size_t, const neighbor&) { return true; });
     } else {
-        linker.link_all(tree, radius_of, always, run);
+        linker.link_all(tree, options.radius, run);
     }
     return linker.result(options.min_points);
 }

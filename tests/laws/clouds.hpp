@@ -127,6 +127,9 @@ inline std::vector<named_cloud> degenerate() {
     const cloud once = doubled;
     for (int copy = 0; copy < 4; ++copy) doubled.insert(doubled.end(), once.begin(), once.end());
     all.push_back({"every point five times", doubled});
+    cloud dropouts = sheet(150, 5);  // at both zeros, which are one place
+    for (std::size_t i = 0; i < dropouts.size(); i += 2) dropouts[i] = {i % 4 ? 0.0 : -0.0, 0, 0};
+    all.push_back({"every second point at the origin", dropouts});
     all.push_back({"ties everywhere", on_grid(300, 6)});
     cloud huge = in_cube(80, 7);
     for (Eigen::Vector3d& p : huge) p *= 1e149;

@@ -115,6 +115,28 @@ TEST(kd_tree, gives_no_more_than_asked_for) {
     }
 }
 
+/// As drivers write them that report what they did not see as (0, 0, 0). Visiting each of these
+/// points from each would take hours.
+TEST(kd_tree, looks_at_coincident_points_once) {
+    auto points = clouds::in_cube(150'000, 6);
+    for (std::size_t i = 0; i < points.size(); i += 3) points[i].setZero();
+    const gnomon::kd_tree tree(points);
+    EXPECT_EQ(tree.size(), points.size());
+    std::vector<gnomon::neighbor> found;
+    std::size_t visits = 0;
+    for (std::size_t i = 0; i < points.size(); i += 3) {
+        tree.nearest(points[i], 8, i, found);
+        ASSERT_EQ(found.size(), 8u);
+        ASSERT_EQ(found.back(),
+                  (gnomon::neighbor{0.0, static_cast<gnomon::point_index>(i < 24 ? 24 : 21)}));
+        tree.for_each_place_within(points[i], 0.0, [&](double, auto place) {
+            EXPECT_EQ(place.size(), 50'000u);
+            ++visits;
+        });
+    }
+    EXPECT_EQ(visits, 50'000u);
+}
+
 TEST(kd_tree, answers_for_places_that_are_no_points) {
     const auto points = clouds::in_cube(500, 4);
     const gnomon::kd_tree tree(points);

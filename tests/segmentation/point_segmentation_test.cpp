@@ -91,6 +91,23 @@ TEST(segment_points, greedy_splits_but_never_joins) {
     }
 }
 
+/// Invalid returns at the origin, as many as there are others: one segment, in no time.
+TEST(segment_points, takes_a_hundred_thousand_points_at_one_place) {
+    auto points = clouds::in_cube(200'000, 9);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        if (i % 2)
+            points[i].setZero();
+        else
+            points[i].x() += 2.0;
+    }
+    for (const bool greedy : {false, true}) {
+        const auto found = gnomon::segment_points(points, {.radius = 0.05, .greedy = greedy});
+        ASSERT_EQ(found.size(), 2u);
+        EXPECT_EQ(found[0].size(), 100'000u);
+        EXPECT_EQ(found[1].size(), 100'000u);
+    }
+}
+
 TEST(segment_points, refuses_what_is_no_radius) {
     const auto points = clouds::in_cube(5, 1);
     for (const double r : {-0.1, clouds::nan, clouds::infinity}) {

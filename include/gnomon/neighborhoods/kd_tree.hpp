@@ -10,6 +10,7 @@
 #include <functional>
 #include <limits>
 #include <memory>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -23,7 +24,7 @@
 namespace gnomon {
 
 /// An index over points. Keeps a copy of the finite ones (about 40 bytes each), so the range may
-/// go. Queries are const and thread-safe.
+/// go. Points that coincide are one place in it, however many. Queries are const and thread-safe.
 class kd_tree {
   public:
     /// A number that no point has.
@@ -33,23 +34,16 @@ class kd_tree {
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit kd_tree(const R& points, Proj projection = {})
-        : points_(std::make_unique<detail::nanoflann_points>()) {
-        const position_view<R, Proj> positions(points, std::move(projection));
-        points_->positions.reserve(positions.size());
-        for (std::size_t i = 0; i < positions.size(); ++i) {
-            const Eigen::Vector3d p = positions[i];
-            if (!is_finite(p)) continue;
-            points_->positions.push_back(p);
-            index_of_slot_.push_back(static_cast<point_index>(i));
-        }
+        : places_(std::make_unique<detail::nanoflann_places>(
+              position_view<R, Proj>(points, std::move(projection)))) {
         constexpr std::size_t leaf_size = 12;  // fastest of 8 to 32 for k = 20 to 50
         tree_ = std::make_unique<detail::nanoflann_tree>(
-            3, *points_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
+            3, *places_, nanoflann::KDTreeSingleIndexAdaptorParams(leaf_size));
         tree_->buildIndex();
     }
 
     /// The number of finite points.
-    [[nodiscard]] std::size_t size() const { return index_of_slot_.size(); }
+    [[nodiscard]] std::size_t size() const { return places_->points(); }
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
     /// out (`no_point` for none), in canonical order; fewer if there are no more, and up to twice
@@ -61,9 +55,8 @@ class kd_tree {
         k = std::min(k, size());
         if (k == 0) return;
         // One more than asked for: `except` may be among them.
-        detail::nearest_result_set results(k + 1, rule, found);
+        detail::nearest_result_set results(*places_, k + 1, rule, found);
         find(p, results);
-        for (neighbor& q : found) q.index = index_of_slot_[q.index];
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
         detail::keep_nearest(found, k, rule);
     }
@@ -72,10 +65,19 @@ class kd_tree {
     /// included, in no particular order. Precondition: p is finite.
     template <std::invocable<neighbor> Visitor>
     void for_each_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
-        const auto visit_point = [&](const neighbor& q) {
-            visit(neighbor{q.squared_distance, index_of_slot_[q.index]});
+        for_each_place_within(p, radius, [&](double squared_distance, auto points) {
+            for (const point_index i : points) visit(neighbor{squared_distance, i});
+        });
+    }
+
+    /// The same by place: calls visit(squared distance [m^2], indices of all points there), the
+    /// indices ascending, once for points that coincide.
+    template <std::invocable<double, std::span<const point_index>> Visitor>
+    void for_each_place_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
+        const auto visit_place = [&](double squared_distance, point_index place) {
+            visit(squared_distance, places_->at(place));
         };
-        detail::ball_result_set results(radius * radius, visit_point);
+        detail::ball_result_set results(radius * radius, visit_place);
         find(p, results);
     }
 
@@ -85,9 +87,8 @@ class kd_tree {
         if (size() > 0) tree_->findNeighbors(results, p.data(), detail::nanoflann_parameters());
     }
 
-    std::unique_ptr<detail::nanoflann_points> points_;  // the tree refers to it
+    std::unique_ptr<detail::nanoflann_places> places_;  // the tree refers to it
     std::unique_ptr<detail::nanoflann_tree> tree_;
-    std::vector<point_index> index_of_slot_;  // ascending, so that ties by slot are ties by index
 };
 
 }  // namespace gnomon

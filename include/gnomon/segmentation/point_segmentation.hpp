@@ -16,6 +16,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -43,13 +44,13 @@ template <class R, execution X = sequential, class Proj = std::identity>
                     "segment_points: the radius must be finite and not negative");
     const position_view<R, Proj> p(points, projection);
     const kd_tree tree(points, std::move(projection));
-    const auto radius_of = [&](std::size_t) { return options.radius; };
-    const auto always = [](std::size_t, const neighbor&) { return true; };
     detail::linker linker(p);
     if (options.greedy) {
-        linker.link_greedily(tree, radius_of, always);
+        linker.link_greedily(
+            tree, [&](std::size_t) { return options.radius; },
+            [](std::size_t, const neighbor&) { return true; });
     } else {
-        linker.link_all(tree, radius_of, always, run);
+        linker.link_all(tree, options.radius, run);
     }
     return linker.result(options.min_points);
 }

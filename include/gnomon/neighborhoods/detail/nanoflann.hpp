@@ -15,6 +15,7 @@
 #include <nanoflann.hpp>
 
 #include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/places.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 static_assert(NANOFLANN_VERSION >= 0x142, "gnomon needs nanoflann 1.4.3, which calls itself 0x142");
@@ -27,13 +28,13 @@ using nanoflann_parameters = nanoflann::SearchParameters;
 using nanoflann_parameters = nanoflann::SearchParams;
 #endif
 
-/// The points in the tree, as nanoflann wants to see them.
-struct nanoflann_points {
-    std::vector<Eigen::Vector3d> positions;
+/// The places in the tree, as nanoflann wants to see them.
+struct nanoflann_places : places {
+    using places::places;
 
-    [[nodiscard]] std::size_t kdtree_get_point_count() const { return positions.size(); }
+    [[nodiscard]] std::size_t kdtree_get_point_count() const { return size(); }
     [[nodiscard]] double kdtree_get_pt(std::size_t i, std::size_t axis) const {
-        return positions[i][static_cast<Eigen::Index>(axis)];
+        return position(i)[static_cast<Eigen::Index>(axis)];
     }
     template <class Box>
     bool kdtree_get_bbox(Box&) const {
@@ -46,12 +47,12 @@ struct nanoflann_metric {
     using ElementType = double;
     using DistanceType = double;
 
-    const nanoflann_points& points;
+    const nanoflann_places& all;
 
-    explicit nanoflann_metric(const nanoflann_points& p) : points(p) {}
+    explicit nanoflann_metric(const nanoflann_places& p) : all(p) {}
 
     [[nodiscard]] double evalMetric(const double* q, std::size_t i, std::size_t) const {
-        return squared_distance({q[0], q[1], q[2]}, points.positions[i]);
+        return squared_distance({q[0], q[1], q[2]}, all.position(i));
     }
     [[nodiscard]] double accum_dist(double a, double b, std::size_t) const {
         return (a - b) * (a - b);
@@ -59,7 +60,7 @@ struct nanoflann_metric {
 };
 
 using nanoflann_tree =
-    nanoflann::KDTreeSingleIndexAdaptor<nanoflann_metric, nanoflann_points, 3, point_index>;
+    nanoflann::KDTreeSingleIndexAdaptor<nanoflann_metric, nanoflann_places, 3, point_index>;
 
 /// A limit that nanoflann must not prune at: its bounds err by a few ulp per level of the tree, and
 /// ties may be a little farther than the k-th.
@@ -94,8 +95,9 @@ inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule r
 /// Collects the k nearest points in canonical order, and those that the rule adds to them.
 class nearest_result_set : public nanoflann_result_set {
   public:
-    nearest_result_set(std::size_t k, tie_rule rule, std::vector<neighbor>& found)
-        : k_(k), rule_(rule), found_(found) {}
+    nearest_result_set(const places& all, std::size_t k, tie_rule rule,
+                       std::vector<neighbor>& found)
+        : all_(all), k_(k), rule_(rule), found_(found) {}
 
     [[nodiscard]] std::size_t size() const { return found_.size(); }
     [[nodiscard]] bool empty() const { return found_.empty(); }
@@ -105,24 +107,32 @@ class nearest_result_set : public nanoflann_result_set {
                       : std::numeric_limits<double>::infinity();
     }
 
-    bool addPoint(double squared_distance, point_index slot) {
-        const neighbor candidate{squared_distance, slot};
-        if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return true;
-        found_.push_back(candidate);
-        neighbor* place = &found_.back();
-        for (; place != found_.data() && candidate < place[-1]; --place) *place = place[-1];
-        *place = candidate;
-        keep_nearest(found_, k_, rule_);
+    bool addPoint(double squared_distance, point_index place) {
+        const auto points = all_.at(place);
+        const std::size_t most = rule_ == tie_rule::all ? 2 * k_ : k_;
+        for (const point_index index : points.first(std::min(points.size(), most))) {
+            add({squared_distance, index});
+        }
         return true;
     }
 
   private:
+    void add(const neighbor& candidate) {
+        if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return;
+        found_.push_back(candidate);
+        neighbor* slot = &found_.back();
+        for (; slot != found_.data() && candidate < slot[-1]; --slot) *slot = slot[-1];
+        *slot = candidate;
+        keep_nearest(found_, k_, rule_);
+    }
+
+    const places& all_;
     std::size_t k_;
     tie_rule rule_;
     std::vector<neighbor>& found_;
 };
 
-/// Hands every point within a limit, the limit included, to a visitor.
+/// Hands every place within a limit, the limit included, to a visitor.
 template <class Visitor>
 class ball_result_set : public nanoflann_result_set {
   public:
@@ -134,10 +144,10 @@ class ball_result_set : public nanoflann_result_set {
     [[nodiscard]] bool full() const { return true; }
     [[nodiscard]] double worstDist() const { return just_beyond(squared_radius_); }
 
-    bool addPoint(double squared_distance, point_index slot) {
+    bool addPoint(double squared_distance, point_index place) {
         if (squared_distance > squared_radius_) return true;
         ++visited_;
-        visit_(neighbor{squared_distance, slot});
+        visit_(squared_distance, place);
         return true;
     }
 
