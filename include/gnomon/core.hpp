@@ -7,6 +7,7 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>

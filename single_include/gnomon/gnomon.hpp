@@ -272,26 +272,6 @@ struct moments {
 
 }  // namespace gnomon
 
-// -------- gnomon/core/plane.hpp ------------------------------------------------------------------
-
-/// @file
-/// A plane in Hesse normal form.
-
-namespace gnomon {
-
-/// The points x with normal . x = offset.
-struct plane {
-    Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< unit length
-    double offset = 0.0;                    ///< [m]
-
-    /// Distance [m] of x from the plane, positive on the normal's side.
-    [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
-        return normal.dot(x) - offset;
-    }
-};
-
-}  // namespace gnomon
-
 // -------- gnomon/core/point.hpp ------------------------------------------------------------------
 
 /// @file
@@ -444,6 +424,50 @@ class position_view {
     decltype(std::ranges::begin(std::declval<const R&>())) first_;
     std::size_t size_;
     [[no_unique_address]] Proj projection_;
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/core/normal_range.hpp -----------------------------------------------------------
+
+/// @file
+/// What algorithms ask of a surface: a normal at each point, wherever it came from. What
+/// `estimate_normals` returns is such a range, and so is a vector of a struct of yours.
+
+namespace gnomon {
+
+/// A random-access range of elements with a member `normal`, an Eigen 3-vector of doubles: a unit
+/// vector, or zero where there is none.
+template <class S>
+concept normal_range = indexed_range<S> && requires(const S& surface, std::size_t i) {
+    requires detail::eigen_3vector<std::remove_cvref_t<decltype(surface[i].normal)>>;
+    requires std::same_as<double,
+                          typename std::remove_cvref_t<decltype(surface[i].normal)>::Scalar>;
+};
+
+/// Whether a normal is missing: the zero vector.
+[[nodiscard]] inline bool is_missing(const Eigen::Vector3d& normal) {
+    return normal.x() == 0.0 && normal.y() == 0.0 && normal.z() == 0.0;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/core/plane.hpp ------------------------------------------------------------------
+
+/// @file
+/// A plane in Hesse normal form.
+
+namespace gnomon {
+
+/// The points x with normal . x = offset.
+struct plane {
+    Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< unit length
+    double offset = 0.0;                    ///< [m]
+
+    /// Distance [m] of x from the plane, positive on the normal's side.
+    [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
+        return normal.dot(x) - offset;
+    }
 };
 
 }  // namespace gnomon
@@ -1929,11 +1953,11 @@ namespace gnomon {
 /// gamma, the mean over all points. A missing normal (the zero vector) counts as 0: a method gains
 /// nothing by giving up.
 ///
-/// @param surface  elements with a member `normal`
+/// @param surface  the estimated normals
 /// @param truth    the true unit normals, in the same order
 /// @return NaN for no points
 /// @throws std::invalid_argument  if the two differ in size
-template <indexed_range Surface, indexed_range Truth>
+template <normal_range Surface, indexed_range Truth>
 [[nodiscard]] double mean_gamma(const Surface& surface, const Truth& truth) {
     const auto n = std::ranges::size(surface);
     detail::require(n == std::ranges::size(truth), "mean_gamma: normals and truth differ in size");
@@ -1958,15 +1982,16 @@ namespace gnomon {
 /// Turns each normal towards the view point of its point: <n, p - v> <= 0 afterwards.
 ///
 /// @param points   a scan, or with_viewpoint(s)(points, ...); a bare range was seen from the origin
-/// @param surface  a range of elements with a member `normal`, one per point; changed in place
+/// @param surface  a normal for each point; changed in place
 /// @throws std::invalid_argument  if surface, view points and points differ in number
 /// Complexity: O(n).
-template <class R, class Surface, class Proj = std::identity>
+template <class R, normal_range Surface, class Proj = std::identity>
     requires point_range<R, Proj>
 void orient_normals(const R& points, Surface& surface, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const viewpoint_table v = viewpoints_of(points);
-    detail::require(surface.size() == p.size(), "orient_normals: the surface is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "orient_normals: the surface is of other points");
     for (std::size_t i = 0; i < p.size(); ++i) {
         auto& n = surface[i].normal;
         if (n.dot(p[i] - v[i]) > 0.0) n = -n;
@@ -2128,7 +2153,8 @@ class segments {
   public:
     segments() = default;
 
-    /// The groups of a labeling in which each label is `unlabeled` or at least 0. O(n + labels).
+    /// The groups of a labeling in which each label is `unlabeled` or at least 0.
+    /// O(n + largest label), in memory too: number labels from 0 on.
     /// @throws std::invalid_argument  for another negative label
     explicit segments(std::vector<std::int32_t> labels) : labels_(std::move(labels)) {
         std::int32_t last = unlabeled;
@@ -2309,12 +2335,13 @@ class linker {
 namespace gnomon {
 
 /// A measure of dissimilarity of oriented points: `radius` bounds the distance of points that can
-/// be alike, and accepts(squared distance, n_i, n_j) decides. Must be symmetric. Models:
-/// `two_thresholds`, `joint_distance`.
+/// be alike, and criterion(), which is called once and may refuse its parameters, gives what
+/// decides of (squared distance, n_i, n_j). Must be symmetric. Models: `two_thresholds`,
+/// `joint_distance`.
 template <class D>
 concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) {
     { d.radius } -> std::convertible_to<double>;
-    { d.accepts(double{}, n, n) } -> std::same_as<bool>;
+    { d.criterion()(double{}, n, n) } -> std::same_as<bool>;
 };
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
@@ -2322,9 +2349,12 @@ struct two_thresholds {
     double radius = 0.05;          ///< r [m]
     angle max_angle = degrees(5);  ///< alpha_max
 
-    [[nodiscard]] bool accepts(double, const Eigen::Vector3d& n_i,
-                               const Eigen::Vector3d& n_j) const {
-        return std::abs(n_i.dot(n_j)) >= detail::min_cosine(max_angle);
+    /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
+    [[nodiscard]] auto criterion() const {
+        const double cosine = detail::min_cosine(max_angle);
+        return [cosine](double, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
+            return std::abs(n_i.dot(n_j)) >= cosine;
+        };
     }
 };
 
@@ -2333,9 +2363,12 @@ struct two_thresholds {
 struct joint_distance {
     double radius = 0.14;  ///< r, of no unit
 
-    [[nodiscard]] bool accepts(double squared_distance, const Eigen::Vector3d& n_i,
-                               const Eigen::Vector3d& n_j) const {
-        return squared_distance + (n_i - n_j).squaredNorm() <= radius * radius;
+    [[nodiscard]] auto criterion() const {
+        const double limit = radius * radius;
+        return [limit](double squared_distance, const Eigen::Vector3d& n_i,
+                       const Eigen::Vector3d& n_j) {
+            return squared_distance + gnomon::squared_distance(n_i, n_j) <= limit;
+        };
     }
 };
 
@@ -2347,12 +2380,12 @@ struct oriented_point_segmentation {
 
 /// The groups that chains of similar oriented points connect.
 ///
-/// @param surface  elements with a member `normal`, one per point; zero vectors join nothing
+/// @param surface  a normal for each point; missing ones join nothing
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
 /// Complexity: as segment_points.
-template <class R, indexed_range Surface, oriented_dissimilarity D, execution X = sequential,
+template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_oriented_points(const R& points, const Surface& surface,
@@ -2364,15 +2397,14 @@ template <class R, indexed_range Surface, oriented_dissimilarity D, execution X 
                     "segment_oriented_points: the radius must be finite and not negative");
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
+    const auto alike = dissimilarity.criterion();
     const kd_tree tree(points, std::move(projection));
     const auto radius_of = [&](std::size_t i) {
-        return surface[i].normal.isZero(0.0) ? detail::no_search : double{dissimilarity.radius};
+        return is_missing(surface[i].normal) ? detail::no_search : double{dissimilarity.radius};
     };
     const auto similar = [&](std::size_t i, const neighbor& q) {
-        const Eigen::Vector3d& n_i = surface[i].normal;
         const Eigen::Vector3d& n_j = surface[q.index].normal;
-        return !n_i.isZero(0.0) && !n_j.isZero(0.0) &&
-               dissimilarity.accepts(q.squared_distance, n_i, n_j);
+        return !is_missing(n_j) && alike(q.squared_distance, surface[i].normal, n_j);
     };
     detail::linker linker(p);
     if (options.greedy) {
@@ -2438,59 +2470,50 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 namespace gnomon::detail {
 
-/// Counts the finite points whose height is at least `from`, in bins of `bin` metres.
+/// Counts the finite points whose height is at least `from`, in bins of `bin` metres, one of them
+/// about the plane itself. Keeps only bins that hold a point: a stray one kilometers away costs no
+/// memory. O(n log n).
 class height_histogram {
   public:
+    struct bin {
+        double height;  ///< in its middle [m]
+        std::size_t count;
+    };
+
     template <class Points>
-    height_histogram(const Points& points, const plane& ground, double bin,
-                     double from = -std::numeric_limits<double>::infinity())
-        : bin_(bin) {
-        std::vector<double> heights;
-        heights.reserve(points.size());
+    height_histogram(const Points& points, const plane& ground, double width,
+                     double from = -std::numeric_limits<double>::infinity()) {
+        std::vector<double> numbers;
+        numbers.reserve(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!is_finite(points[i])) continue;
             ++points_;
-            const double h = ground.signed_distance(points[i]);
-            if (h >= from) heights.push_back(h);
+            const double height = ground.signed_distance(points[i]);
+            if (height >= from) numbers.push_back(std::round(height / width));
         }
-        if (heights.empty()) return;
-        // A stray point a kilometer below or above must neither be the floor nor ask for all
-        // memory: the histogram spans all but one in a thousand at either end, and a million bins
-        // at most.
-        const auto quantile = [&heights](std::size_t rank) {
-            const auto nth = heights.begin() + static_cast<std::ptrdiff_t>(rank);
-            std::nth_element(heights.begin(), nth, heights.end());
-            return *nth;
-        };
-        const std::size_t cut = heights.size() / 1000;
-        lowest_ = quantile(cut);
-        const double highest = quantile(heights.size() - 1 - cut);
-        constexpr double most_bins = 1 << 20;
-        counts_.assign(static_cast<std::size_t>(std::min((highest - lowest_) / bin, most_bins)) + 1,
-                       0);
-        for (const double h : heights) {
-            const double b = std::floor((h - lowest_) / bin);
-            if (b >= 0.0 && b < static_cast<double>(counts_.size())) {
-                ++counts_[static_cast<std::size_t>(b)];
-            }
+        std::sort(numbers.begin(), numbers.end());
+        for (auto first = numbers.begin(); first != numbers.end();) {
+            const auto last = std::upper_bound(first, numbers.end(), *first);
+            bins_.push_back({width * *first, static_cast<std::size_t>(last - first)});
+            first = last;
         }
     }
 
-    /// From the lowest bin up; empty if no point is high enough.
-    [[nodiscard]] const std::vector<std::size_t>& counts() const { return counts_; }
-    /// The height in the middle of bin b [m].
-    [[nodiscard]] double center(std::size_t b) const {
-        return lowest_ + (static_cast<double>(b) + 0.5) * bin_;
-    }
+    /// From the lowest up; empty if no point is high enough.
+    [[nodiscard]] const std::vector<bin>& bins() const { return bins_; }
     /// All finite points, however low.
     [[nodiscard]] std::size_t points() const { return points_; }
 
   private:
-    double bin_;
-    double lowest_ = 0.0;
     std::size_t points_ = 0;
-    std::vector<std::size_t> counts_;
+    std::vector<bin> bins_;
 };
+
+/// The lowest bin of those that hold most. Precondition: there are bins.
+[[nodiscard]] inline const height_histogram::bin& fullest(const height_histogram& histogram) {
+    return *std::max_element(histogram.bins().begin(), histogram.bins().end(),
+                             [](const auto& a, const auto& b) { return a.count < b.count; });
+}
 
 }  // namespace gnomon::detail
 
@@ -2542,7 +2565,7 @@ struct leveling {
 ///
 /// @param up  unit vector against gravity
 /// @return nothing without finite points
-/// Complexity: O(n).
+/// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
@@ -2550,12 +2573,11 @@ template <class R, class Proj = std::identity>
                                                Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
-    if (histogram.counts().empty()) return std::nullopt;
-    const auto& counts = histogram.counts();
-    const std::size_t most = *std::max_element(counts.begin(), counts.end());
-    const auto lowest =
-        std::find_if(counts.begin(), counts.end(), [most](std::size_t c) { return 4 * c >= most; });
-    return plane{up, histogram.center(static_cast<std::size_t>(lowest - counts.begin()))};
+    if (histogram.bins().empty()) return std::nullopt;
+    const std::size_t most = detail::fullest(histogram).count;
+    const auto lowest = std::find_if(histogram.bins().begin(), histogram.bins().end(),
+                                     [most](const auto& bin) { return 4 * bin.count >= most; });
+    return plane{up, lowest->height};
 }
 
 /// The floor: the plane through the points in a band about itself.
@@ -2615,24 +2637,23 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive
-/// Complexity: O(n).
+/// @throws std::invalid_argument  unless the bin is positive and the share is not negative
+/// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
                                                  const ceiling_search& search = {},
                                                  Proj projection = {}) {
     detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
-    const auto& counts = histogram.counts();
-    const auto most = std::max_element(counts.begin(), counts.end());
-    if (most == counts.end() ||
-        static_cast<double>(*most) < search.min_share * static_cast<double>(histogram.points())) {
+    if (histogram.bins().empty()) return std::nullopt;
+    const auto [peak, count] = detail::fullest(histogram);
+    if (static_cast<double>(count) < search.min_share * static_cast<double>(histogram.points())) {
         return std::nullopt;
     }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
-    const double peak = histogram.center(static_cast<std::size_t>(most - counts.begin()));
     double sum = 0.0;
     std::size_t near = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -2702,10 +2723,9 @@ template <class R, class Proj = std::identity>
 
 namespace gnomon {
 
-/// Elements with a normal and the mean distance to the neighbors, as estimate_normals gives them.
+/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
 template <class S>
-concept surfel_range = indexed_range<S> && requires(const S& surface, std::size_t i) {
-    { surface[i].normal } -> std::convertible_to<Eigen::Vector3d>;
+concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
     { surface[i].mean_distance } -> std::convertible_to<double>;
 };
 
@@ -2737,18 +2757,17 @@ class smooth_link {
     /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
     /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
-        if (surface_[i].normal.isZero(0.0)) return no_search;
+        if (is_missing(surface_[i].normal)) return no_search;
         constexpr double margin = 1.0 + 1e-9;
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);
     }
 
-    /// Whether the normals agree; never for a missing normal, the zero vector.
+    /// Whether the normal of the neighbor is there and agrees with that of i.
     [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
-        const Eigen::Vector3d& n_i = surface_[i].normal;
         const Eigen::Vector3d& n_j = surface_[q.index].normal;
-        if (n_i.isZero(0.0) || n_j.isZero(0.0)) return false;
-        const double cosine = n_i.dot(n_j);
+        if (is_missing(n_j)) return false;
+        const double cosine = surface_[i].normal.dot(n_j);
         return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
     }
 
@@ -3042,6 +3061,36 @@ struct input {
 
 }  // namespace gnomon::io
 
+// -------- gnomon/io/detail/file_target.hpp -------------------------------------------------------
+
+/// @file
+/// Which file a name stands for, before something is written under it.
+
+#ifndef _WIN32
+#include <climits>
+#include <cstdlib>
+
+#include <sys/stat.h>
+#endif
+
+namespace gnomon::io::detail {
+
+/// The file that `path` leads to, links followed; `path` itself if there is none yet.
+/// @throws gnomon::error  for a device, a pipe or a directory, which no file may replace
+[[nodiscard]] inline std::string file_target(const std::string& path) {
+#ifdef _WIN32
+    return path;
+#else
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return path;
+    if (!S_ISREG(status.st_mode)) throw error(path, "", "not a regular file");
+    char resolved[PATH_MAX];
+    return ::realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+#endif
+}
+
+}  // namespace gnomon::io::detail
+
 // -------- gnomon/io/output_file.hpp --------------------------------------------------------------
 
 /// @file
@@ -3050,12 +3099,13 @@ struct input {
 
 namespace gnomon::io {
 
-/// Writes the file `path`. Until `commit` an older file of that name is untouched; without it,
-/// nothing is left behind.
+/// Writes the file `path`, links followed. Until `commit` an older file of that name is untouched;
+/// without it, nothing is left behind.
 class output_file {
   public:
-    /// @throws gnomon::error  with the system's reason, if no file can be made beside `path`
-    explicit output_file(std::string path) : path_(std::move(path)) {
+    /// @throws gnomon::error  if `path` leads to something else than a file, or with the system's
+    ///                        reason, if none can be made beside it
+    explicit output_file(const std::string& path) : path_(detail::file_target(path)) {
         // "x": neither a file of the user's nor that of another process is overwritten.
         constexpr int most_tries = 100;
         for (int i = 0; i < most_tries && file_ == nullptr; ++i) {
@@ -4172,11 +4222,10 @@ template <class Rows>
 /// that follow them are left unread.
 
 namespace gnomon::io {
+namespace detail {
 
 /// The words with which a legacy VTK file begins.
 inline constexpr std::string_view vtk_magic = "# vtk DataFile";
-
-namespace detail {
 
 /// Reads up to and including the line "POINTS n type".
 /// @return n
@@ -4253,24 +4302,31 @@ namespace detail {
     return is_number(word) || beginnings.find(word.substr(0, 1)) != std::string_view::npos;
 }
 
+/// The name of a column, out of its quotes if it has some.
+[[nodiscard]] inline std::string_view unquoted(std::string_view word) {
+    const bool quoted = word.size() >= 2 && (word.front() == '"' || word.front() == '\'') &&
+                        word.back() == word.front();
+    return quoted ? word.substr(1, word.size() - 2) : word;
+}
+
 /// Names the columns after the first line: what it says if it holds names, else "x", "y", "z",
 /// "column 3", "column 4", ...
 /// @param has_names  whether the line holds names
 [[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
                                                           const text_cursor& text) {
-    const std::string_view axes = "xyz";
+    constexpr std::string_view axes = "xyzXYZ";
     std::vector<std::string> result;
     while (const auto word = words.next()) {
         const std::size_t k = result.size();
-        const bool is_axis_of_another = word->size() == 1 &&
-                                        axes.find(*word) != std::string_view::npos &&
-                                        axes.find(*word) != k;
-        if (has_names && (is_number(*word) || is_axis_of_another))
+        const std::string_view name = unquoted(*word);
+        const std::size_t axis = name.size() == 1 ? axes.find(name) : std::string_view::npos;
+        const bool is_axis_of_another = axis != std::string_view::npos && axis % 3 != k;
+        if (has_names && (is_number(name) || is_axis_of_another))
             text.fail(in_quotes(*word) + " cannot be the name of column " + std::to_string(k));
         if (k < 3)
             result.emplace_back(axes.substr(k, 1));
         else
-            result.push_back(has_names ? std::string(*word) : "column " + std::to_string(k));
+            result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
     }
     if (result.size() < 3) text.fail("fewer than three columns");
     return result;
@@ -4347,7 +4403,7 @@ namespace detail {
 [[nodiscard]] inline scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
-    if (first_line.starts_with(vtk_magic)) return read_vtk(file, fields);
+    if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
     if (detail::looks_like_pcd(file)) return read_pcd(file, fields);
     return read_xyz(file, fields);
 }
@@ -4368,6 +4424,7 @@ namespace detail {
 
 namespace gnomon::io {
 
+/// How to write it.
 struct ply_options {
     ply_format format = ply_format::binary_little_endian;
     field_type coordinates = field_type::float64;  ///< or float32
@@ -4389,16 +4446,18 @@ void append_text(std::string& text, T value) {
 }
 
 /// `value` as a T.
-/// @throws std::invalid_argument  if T is an integer that cannot hold it
+/// @throws std::invalid_argument  if T cannot hold it, but for the digits of a float
 template <class T>
 [[nodiscard]] T narrowed(double value) {
+    using limits = std::numeric_limits<T>;
+    bool fits = true;
     if constexpr (std::is_integral_v<T>) {
-        using limits = std::numeric_limits<T>;
-        gnomon::detail::require(value >= static_cast<double>(limits::min()) &&
-                                    value <= static_cast<double>(limits::max()) &&
-                                    value == std::trunc(value),
-                                "write_ply: a value does not fit the type of its property");
+        fits = value >= static_cast<double>(limits::min()) &&
+               value <= static_cast<double>(limits::max()) && value == std::trunc(value);
+    } else {
+        fits = !(std::isfinite(value) && std::abs(value) > static_cast<double>(limits::max()));
     }
+    gnomon::detail::require(fits, "write_ply: a value does not fit the type of its property");
     return static_cast<T>(value);
 }
 
@@ -4480,7 +4539,7 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
 /// @throws std::invalid_argument  before anything is written, for a property of another number of
 ///                                points; with nothing left behind, for a value that its type
 ///                                cannot hold
-/// O(points * properties)
+/// Complexity: O(points * properties).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},

@@ -14,6 +14,8 @@
 #include <csignal>
 
 #include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
 #endif
 
 namespace {
@@ -51,6 +53,29 @@ TEST(io_output_file, overwrites_no_file_of_the_users) {
     EXPECT_EQ(gnomon::io::load(other).bytes, "mine");
     EXPECT_EQ(gnomon::io::load(path).bytes, "new");
 }
+
+#if defined(__unix__)
+TEST(io_output_file, writes_to_where_a_link_leads) {
+    const std::string target = io_test::scratch_file("target", "old");
+    const std::string link = io_test::scratch_path("link");
+    std::remove(link.c_str());
+    ASSERT_EQ(symlink(target.c_str(), link.c_str()), 0);
+    gnomon::io::replace_file(link, "new");
+    EXPECT_EQ(gnomon::io::load(target).bytes, "new");
+    std::remove(target.c_str());
+    EXPECT_FALSE(io_test::exists(link));  // still a link, now to nothing
+    std::remove(link.c_str());
+}
+
+TEST(io_output_file, replaces_no_device_and_no_pipe) {
+    EXPECT_THROW(gnomon::io::replace_file("/dev/null", "x"), gnomon::error);
+    const std::string pipe = io_test::scratch_path("pipe");
+    std::remove(pipe.c_str());
+    ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+    EXPECT_THROW(gnomon::io::replace_file(pipe, "x"), gnomon::error);
+    std::remove(pipe.c_str());
+}
+#endif
 
 TEST(io_output_file, refuses_a_missing_directory_and_a_directory) {
     EXPECT_THROW(gnomon::io::replace_file(io_test::scratch_path("no") + "/such/file", "x"),

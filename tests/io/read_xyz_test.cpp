@@ -72,6 +72,8 @@ TEST(io_read_xyz, refuses_what_is_no_table) {
     refuse("1;5;2,5\n", "line 1", "\"2,5\" is not a number");
     refuse("v 1 2 3\n", "line 1", "cannot be the name");
     refuse("time,x,y,z\n0,1,2,3\n", "line 1", "cannot be the name");
+    refuse("Z,Y,X\n1,2,3\n", "line 1", "\"Z\" cannot be the name of column 0");
+    refuse("'x';\"z\";'y'\n1;2;3\n", "line 1", "cannot be the name of column 1");
     refuse("\x89PNG\r\n\x1a\n", "line 1", "fewer than three");
     io_test::expect_error([](const auto& file) { return gnomon::io::read_xyz(file, {"i"}); },
                           "1 2 3 4\n", "line 1", "no field \"i\"; there are: x, y, z, column 3");

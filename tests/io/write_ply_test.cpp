@@ -157,6 +157,8 @@ TEST(io_write_ply, refuses_impossible_arguments_and_leaves_nothing) {
     refuse(io::property{"two words", field_type::float64, 3, constant(0)});
     for (const double value : {256.0, -1.0, 0.5, not_a_number, 1e300})
         refuse(io::property{"byte", field_type::uint8, 3, constant(value)});
+    for (const double value : {4e38, -1e300})  // which would read back as infinities
+        refuse(io::property{"float", field_type::float32, 3, constant(value)});
 }
 
 TEST(io_write_ply, refuses_a_missing_directory) {

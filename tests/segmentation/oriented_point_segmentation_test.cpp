@@ -80,6 +80,7 @@ TEST(segment_oriented_points, refuses_bad_arguments) {
     gnomon::two_thresholds obtuse = thresholds;
     obtuse.max_angle = gnomon::degrees(91);
     EXPECT_THROW((void)count(s, obtuse), std::invalid_argument);
+    EXPECT_THROW((void)count({}, obtuse), std::invalid_argument);  // though none are compared
 }
 
 }  // namespace

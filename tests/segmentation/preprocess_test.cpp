@@ -157,6 +157,16 @@ TEST(preprocess, guesses_a_floor_that_is_not_at_zero) {
     EXPECT_NEAR(floor->offset, -1.2, 0.002);
 }
 
+/// In a small cloud a stray is no thousandth of the points.
+TEST(preprocess, guesses_the_floor_of_a_small_cloud_with_strays) {
+    auto points = clouds::sheet(60, 2);
+    for (auto& p : points) p.z() *= 0.1;
+    for (const double z : {-1e9, 1e9, -1e140}) points.push_back({0.0, 0.0, z});
+    const auto guess = gnomon::guess_floor(points);
+    ASSERT_TRUE(guess);
+    EXPECT_NEAR(guess->offset, 0.0, 0.05);
+}
+
 TEST(preprocess, says_nothing_where_there_is_nothing) {
     EXPECT_FALSE(gnomon::guess_floor(clouds::cloud{}));
     EXPECT_FALSE(gnomon::find_floor(clouds::cloud(50, {0, 0, 0})));
@@ -176,6 +186,8 @@ TEST(preprocess, refuses_bands_without_width) {
     const auto points = clouds::sheet(100, 1);
     EXPECT_THROW((void)gnomon::find_floor(points, {}, {.band = 0.0}), std::invalid_argument);
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = clouds::nan}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_share = clouds::nan}),
                  std::invalid_argument);
 }
 

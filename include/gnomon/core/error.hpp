@@ -5,7 +5,6 @@
 /// Nothing is ever printed.
 #pragma once
 
-#include <cstdint>
 #include <stdexcept>
 #include <string>
 #include <utility>

@@ -10,16 +10,18 @@
 #include <string_view>
 #include <utility>
 
+#include <gnomon/io/detail/file_target.hpp>
 #include <gnomon/io/detail/os_error.hpp>
 
 namespace gnomon::io {
 
-/// Writes the file `path`. Until `commit` an older file of that name is untouched; without it,
-/// nothing is left behind.
+/// Writes the file `path`, links followed. Until `commit` an older file of that name is untouched;
+/// without it, nothing is left behind.
 class output_file {
   public:
-    /// @throws gnomon::error  with the system's reason, if no file can be made beside `path`
-    explicit output_file(std::string path) : path_(std::move(path)) {
+    /// @throws gnomon::error  if `path` leads to something else than a file, or with the system's
+    ///                        reason, if none can be made beside it
+    explicit output_file(const std::string& path) : path_(detail::file_target(path)) {
         // "x": neither a file of the user's nor that of another process is overwritten.
         constexpr int most_tries = 100;
         for (int i = 0; i < most_tries && file_ == nullptr; ++i) {

@@ -45,7 +45,7 @@ namespace detail {
 [[nodiscard]] inline scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
-    if (first_line.starts_with(vtk_magic)) return read_vtk(file, fields);
+    if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
     if (detail::looks_like_pcd(file)) return read_pcd(file, fields);
     return read_xyz(file, fields);
 }

@@ -16,7 +16,9 @@
 #include <gnomon/io/detail/byte_cursor.hpp>
 #include <gnomon/io/detail/lzf.hpp>
 #include <gnomon/io/detail/pcd_header.hpp>
+#include <gnomon/io/detail/scalar_layout.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/input.hpp>
 

@@ -13,7 +13,9 @@
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/byte_cursor.hpp>
 #include <gnomon/io/detail/ply_header.hpp>
+#include <gnomon/io/detail/scalar_layout.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/input.hpp>
 

@@ -13,15 +13,15 @@
 
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/input.hpp>
 
 namespace gnomon::io {
+namespace detail {
 
 /// The words with which a legacy VTK file begins.
 inline constexpr std::string_view vtk_magic = "# vtk DataFile";
-
-namespace detail {
 
 /// Reads up to and including the line "POINTS n type".
 /// @return n

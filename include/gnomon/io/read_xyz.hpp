@@ -12,7 +12,9 @@
 #include <vector>
 
 #include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/number.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/input.hpp>
 
@@ -31,24 +33,31 @@ namespace detail {
     return is_number(word) || beginnings.find(word.substr(0, 1)) != std::string_view::npos;
 }
 
+/// The name of a column, out of its quotes if it has some.
+[[nodiscard]] inline std::string_view unquoted(std::string_view word) {
+    const bool quoted = word.size() >= 2 && (word.front() == '"' || word.front() == '\'') &&
+                        word.back() == word.front();
+    return quoted ? word.substr(1, word.size() - 2) : word;
+}
+
 /// Names the columns after the first line: what it says if it holds names, else "x", "y", "z",
 /// "column 3", "column 4", ...
 /// @param has_names  whether the line holds names
 [[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
                                                           const text_cursor& text) {
-    const std::string_view axes = "xyz";
+    constexpr std::string_view axes = "xyzXYZ";
     std::vector<std::string> result;
     while (const auto word = words.next()) {
         const std::size_t k = result.size();
-        const bool is_axis_of_another = word->size() == 1 &&
-                                        axes.find(*word) != std::string_view::npos &&
-                                        axes.find(*word) != k;
-        if (has_names && (is_number(*word) || is_axis_of_another))
+        const std::string_view name = unquoted(*word);
+        const std::size_t axis = name.size() == 1 ? axes.find(name) : std::string_view::npos;
+        const bool is_axis_of_another = axis != std::string_view::npos && axis % 3 != k;
+        if (has_names && (is_number(name) || is_axis_of_another))
             text.fail(in_quotes(*word) + " cannot be the name of column " + std::to_string(k));
         if (k < 3)
             result.emplace_back(axes.substr(k, 1));
         else
-            result.push_back(has_names ? std::string(*word) : "column " + std::to_string(k));
+            result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
     }
     if (result.size() < 3) text.fail("fewer than three columns");
     return result;

@@ -19,12 +19,14 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/io/detail/scalar_layout.hpp>
 #include <gnomon/io/output_file.hpp>
 #include <gnomon/io/ply_format.hpp>
 #include <gnomon/io/property.hpp>
 
 namespace gnomon::io {
 
+/// How to write it.
 struct ply_options {
     ply_format format = ply_format::binary_little_endian;
     field_type coordinates = field_type::float64;  ///< or float32
@@ -46,16 +48,18 @@ void append_text(std::string& text, T value) {
 }
 
 /// `value` as a T.
-/// @throws std::invalid_argument  if T is an integer that cannot hold it
+/// @throws std::invalid_argument  if T cannot hold it, but for the digits of a float
 template <class T>
 [[nodiscard]] T narrowed(double value) {
+    using limits = std::numeric_limits<T>;
+    bool fits = true;
     if constexpr (std::is_integral_v<T>) {
-        using limits = std::numeric_limits<T>;
-        gnomon::detail::require(value >= static_cast<double>(limits::min()) &&
-                                    value <= static_cast<double>(limits::max()) &&
-                                    value == std::trunc(value),
-                                "write_ply: a value does not fit the type of its property");
+        fits = value >= static_cast<double>(limits::min()) &&
+               value <= static_cast<double>(limits::max()) && value == std::trunc(value);
+    } else {
+        fits = !(std::isfinite(value) && std::abs(value) > static_cast<double>(limits::max()));
     }
+    gnomon::detail::require(fits, "write_ply: a value does not fit the type of its property");
     return static_cast<T>(value);
 }
 
@@ -137,7 +141,7 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
 /// @throws std::invalid_argument  before anything is written, for a property of another number of
 ///                                points; with nothing left behind, for a value that its type
 ///                                cannot hold
-/// O(points * properties)
+/// Complexity: O(points * properties).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},

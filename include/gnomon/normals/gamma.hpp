@@ -7,13 +7,13 @@
 
 #include <cmath>
 #include <cstddef>
-#include <functional>
 #include <iterator>
 #include <limits>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
 
 namespace gnomon {
@@ -26,11 +26,11 @@ namespace gnomon {
 /// gamma, the mean over all points. A missing normal (the zero vector) counts as 0: a method gains
 /// nothing by giving up.
 ///
-/// @param surface  elements with a member `normal`
+/// @param surface  the estimated normals
 /// @param truth    the true unit normals, in the same order
 /// @return NaN for no points
 /// @throws std::invalid_argument  if the two differ in size
-template <indexed_range Surface, indexed_range Truth>
+template <normal_range Surface, indexed_range Truth>
 [[nodiscard]] double mean_gamma(const Surface& surface, const Truth& truth) {
     const auto n = std::ranges::size(surface);
     detail::require(n == std::ranges::size(truth), "mean_gamma: normals and truth differ in size");

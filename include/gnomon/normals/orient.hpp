@@ -7,9 +7,11 @@
 
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
 
@@ -18,15 +20,16 @@ namespace gnomon {
 /// Turns each normal towards the view point of its point: <n, p - v> <= 0 afterwards.
 ///
 /// @param points   a scan, or with_viewpoint(s)(points, ...); a bare range was seen from the origin
-/// @param surface  a range of elements with a member `normal`, one per point; changed in place
+/// @param surface  a normal for each point; changed in place
 /// @throws std::invalid_argument  if surface, view points and points differ in number
 /// Complexity: O(n).
-template <class R, class Surface, class Proj = std::identity>
+template <class R, normal_range Surface, class Proj = std::identity>
     requires point_range<R, Proj>
 void orient_normals(const R& points, Surface& surface, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const viewpoint_table v = viewpoints_of(points);
-    detail::require(surface.size() == p.size(), "orient_normals: the surface is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "orient_normals: the surface is of other points");
     for (std::size_t i = 0; i < p.size(); ++i) {
         auto& n = surface[i].normal;
         if (n.dot(p[i] - v[i]) > 0.0) n = -n;

@@ -11,6 +11,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/Core>
@@ -18,20 +19,24 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
 
 /// A measure of dissimilarity of oriented points: `radius` bounds the distance of points that can
-/// be alike, and accepts(squared distance, n_i, n_j) decides. Must be symmetric. Models:
-/// `two_thresholds`, `joint_distance`.
+/// be alike, and criterion(), which is called once and may refuse its parameters, gives what
+/// decides of (squared distance, n_i, n_j). Must be symmetric. Models: `two_thresholds`,
+/// `joint_distance`.
 template <class D>
 concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) {
     { d.radius } -> std::convertible_to<double>;
-    { d.accepts(double{}, n, n) } -> std::same_as<bool>;
+    { d.criterion()(double{}, n, n) } -> std::same_as<bool>;
 };
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
@@ -39,9 +44,12 @@ struct two_thresholds {
     double radius = 0.05;          ///< r [m]
     angle max_angle = degrees(5);  ///< alpha_max
 
-    [[nodiscard]] bool accepts(double, const Eigen::Vector3d& n_i,
-                               const Eigen::Vector3d& n_j) const {
-        return std::abs(n_i.dot(n_j)) >= detail::min_cosine(max_angle);
+    /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
+    [[nodiscard]] auto criterion() const {
+        const double cosine = detail::min_cosine(max_angle);
+        return [cosine](double, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
+            return std::abs(n_i.dot(n_j)) >= cosine;
+        };
     }
 };
 
@@ -50,9 +58,12 @@ struct two_thresholds {
 struct joint_distance {
     double radius = 0.14;  ///< r, of no unit
 
-    [[nodiscard]] bool accepts(double squared_distance, const Eigen::Vector3d& n_i,
-                               const Eigen::Vector3d& n_j) const {
-        return squared_distance + (n_i - n_j).squaredNorm() <= radius * radius;
+    [[nodiscard]] auto criterion() const {
+        const double limit = radius * radius;
+        return [limit](double squared_distance, const Eigen::Vector3d& n_i,
+                       const Eigen::Vector3d& n_j) {
+            return squared_distance + gnomon::squared_distance(n_i, n_j) <= limit;
+        };
     }
 };
 
@@ -64,12 +75,12 @@ struct oriented_point_segmentation {
 
 /// The groups that chains of similar oriented points connect.
 ///
-/// @param surface  elements with a member `normal`, one per point; zero vectors join nothing
+/// @param surface  a normal for each point; missing ones join nothing
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
 /// Complexity: as segment_points.
-template <class R, indexed_range Surface, oriented_dissimilarity D, execution X = sequential,
+template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_oriented_points(const R& points, const Surface& surface,
@@ -81,15 +92,14 @@ template <class R, indexed_range Surface, oriented_dissimilarity D, execution X 
                     "segment_oriented_points: the radius must be finite and not negative");
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
+    const auto alike = dissimilarity.criterion();
     const kd_tree tree(points, std::move(projection));
     const auto radius_of = [&](std::size_t i) {
-        return surface[i].normal.isZero(0.0) ? detail::no_search : double{dissimilarity.radius};
+        return is_missing(surface[i].normal) ? detail::no_search : double{dissimilarity.radius};
     };
     const auto similar = [&](std::size_t i, const neighbor& q) {
-        const Eigen::Vector3d& n_i = surface[i].normal;
         const Eigen::Vector3d& n_j = surface[q.index].normal;
-        return !n_i.isZero(0.0) && !n_j.isZero(0.0) &&
-               dissimilarity.accepts(q.squared_distance, n_i, n_j);
+        return !is_missing(n_j) && alike(q.squared_distance, surface[i].normal, n_j);
     };
     detail::linker linker(p);
     if (options.greedy) {

@@ -64,7 +64,7 @@ struct leveling {
 ///
 /// @param up  unit vector against gravity
 /// @return nothing without finite points
-/// Complexity: O(n).
+/// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
@@ -72,12 +72,11 @@ template <class R, class Proj = std::identity>
                                                Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
-    if (histogram.counts().empty()) return std::nullopt;
-    const auto& counts = histogram.counts();
-    const std::size_t most = *std::max_element(counts.begin(), counts.end());
-    const auto lowest =
-        std::find_if(counts.begin(), counts.end(), [most](std::size_t c) { return 4 * c >= most; });
-    return plane{up, histogram.center(static_cast<std::size_t>(lowest - counts.begin()))};
+    if (histogram.bins().empty()) return std::nullopt;
+    const std::size_t most = detail::fullest(histogram).count;
+    const auto lowest = std::find_if(histogram.bins().begin(), histogram.bins().end(),
+                                     [most](const auto& bin) { return 4 * bin.count >= most; });
+    return plane{up, lowest->height};
 }
 
 /// The floor: the plane through the points in a band about itself.
@@ -137,24 +136,23 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive
-/// Complexity: O(n).
+/// @throws std::invalid_argument  unless the bin is positive and the share is not negative
+/// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
                                                  const ceiling_search& search = {},
                                                  Proj projection = {}) {
     detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
-    const auto& counts = histogram.counts();
-    const auto most = std::max_element(counts.begin(), counts.end());
-    if (most == counts.end() ||
-        static_cast<double>(*most) < search.min_share * static_cast<double>(histogram.points())) {
+    if (histogram.bins().empty()) return std::nullopt;
+    const auto [peak, count] = detail::fullest(histogram);
+    if (static_cast<double>(count) < search.min_share * static_cast<double>(histogram.points())) {
         return std::nullopt;
     }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
-    const double peak = histogram.center(static_cast<std::size_t>(most - counts.begin()));
     double sum = 0.0;
     std::size_t near = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {

@@ -27,7 +27,8 @@ class segments {
   public:
     segments() = default;
 
-    /// The groups of a labeling in which each label is `unlabeled` or at least 0. O(n + labels).
+    /// The groups of a labeling in which each label is `unlabeled` or at least 0.
+    /// O(n + largest label), in memory too: number labels from 0 on.
     /// @throws std::invalid_argument  for another negative label
     explicit segments(std::vector<std::int32_t> labels) : labels_(std::move(labels)) {
         std::int32_t last = unlabeled;

@@ -12,6 +12,7 @@
 #include <concepts>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <Eigen/Core>
@@ -19,6 +20,7 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -27,10 +29,9 @@
 
 namespace gnomon {
 
-/// Elements with a normal and the mean distance to the neighbors, as estimate_normals gives them.
+/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
 template <class S>
-concept surfel_range = indexed_range<S> && requires(const S& surface, std::size_t i) {
-    { surface[i].normal } -> std::convertible_to<Eigen::Vector3d>;
+concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
     { surface[i].mean_distance } -> std::convertible_to<double>;
 };
 
@@ -62,18 +63,17 @@ class smooth_link {
     /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
     /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
-        if (surface_[i].normal.isZero(0.0)) return no_search;
+        if (is_missing(surface_[i].normal)) return no_search;
         constexpr double margin = 1.0 + 1e-9;
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);
     }
 
-    /// Whether the normals agree; never for a missing normal, the zero vector.
+    /// Whether the normal of the neighbor is there and agrees with that of i.
     [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
-        const Eigen::Vector3d& n_i = surface_[i].normal;
         const Eigen::Vector3d& n_j = surface_[q.index].normal;
-        if (n_i.isZero(0.0) || n_j.isZero(0.0)) return false;
-        const double cosine = n_i.dot(n_j);
+        if (is_missing(n_j)) return false;
+        const double cosine = surface_[i].normal.dot(n_j);
         return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
     }
 

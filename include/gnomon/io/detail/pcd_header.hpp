@@ -12,12 +12,14 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/io/detail/scalar_layout.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 
 namespace gnomon::io::detail {

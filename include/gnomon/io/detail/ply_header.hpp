@@ -10,11 +10,15 @@
 #include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/io/detail/number.hpp>
+#include <gnomon/io/detail/scalar_layout.hpp>
+#include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/ply_format.hpp>
 

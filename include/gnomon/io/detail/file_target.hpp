@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Which file a name stands for, before something is written under it.
+#pragma once
+
+#include <string>
+
+#ifndef _WIN32
+#include <climits>
+#include <cstdlib>
+
+#include <sys/stat.h>
+#endif
+
+#include <gnomon/core/error.hpp>
+
+namespace gnomon::io::detail {
+
+/// The file that `path` leads to, links followed; `path` itself if there is none yet.
+/// @throws gnomon::error  for a device, a pipe or a directory, which no file may replace
+[[nodiscard]] inline std::string file_target(const std::string& path) {
+#ifdef _WIN32
+    return path;
+#else
+    struct stat status {};
+    if (::stat(path.c_str(), &status) != 0) return path;
+    if (!S_ISREG(status.st_mode)) throw error(path, "", "not a regular file");
+    char resolved[PATH_MAX];
+    return ::realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+#endif
+}
+
+}  // namespace gnomon::io::detail
