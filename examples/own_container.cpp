@@ -10,6 +10,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
 
 // A struct of yours: name the member, and it is a point.
 struct laser_return {

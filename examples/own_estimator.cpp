@@ -7,6 +7,7 @@
 #include <Eigen/Geometry>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
 
 namespace {
 

@@ -4,6 +4,7 @@
 #include <exception>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
 
 int main(int argc, char** argv) try {
     // [quick_start]

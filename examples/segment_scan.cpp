@@ -25,6 +25,7 @@
 #include "segment_scan/options.hpp"
 #include "segment_scan/progress.hpp"
 #include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
 
 namespace {
 

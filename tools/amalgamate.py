@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of include/gnomon/gnomon.hpp and all that it includes.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, gnomon/simulation.hpp and all that
+they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          says whether that file is what would be written
@@ -77,7 +78,8 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    amalgamation.take("gnomon/gnomon.hpp")
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/simulation.hpp"):
+        amalgamation.take(umbrella)
     text = amalgamation.text()
 
     if options.check:

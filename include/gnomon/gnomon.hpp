@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// gnomon: range scans into meaning. The table of contents, floor by floor: each header sees its
-/// own floor and those above it in this list, except that simulation and io stand beside the tower
-/// and see core alone.
+/// own floor and those above it in this list, except that io stands beside the tower and sees core
+/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>.
 #pragma once
 
 #include <gnomon/version.hpp>
@@ -15,6 +15,5 @@
 #include <gnomon/features.hpp>
 #include <gnomon/segmentation.hpp>
 
-#include <gnomon/simulation.hpp>
 #include <gnomon/io.hpp>
 // clang-format on

@@ -1,6 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Beside the tower: scans of known scenes, with ground truth.
+/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks and
+/// training, and would cost every robot compile time.
 #pragma once
 
+#include <gnomon/simulation/beam.hpp>
+#include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/box_and_cylinder.hpp>
+#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/cone.hpp>
+#include <gnomon/simulation/cylinder.hpp>
+#include <gnomon/simulation/furnished_room.hpp>
+#include <gnomon/simulation/furniture.hpp>
+#include <gnomon/simulation/plane_patch.hpp>
+#include <gnomon/simulation/pose.hpp>
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/ray_caster.hpp>
+#include <gnomon/simulation/scanner.hpp>
+#include <gnomon/simulation/scene.hpp>
+#include <gnomon/simulation/shape.hpp>
+#include <gnomon/simulation/simulate.hpp>
+#include <gnomon/simulation/sphere.hpp>
+#include <gnomon/simulation/surface_of_revolution.hpp>
+#include <gnomon/simulation/thesis_scenes.hpp>
+#include <gnomon/simulation/trajectory.hpp>
+#include <gnomon/simulation/triangle_mesh.hpp>
+#include <gnomon/simulation/true_scan.hpp>

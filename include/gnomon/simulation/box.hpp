@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A box: the block of which furniture is made, and from within a room.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/shape.hpp>
+
+namespace gnomon {
+
+/// Centered on its frame, along the axes. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z.
+struct box {
+    double length;  ///< along x [m]
+    double width;   ///< along y [m]
+    double height;  ///< along z [m]
+
+    [[nodiscard]] bounds extent() const {
+        return {{-0.5 * length, -0.5 * width, -0.5 * height},
+                {0.5 * length, 0.5 * width, 0.5 * height}};
+    }
+
+    [[nodiscard]] static std::span<const std::string_view> surface_names() {
+        static constexpr std::array<std::string_view, 6> names{"+x", "-x", "+y", "-y", "+z", "-z"};
+        return names;
+    }
+
+    /// The slab method (Kay and Kajiya 1986): the ray is inside between the last entry into a pair
+    /// of parallel planes and the first exit from one.
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        const std::array<double, 3> size{length, width, height};
+        double enter = -infinity;
+        double leave = infinity;
+        int entered = 0;
+        int left = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            const double o = r.origin[axis];
+            const double u = r.direction[axis];
+            const double half = 0.5 * size[static_cast<std::size_t>(axis)];
+            if (u == 0.0) {
+                if (!(std::abs(o) <= half)) return std::nullopt;
+                continue;
+            }
+            double in = (-half - o) / u;
+            double out = (half - o) / u;
+            if (in > out) std::swap(in, out);
+            if (!(in <= leave && out >= enter)) return std::nullopt;
+            if (in > enter) {
+                enter = in;
+                entered = axis;
+            }
+            if (out < leave) {
+                leave = out;
+                left = axis;
+            }
+        }
+        const bool inside = enter <= 0.0;
+        const double range = inside ? leave : enter;
+        if (!(range > 0.0 && range <= r.reach && range < infinity)) return std::nullopt;
+
+        const int axis = inside ? left : entered;
+        const bool towards_positive = r.direction[axis] > 0.0;
+        Eigen::Vector3d normal(0.0, 0.0, 0.0);
+        normal[axis] = towards_positive ? -1.0 : 1.0;
+        return ray_hit{range, normal, 2 * axis + (towards_positive == inside ? 0 : 1)};
+    }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A bounding volume hierarchy: which of many things may a ray meet first? Built top-down with the
+/// surface area heuristic over bins of centers (Wald 2007), walked from near to far.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <numeric>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/shape.hpp>
+
+namespace gnomon::detail {
+
+/// Bounds that hold nothing.
+[[nodiscard]] inline bounds no_bounds() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
+}
+
+/// Widens `b` to hold `low` and `high`.
+inline void extend(bounds& b, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
+    for (int a = 0; a < 3; ++a) {
+        b.low[a] = std::min(b.low[a], low[a]);
+        b.high[a] = std::max(b.high[a], high[a]);
+    }
+}
+
+/// Half the surface of bounds that are not empty [m^2]: proportional to the rays that meet them.
+[[nodiscard]] inline double half_area(const bounds& b) {
+    const double x = b.high.x() - b.low.x();
+    const double y = b.high.y() - b.low.y();
+    const double z = b.high.z() - b.low.z();
+    return x * y + y * z + z * x;
+}
+
+/// A tree over numbered boxes.
+class bvh {
+  public:
+    bvh() = default;
+
+    /// O(n log n). Precondition: all boxes are finite.
+    explicit bvh(const std::vector<bounds>& boxes) : items_(boxes.size()) {
+        std::iota(items_.begin(), items_.end(), std::uint32_t{0});
+        if (boxes.empty()) return;
+        nodes_.reserve(2 * boxes.size());
+        nodes_.emplace_back();
+        build(boxes, 0, 0, static_cast<std::uint32_t>(boxes.size()), 0);
+    }
+
+    /// Calls visit(item) for each item whose box the ray meets within r.reach, near ones first. The
+    /// visitor shortens the reach to what it found.
+    void walk(ray& r, auto&& visit) const {
+        if (nodes_.empty()) return;
+        const slopes s(r);
+        std::array<pending, stack_size> stack;
+        std::size_t height = 0;
+        pending next{s.entry(nodes_[0].box, r.reach), 0};
+        while (true) {
+            if (next.entry <= r.reach) {
+                const node& n = nodes_[next.node];
+                if (n.items > 0) {
+                    for (std::uint32_t i = 0; i < n.items; ++i) visit(items_[n.first + i]);
+                } else {
+                    pending near{s.entry(nodes_[n.first].box, r.reach), n.first};
+                    pending far{s.entry(nodes_[n.first + 1].box, r.reach), n.first + 1};
+                    if (far.entry < near.entry) std::swap(near, far);
+                    if (far.entry <= r.reach) stack[height++] = far;
+                    next = near;
+                    continue;
+                }
+            }
+            if (height == 0) return;
+            next = stack[--height];
+        }
+    }
+
+  private:
+    struct node {
+        bounds box = no_bounds();
+        std::uint32_t first = 0;  // of its items; of its two children if it has no items itself
+        std::uint32_t items = 0;
+    };
+
+    struct pending {
+        double entry;  // range at which the ray enters the node; infinite if it does not
+        std::uint32_t node;
+    };
+
+    /// A ray, prepared for boxes.
+    struct slopes {
+        Eigen::Vector3d origin;
+        std::array<double, 3> inverse;
+        std::array<bool, 3> backwards;
+
+        explicit slopes(const ray& r) : origin(r.origin) {
+            for (int a = 0; a < 3; ++a) {
+                const auto i = static_cast<std::size_t>(a);
+                inverse[i] = 1.0 / r.direction[a];
+                backwards[i] = inverse[i] < 0.0;
+            }
+        }
+
+        /// A lower bound of the range at which the ray enters the box; infinite if it does not
+        /// within `reach`. The slab method with a margin for rounding (Ize 2013). A NaN, from a ray
+        /// within the plane of a side, fails the comparison and leaves the interval as it is.
+        [[nodiscard]] double entry(const bounds& box, double reach) const {
+            constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
+            double enter = 0.0;
+            double leave = reach * (1.0 + rounding);
+            for (int a = 0; a < 3; ++a) {
+                const auto i = static_cast<std::size_t>(a);
+                const double in =
+                    ((backwards[i] ? box.high[a] : box.low[a]) - origin[a]) * inverse[i];
+                const double out = ((backwards[i] ? box.low[a] : box.high[a]) - origin[a]) *
+                                   inverse[i] * (1.0 + rounding);
+                if (in > enter) enter = in;
+                if (out < leave) leave = out;
+            }
+            return enter <= leave ? enter * (1.0 - rounding)
+                                  : std::numeric_limits<double>::infinity();
+        }
+    };
+
+    static constexpr std::uint32_t most_items = 4;  // in a leaf
+    static constexpr std::size_t bins = 16;
+    // After so many splits of any kind come splits into halves, 32 at most.
+    static constexpr std::size_t most_uneven_splits = 64;
+    static constexpr std::size_t stack_size = most_uneven_splits + 34;
+
+    /// Splits the items [first, last) below node `at`.
+    void build(const std::vector<bounds>& boxes, std::uint32_t at, std::uint32_t first,
+               std::uint32_t last, std::size_t depth) {
+        bounds centers = no_bounds();
+        for (std::uint32_t i = first; i < last; ++i) {
+            const bounds& b = boxes[items_[i]];
+            extend(nodes_[at].box, b.low, b.high);
+            const Eigen::Vector3d c = center(b);
+            extend(centers, c, c);
+        }
+        if (last - first <= most_items) {
+            nodes_[at].first = first;
+            nodes_[at].items = last - first;
+            return;
+        }
+        const std::uint32_t middle = split(boxes, centers, first, last, depth);
+        const auto children = static_cast<std::uint32_t>(nodes_.size());
+        nodes_[at].first = children;
+        nodes_.emplace_back();
+        nodes_.emplace_back();
+        build(boxes, children, first, middle, depth + 1);
+        build(boxes, children + 1, middle, last, depth + 1);
+    }
+
+    [[nodiscard]] static Eigen::Vector3d center(const bounds& b) {
+        return {0.5 * (b.low.x() + b.high.x()), 0.5 * (b.low.y() + b.high.y()),
+                0.5 * (b.low.z() + b.high.z())};
+    }
+
+    /// Reorders the items and tells where the second part begins.
+    std::uint32_t split(const std::vector<bounds>& boxes, const bounds& centers,
+                        std::uint32_t first, std::uint32_t last, std::size_t depth) {
+        const std::uint32_t half = first + (last - first) / 2;
+        if (depth >= most_uneven_splits) return half;
+
+        double least = std::numeric_limits<double>::infinity();
+        int best_axis = -1;
+        std::size_t best_bin = 0;
+        for (int axis = 0; axis < 3; ++axis) {
+            if (!(centers.high[axis] > centers.low[axis])) continue;
+            std::array<bounds, bins> box;
+            std::array<std::uint32_t, bins> count{};
+            box.fill(no_bounds());
+            for (std::uint32_t i = first; i < last; ++i) {
+                const bounds& b = boxes[items_[i]];
+                const std::size_t bin = bin_of(b, centers, axis);
+                extend(box[bin], b.low, b.high);
+                ++count[bin];
+            }
+            // Cost of the parts above each cut, then of those below it.
+            std::array<double, bins> above{};
+            bounds swept = no_bounds();
+            std::uint32_t n = 0;
+            for (std::size_t bin = bins - 1; bin > 0; --bin) {
+                extend(swept, box[bin].low, box[bin].high);
+                n += count[bin];
+                above[bin] = n == 0 ? 0.0 : n * half_area(swept);
+            }
+            swept = no_bounds();
+            n = 0;
+            for (std::size_t bin = 1; bin < bins; ++bin) {
+                extend(swept, box[bin - 1].low, box[bin - 1].high);
+                n += count[bin - 1];
+                if (n == 0 || n == last - first) continue;
+                const double cost = n * half_area(swept) + above[bin];
+                if (cost < least) {
+                    least = cost;
+                    best_axis = axis;
+                    best_bin = bin;
+                }
+            }
+        }
+        if (best_axis < 0) return half;  // all centers coincide
+        const auto middle = std::partition(
+            items_.begin() + first, items_.begin() + last,
+            [&](std::uint32_t item) { return bin_of(boxes[item], centers, best_axis) < best_bin; });
+        return static_cast<std::uint32_t>(middle - items_.begin());
+    }
+
+    [[nodiscard]] static std::size_t bin_of(const bounds& b, const bounds& centers, int axis) {
+        const double share =
+            (center(b)[axis] - centers.low[axis]) / (centers.high[axis] - centers.low[axis]);
+        return std::min(bins - 1, static_cast<std::size_t>(share * bins));
+    }
+
+    std::vector<node> nodes_;
+    std::vector<std::uint32_t> items_;  // of the leaves, side by side
+};
+
+}  // namespace gnomon::detail

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The one intersection behind all round shapes: cylinder, cone, sphere and smooth vase are bands
+/// about the z axis on which the squared radius is a quadratic function of the height. A ray meets
+/// such a band where a quadratic equation says so.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <gnomon/simulation/ray.hpp>
+
+namespace gnomon::detail {
+
+/// The band low <= z <= high of the surface x^2 + y^2 = a z^2 + b z + c.
+struct revolved_arc {
+    double low;   ///< [m]
+    double high;  ///< [m]
+    double a;
+    double b;
+    double c;
+
+    [[nodiscard]] double squared_radius(double z) const { return (a * z + b) * z + c; }
+};
+
+/// Which ends of a row of arcs a disc closes.
+struct end_discs {
+    bool bottom;
+    bool top;
+};
+
+/// Gathers the nearest of candidate hits.
+class nearest_revolved_hit {
+  public:
+    /// `given` is first moved near the origin, about which the shape lies: far from it the
+    /// coefficients of the quadratic equations would cancel.
+    explicit nearest_revolved_hit(const ray& given)
+        : shift_(-given.origin.dot(given.direction)),
+          near_{given.point_at(shift_), given.direction, given.reach} {}
+
+    /// Surface 0.
+    void try_mantle(const revolved_arc& arc) {
+        const Eigen::Vector3d& o = near_.origin;
+        const Eigen::Vector3d& u = near_.direction;
+        const double a = u.x() * u.x() + u.y() * u.y() - arc.a * u.z() * u.z();
+        const double b = o.x() * u.x() + o.y() * u.y() - (arc.a * o.z() + 0.5 * arc.b) * u.z();
+        const double c = o.x() * o.x() + o.y() * o.y() - arc.squared_radius(o.z());
+        double discriminant = b * b - a * c;
+        // No less than zero but for rounding: a tangent, or a ray through the apex of a cone.
+        if (discriminant < 0.0 && discriminant > -1e-15 * b * b) discriminant = 0.0;
+        if (!(discriminant >= 0.0)) return;
+        // The sum that does not cancel gives one root, the product of the roots the other.
+        const double q = -(b + std::copysign(std::sqrt(discriminant), b));
+        const double margin = 1e-12 * (arc.high - arc.low);  // neighboring arcs leave no gap
+        for (const double t : {q / a, c / q}) {
+            const double z = o.z() + t * u.z();
+            if (!(z >= arc.low - margin && z <= arc.high + margin)) continue;
+            const Eigen::Vector3d gradient(o.x() + t * u.x(), o.y() + t * u.y(),
+                                           -(arc.a * z + 0.5 * arc.b));
+            keep(t, gradient, 0);
+        }
+    }
+
+    /// A disc about the axis.
+    void try_disc(double z, double squared_radius, std::int32_t surface) {
+        const double t = (z - near_.origin.z()) / near_.direction.z();
+        const double x = near_.origin.x() + t * near_.direction.x();
+        const double y = near_.origin.y() + t * near_.direction.y();
+        if (x * x + y * y <= squared_radius) keep(t, {0.0, 0.0, 1.0}, surface);
+    }
+
+    [[nodiscard]] const std::optional<ray_hit>& hit() const { return hit_; }
+
+  private:
+    void keep(double t, const Eigen::Vector3d& gradient, std::int32_t surface) {
+        const double range = shift_ + t;
+        if (!(range > 0.0 && range <= near_.reach)) return;
+        const double length = std::sqrt(gradient.dot(gradient));
+        const double sign = gradient.dot(near_.direction) > 0.0 ? -1.0 : 1.0;
+        // The apex of a cone has no normal of its own: any that faces the ray will do.
+        hit_ = ray_hit{range, length > 0.0 ? gradient * (sign / length) : near_.direction * -1.0,
+                       surface};
+        near_.reach = range;
+    }
+
+    double shift_;
+    ray near_;  // its reach counts from the origin of the given ray
+    std::optional<ray_hit> hit_;
+};
+
+/// The first hit of a row of arcs, lowest first, and the discs that close it. Surfaces: 0 the
+/// mantle, 1 the bottom, 2 the top.
+[[nodiscard]] inline std::optional<ray_hit> first_hit_of(std::span<const revolved_arc> arcs,
+                                                         end_discs discs, const ray& r) {
+    nearest_revolved_hit nearest(r);
+    for (const revolved_arc& arc : arcs) nearest.try_mantle(arc);
+    const revolved_arc& first = arcs.front();
+    const revolved_arc& last = arcs.back();
+    if (discs.bottom) nearest.try_disc(first.low, first.squared_radius(first.low), 1);
+    if (discs.top) nearest.try_disc(last.high, last.squared_radius(last.high), 2);
+    return nearest.hit();
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Rooms that nobody has drawn: as many as there are seeds, to test on more than one.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/simulation/furniture.hpp>
+#include <gnomon/simulation/pose.hpp>
+#include <gnomon/simulation/scene.hpp>
+#include <gnomon/simulation/thesis_scenes.hpp>
+
+namespace gnomon::scenes {
+
+/// How to furnish.
+struct room_options {
+    int pieces = 8;  ///< of furniture, fewer if there is no room for them
+    std::uint64_t seed = 1;
+};
+
+/// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces from furniture_models(),
+/// none within another, turned at random. The sensor stands at a wall, 1.0 to 1.6 m high.
+/// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
+[[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
+    gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
+                            "furnished_room: wants 0 to 1,000 pieces");
+    random_stream random(options.seed);
+    const double length = random.uniform(4.0, 6.0);
+    const double width = random.uniform(4.0, 6.0);
+    scene world;
+    world.sensor = at(0.3, 0.0, random.uniform(1.0, 1.6)) * pitch(degrees(10));
+    detail::add_room(world,
+                     {0.0, length, -0.5 * width, 0.5 * width, 0.0, random.uniform(2.4, 3.0)});
+    const double side = random.uniform() < 0.5 ? -0.5 * width : 0.5 * width - 0.9;
+    detail::add_block(world, "cupboard",
+                      {length - 0.55, length, side, side + 0.9, 0.0, random.uniform(1.2, 2.1)});
+
+    // Each piece stands in a circle of its own, off the walls, the sensor and the cupboard.
+    struct circle {
+        double x;
+        double y;
+        double radius;
+    };
+    std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
+    const auto models = furniture_models();
+    for (int piece = 0; piece < options.pieces; ++piece) {
+        const furniture_model& model = models[random.bits() % models.size()];
+        scene alone;
+        add(alone, model, {});
+        double radius = 0.0;
+        for (const placed_shape& s : alone.shapes()) {
+            for (const Eigen::Vector3d& corner : {s.extent.low, s.extent.high})
+                radius = std::max(radius, std::hypot(corner.x(), corner.y()));
+        }
+        for (int trial = 0; trial < 100; ++trial) {
+            const circle place{random.uniform(radius, length - radius),
+                               random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
+            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
+                return std::hypot(place.x - c.x, place.y - c.y) >= place.radius + c.radius;
+            });
+            const angle turned = degrees(random.uniform(-180.0, 180.0));
+            if (!is_free) continue;
+            taken.push_back(place);
+            furniture_model named = model;
+            named.name = gnomon::detail::numbered(model.name.c_str(), piece + 1);
+            add(world, named, at(place.x, place.y, 0.0) * yaw(turned));
+            break;
+        }
+    }
+    return world;
+}
+
+}  // namespace gnomon::scenes

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A piece of a plane: a wall, a plate, a sheet of paper.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <optional>
+#include <span>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/shape.hpp>
+
+namespace gnomon {
+
+/// A rectangle in z = 0, centered on its frame, seen from both sides.
+struct plane_patch {
+    double length;  ///< along x [m]
+    double width;   ///< along y [m]
+
+    [[nodiscard]] bounds extent() const {
+        return {{-0.5 * length, -0.5 * width, 0.0}, {0.5 * length, 0.5 * width, 0.0}};
+    }
+
+    [[nodiscard]] static std::span<const std::string_view> surface_names() {
+        static constexpr std::array<std::string_view, 1> names{"plane"};
+        return names;
+    }
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        const double range = -r.origin.z() / r.direction.z();
+        if (!(range > 0.0 && range <= r.reach)) return std::nullopt;
+        const bool hit = std::abs(r.origin.x() + range * r.direction.x()) <= 0.5 * length &&
+                         std::abs(r.origin.y() + range * r.direction.y()) <= 0.5 * width;
+        if (!hit) return std::nullopt;
+        return ray_hit{range, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
+    }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A 2D laser range finder: one scan line after another, each a fan of beams in the x-y plane of
+/// the sensor, x being its axis of sight.
+///
+/// Klasing 2010, Sec. 2.4.3: a scan of t_s seconds has n = t_s f_s alpha_FoV / alpha_r beams.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/error.hpp>
+
+namespace gnomon {
+
+/// The default is the scanner of the thesis: a UTM-30LX of which 180 degrees are used.
+struct scanner {
+    angle field_of_view = degrees(180);  ///< alpha_FoV, about the axis of sight
+    angle resolution = degrees(0.25);    ///< alpha_r, between beams
+    double frequency = 40.0;             ///< f_s, scan lines per second [Hz]
+    double min_range = 0.1;              ///< nothing nearer is seen [m]
+    double max_range = 30.0;             ///< nothing farther is seen [m]
+
+    /// Beams of a scan line.
+    [[nodiscard]] std::size_t beams() const {
+        return whole(field_of_view.radians() / resolution.radians());
+    }
+
+    /// Scan lines in `seconds`.
+    [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
+
+    /// The direction of beam j in the sensor's frame: from right to left, the field of view being
+    /// cut into equal parts with a beam in the middle of each.
+    [[nodiscard]] Eigen::Vector3d direction(std::size_t j) const {
+        const angle a = radians((static_cast<double>(j) + 0.5) * resolution.radians() -
+                                0.5 * field_of_view.radians());
+        return {cos(a), sin(a), 0.0};
+    }
+
+    /// @throws std::invalid_argument  unless 0 < resolution <= field of view <= 360 degrees, the
+    ///                                frequency is positive and finite, and 0 <= min_range <
+    ///                                max_range, which is finite
+    void require_valid() const {
+        using detail::require;
+        require(
+            resolution > radians(0) && resolution <= field_of_view && field_of_view <= degrees(360),
+            "scanner: needs 0 < resolution <= field of view <= 360 degrees");
+        require(frequency > 0.0 && std::isfinite(frequency),
+                "scanner: the frequency must be positive and finite");
+        require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
+                "scanner: needs 0 <= min_range < max_range, finite");
+    }
+
+  private:
+    /// What is whole but for rounding counts as whole.
+    static std::size_t whole(double x) { return static_cast<std::size_t>(std::floor(x + 1e-6)); }
+};
+
+/// Range finders of the thesis, by their data sheets. The standard deviations that those give hold
+/// for bright surfaces: 5 mm (LMS-200), 3 to 10 mm (LMS-400), 1 % of the range or 10 mm (URG-04LX),
+/// 10 to 30 mm (UTM-30LX); set them in the beam.
+namespace scanners {
+
+/// SICK LMS-200 at half a degree.
+[[nodiscard]] inline scanner sick_lms_200() {
+    return {.field_of_view = degrees(180),
+            .resolution = degrees(0.5),
+            .frequency = 37.5,
+            .min_range = 0.0,
+            .max_range = 80.0};
+}
+
+/// SICK LMS-400 at a quarter of a degree.
+[[nodiscard]] inline scanner sick_lms_400() {
+    return {.field_of_view = degrees(70),
+            .resolution = degrees(0.25),
+            .frequency = 360.0,
+            .min_range = 0.7,
+            .max_range = 3.0};
+}
+
+/// Hokuyo URG-04LX: 1,024 steps a turn.
+[[nodiscard]] inline scanner hokuyo_urg_04lx() {
+    return {.field_of_view = degrees(240),
+            .resolution = degrees(360.0 / 1024.0),
+            .frequency = 10.0,
+            .min_range = 0.06,
+            .max_range = 4.095};
+}
+
+/// Hokuyo UTM-30LX.
+[[nodiscard]] inline scanner hokuyo_utm_30lx() {
+    return {.field_of_view = degrees(270),
+            .resolution = degrees(0.25),
+            .frequency = 40.0,
+            .min_range = 0.1,
+            .max_range = 30.0};
+}
+
+}  // namespace scanners
+
+/// The three densities of Fig. 2.16: 7,200, 28,800 and 115,200 points in 4 seconds.
+namespace densities {
+
+[[nodiscard]] inline scanner low() { return {.resolution = degrees(1.0), .frequency = 10.0}; }
+[[nodiscard]] inline scanner medium() { return {.resolution = degrees(0.5), .frequency = 20.0}; }
+[[nodiscard]] inline scanner high() { return {}; }
+
+}  // namespace densities
+
+}  // namespace gnomon

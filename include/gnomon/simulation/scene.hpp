@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A world to scan: shapes in their places, and what they are. Shapes have surfaces ("+z"), make up
+/// parts ("seat"), and parts make up objects ("chair 2"); all of them have numbers, which the
+/// ground truth of a scan speaks of, and names.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/simulation/pose.hpp>
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/shape.hpp>
+#include <gnomon/simulation/triangle_mesh.hpp>
+
+namespace gnomon {
+
+/// A number of an object, a part or a surface that is none.
+inline constexpr std::int32_t nothing = -1;
+
+/// A surface of a scene.
+struct scene_surface {
+    std::string name;   ///< as its shape calls it
+    std::int32_t part;  ///< that it belongs to
+};
+
+/// A part of a scene.
+struct scene_part {
+    std::string name;
+    std::int32_t object;  ///< that it belongs to
+};
+
+namespace detail {
+
+/// A shape of any kind.
+class any_shape {
+  public:
+    any_shape() = default;
+    any_shape(const any_shape&) = delete;
+    any_shape& operator=(const any_shape&) = delete;
+    virtual ~any_shape() = default;
+
+    [[nodiscard]] virtual std::optional<ray_hit> first_hit(const ray& r) const = 0;
+    /// The shape if it is a mesh.
+    [[nodiscard]] virtual const triangle_mesh* mesh() const = 0;
+};
+
+template <shape S>
+class any_shape_of final : public any_shape {
+  public:
+    explicit any_shape_of(S shape) : shape_(std::move(shape)) {}
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const override {
+        return shape_.first_hit(r);
+    }
+    [[nodiscard]] const triangle_mesh* mesh() const override {
+        if constexpr (std::same_as<S, triangle_mesh>)
+            return &shape_;
+        else
+            return nullptr;
+    }
+
+  private:
+    S shape_;
+};
+
+}  // namespace detail
+
+/// A shape in its place.
+struct placed_shape {
+    std::shared_ptr<const detail::any_shape> shape;
+    gnomon::pose pose;
+    bounds extent;               ///< in the scene's frame
+    std::int32_t first_surface;  ///< its surfaces have this number and the ones that follow
+
+    /// In the scene's frame and numbers.
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        auto hit =
+            shape->first_hit({pose.point_in(r.origin), pose.direction_in(r.direction), r.reach});
+        if (hit) {
+            hit->normal = pose.direction_out(hit->normal);
+            hit->surface += first_surface;
+        }
+        return hit;
+    }
+};
+
+/// Objects of parts of shapes. Copies share the shapes.
+class scene {
+  public:
+    /// A new object.
+    /// @return its number
+    std::int32_t add_object(std::string name) {
+        objects_.push_back(std::move(name));
+        return static_cast<std::int32_t>(objects_.size() - 1);
+    }
+
+    /// A new part of an object.
+    /// @return its number, unique in the scene
+    /// @throws std::invalid_argument  if there is no such object
+    std::int32_t add_part(std::int32_t object, std::string name) {
+        detail::require(object >= 0 && static_cast<std::size_t>(object) < objects_.size(),
+                        "scene: a part of a missing object");
+        parts_.push_back({std::move(name), object});
+        return static_cast<std::int32_t>(parts_.size() - 1);
+    }
+
+    /// A shape that belongs to a part.
+    /// @return the number of its first surface
+    /// @throws std::invalid_argument  if there is no such part; if the shape's size is negative or
+    ///                                not finite, or its pose no rigid motion
+    template <shape S>
+    std::int32_t add(std::int32_t part, S shape, const pose& at = {}) {
+        detail::require(part >= 0 && static_cast<std::size_t>(part) < parts_.size(),
+                        "scene: a shape of a missing part");
+        const bounds extent = placed(shape.extent(), at);
+        const auto first = static_cast<std::int32_t>(surfaces_.size());
+        for (const auto& name : shape.surface_names())
+            surfaces_.push_back({std::string(name), part});
+        shapes_.push_back(
+            {std::make_shared<const detail::any_shape_of<S>>(std::move(shape)), at, extent, first});
+        return first;
+    }
+
+    [[nodiscard]] const std::vector<std::string>& objects() const { return objects_; }
+    [[nodiscard]] const std::vector<scene_part>& parts() const { return parts_; }
+    [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
+    [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
+
+    /// The whole name of a surface, "chair 2/seat/+z".
+    /// Precondition: there is one of this number.
+    [[nodiscard]] std::string surface_name(std::int32_t surface) const {
+        const scene_surface& s = surfaces_[static_cast<std::size_t>(surface)];
+        const scene_part& p = parts_[static_cast<std::size_t>(s.part)];
+        return objects_[static_cast<std::size_t>(p.object)] + "/" + p.name + "/" + s.name;
+    }
+
+    /// The number of the surface of this whole name; `nothing` if there is none. O(surfaces).
+    [[nodiscard]] std::int32_t find_surface(std::string_view whole_name) const {
+        for (std::size_t i = 0; i < surfaces_.size(); ++i) {
+            const auto number = static_cast<std::int32_t>(i);
+            if (surface_name(number) == whole_name) return number;
+        }
+        return nothing;
+    }
+
+    /// Where a sensor should stand to see the scene.
+    pose sensor;
+
+  private:
+    /// Bounds about turned and moved ones.
+    static bounds placed(const bounds& own, const pose& at) {
+        using detail::require;
+        bounds result;
+        for (int i = 0; i < 3; ++i) {
+            require(own.low[i] <= own.high[i],
+                    "scene: the size of a shape must be finite and not negative");
+            double reach = 0.0;
+            double middle = at.position[i];
+            for (int j = 0; j < 3; ++j) {
+                middle += at.rotation(i, j) * 0.5 * (own.low[j] + own.high[j]);
+                reach += std::abs(at.rotation(i, j)) * 0.5 * (own.high[j] - own.low[j]);
+                double product = 0.0;
+                for (int k = 0; k < 3; ++k) product += at.rotation(i, k) * at.rotation(j, k);
+                require(std::abs(product - (i == j ? 1.0 : 0.0)) < 1e-9,
+                        "scene: a pose must be a rigid motion");
+            }
+            // What rounding may have cut off.
+            reach += 1e-12 * (std::abs(middle) + reach);
+            result.low[i] = middle - reach;
+            result.high[i] = middle + reach;
+        }
+        require(is_finite(result.low) && is_finite(result.high),
+                "scene: shapes must be of finite size, at a finite place");
+        return result;
+    }
+
+    std::vector<std::string> objects_;
+    std::vector<scene_part> parts_;
+    std::vector<scene_surface> surfaces_;
+    std::vector<placed_shape> shapes_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What scenes are made of: the `shape` concept.
+///
+/// A shape lies in a frame of its own and consists of one or more numbered surfaces, such as the
+/// sides of a box. It is asked for two things: a box about it, and the first point where a ray
+/// crosses it, from outside or from within (so that a box is a room, too).
+///
+/// Laws, checked in tests/laws/shape_laws.hpp for every model: the hit lies on the ray within its
+/// reach and in the bounds; the normal has unit length and faces the ray's origin; the number of
+/// the surface is below the number of names; a shorter reach changes nothing but to hide hits
+/// beyond it; a ray that starts behind the hit sees what follows; a ray of no direction, or with
+/// NaN, meets nothing.
+///
+/// Models: `box`, `plane_patch`, `cylinder`, `cone`, `sphere`, `surface_of_revolution`,
+/// `triangle_mesh`.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <optional>
+#include <string_view>
+
+#include <Eigen/Core>
+
+#include <gnomon/simulation/ray.hpp>
+
+namespace gnomon {
+
+/// A box along the axes that holds a shape; empty if a low coordinate exceeds the high one.
+struct bounds {
+    Eigen::Vector3d low;   ///< [m]
+    Eigen::Vector3d high;  ///< [m]
+};
+
+/// Whatever rays can hit. Const calls, thread-safe.
+template <class S>
+concept shape = requires(const S& s, const ray& r) {
+    { s.extent() } -> std::same_as<bounds>;
+    { s.first_hit(r) } -> std::same_as<std::optional<ray_hit>>;
+    { s.surface_names().size() } -> std::convertible_to<std::size_t>;
+    { *s.surface_names().begin() } -> std::convertible_to<std::string_view>;
+};
+
+}  // namespace gnomon

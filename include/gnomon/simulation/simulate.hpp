@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Scans a scene: the range finder goes along its trajectory, each beam is a ray, each ray a
+/// reading, each reading a point (Klasing 2010, Sec. 2.4.3).
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/simulation/beam.hpp>
+#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/pose.hpp>
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/ray_caster.hpp>
+#include <gnomon/simulation/scanner.hpp>
+#include <gnomon/simulation/scene.hpp>
+#include <gnomon/simulation/trajectory.hpp>
+#include <gnomon/simulation/true_scan.hpp>
+
+namespace gnomon {
+
+namespace detail {
+
+/// A reading that became a point.
+struct returned {
+    Eigen::Vector3d point;
+    Eigen::Vector3d direction;
+    std::optional<ray_hit> hit;
+    echo kind;
+};
+
+/// The readings of `rays` rays that are kept, in order of the rays: ray_of(i) is number i.
+template <ray_caster C, execution X>
+[[nodiscard]] std::vector<std::optional<returned>> read_rays(const instrument<C>& read,
+                                                             const beam& b, std::size_t rays,
+                                                             auto&& ray_of, const X& run) {
+    std::vector<std::optional<returned>> readings(rays);
+    for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            const ray r = ray_of(i);
+            const auto reading = read(r, random_stream(b.seed, i));
+            if (reading.kind == echo::none && !b.keep_failed) continue;
+            readings[i] = {r.point_at(reading.range), r.direction, reading.hit, reading.kind};
+        }
+    });
+    return readings;
+}
+
+/// The points of the readings that became one, and the truth about them.
+[[nodiscard]] true_scan points_of(const auto& readings, const scene& world) {
+    true_scan result;
+    for (const auto& r : readings) {
+        if (!r) continue;
+        result.scan.points.push_back(r->point);
+        result.directions.push_back(r->direction);
+        result.echoes.push_back(r->kind);
+        Eigen::Vector3d normal(0.0, 0.0, 0.0);
+        double range = std::numeric_limits<double>::quiet_NaN();
+        std::int32_t surface = nothing;
+        std::int32_t part = nothing;
+        std::int32_t object = nothing;
+        if (r->hit) {
+            normal = r->hit->normal;
+            range = r->hit->range;
+            surface = r->hit->surface;
+            part = world.surfaces()[static_cast<std::size_t>(surface)].part;
+            object = world.parts()[static_cast<std::size_t>(part)].object;
+        }
+        result.normals.push_back(normal);
+        result.ranges.push_back(range);
+        result.surfaces.push_back(surface);
+        result.parts.push_back(part);
+        result.objects.push_back(object);
+    }
+    return result;
+}
+
+}  // namespace detail
+
+/// A scan of a scene, scan line by scan line, by a caster of your choice.
+///
+/// @param world   what `caster` was made of; names the truth
+/// @param finder  gives n = lines(duration) * beams() rays
+/// @return the points of all readings that did not fail; view points one for all, or one per scan
+///         line if the sensor moves
+/// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
+///                                finite, or there are more rays than a point range may hold
+/// The same seed gives the same bytes for every execution.
+/// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint.
+template <ray_caster C, sensor_trajectory T, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
+                                 const scanner& finder = {}, const beam& b = {},
+                                 const X& run = {}) {
+    finder.require_valid();
+    const double duration = trajectory.duration;
+    detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
+                    "simulate: the duration must be finite and not negative");
+    const std::size_t beams = finder.beams();
+    const std::size_t lines = finder.lines(duration);
+    detail::require(lines < std::numeric_limits<point_index>::max() / beams,
+                    "simulate: more rays than a point range may hold");
+    const detail::instrument<C> read(caster, b, finder.min_range, finder.max_range);
+
+    std::vector<pose> poses;
+    std::vector<Eigen::Vector3d> viewpoints;
+    bool moves = false;
+    for (std::size_t line = 0; line < lines; ++line) {
+        poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
+        viewpoints.push_back(poses.back().position);
+        moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
+    }
+    std::vector<Eigen::Vector3d> fan;
+    for (std::size_t j = 0; j < beams; ++j) fan.push_back(finder.direction(j));
+    const auto ray_of = [&](std::size_t i) {
+        const pose& sensor = poses[i / beams];
+        return ray{sensor.position, sensor.direction_out(fan[i % beams])};
+    };
+
+    const auto readings = detail::read_rays(read, b, lines * beams, ray_of, run);
+    true_scan result = detail::points_of(readings, world);
+    if (moves) {
+        std::vector<point_index> line_of_point;
+        for (std::size_t i = 0; i < readings.size(); ++i) {
+            if (readings[i]) line_of_point.push_back(static_cast<point_index>(i / beams));
+        }
+        result.scan.viewpoints = viewpoint_table(std::move(viewpoints), std::move(line_of_point));
+    } else if (!viewpoints.empty()) {
+        result.scan.viewpoints = viewpoints.front();
+    }
+    return result;
+}
+
+/// The same by a `bvh_caster`.
+template <sensor_trajectory T, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory,
+                                 const scanner& finder = {}, const beam& b = {},
+                                 const X& run = {}) {
+    return simulate(world, bvh_caster(world), trajectory, finder, b, run);
+}
+
+}  // namespace gnomon

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The law of the `ray_caster` concept, to be run on every model: the answer is that of asking all
+/// shapes one by one.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <optional>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/random.hpp>
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/ray_caster.hpp>
+#include <gnomon/simulation/scene.hpp>
+
+namespace laws {
+
+/// Oracle.
+inline std::optional<gnomon::ray_hit> by_asking_all(const gnomon::scene& world, gnomon::ray r) {
+    std::optional<gnomon::ray_hit> nearest;
+    for (const auto& s : world.shapes()) {
+        if (const auto hit = s.first_hit(r)) {
+            nearest = hit;
+            r.reach = hit->range;
+        }
+    }
+    return nearest;
+}
+
+/// A ray from the middle of the scene's bounds to anywhere, or from anywhere.
+inline gnomon::ray ray_within(const gnomon::bounds& extent, gnomon::random_stream& random) {
+    Eigen::Vector3d from;
+    for (int a = 0; a < 3; ++a) from[a] = random.uniform(extent.low[a], extent.high[a]);
+    const Eigen::Vector3d u(random.gaussian(), random.gaussian(), random.gaussian());
+    return {from, u.normalized()};
+}
+
+inline gnomon::bounds extent_of(const gnomon::scene& world) {
+    gnomon::bounds all = gnomon::detail::no_bounds();
+    for (const auto& s : world.shapes()) gnomon::detail::extend(all, s.extent.low, s.extent.high);
+    return all;
+}
+
+/// How a caster compares with the oracle.
+struct casting {
+    std::size_t hits = 0;    ///< of the oracle
+    std::size_t others = 0;  ///< rays for which one hits and the other does not, or elsewhere
+    std::size_t ties = 0;    ///< rays that met two surfaces at once: each told of another one
+    double worst_range = 0.0;  ///< largest relative difference where both hit the same surface
+};
+
+inline casting compare_casters(const gnomon::scene& world, const gnomon::ray_caster auto& caster,
+                               std::size_t rays, std::uint64_t seed, double precision = 1e-12) {
+    casting result;
+    gnomon::random_stream random(seed, 31);
+    const gnomon::bounds extent = extent_of(world);
+    for (std::size_t i = 0; i < rays; ++i) {
+        gnomon::ray r = ray_within(extent, random);
+        if (i % 4 == 0) r.reach = random.uniform(0.0, 4.0);
+        const auto expected = by_asking_all(world, r);
+        const auto found = caster(r);
+        if (expected) ++result.hits;
+        if (expected.has_value() != found.has_value()) ++result.others;
+        if (!expected || !found) continue;
+        const double difference = std::abs(found->range - expected->range) / expected->range;
+        if (expected->surface != found->surface) {
+            ++(difference <= precision ? result.ties : result.others);
+        } else {
+            EXPECT_GT(found->normal.dot(expected->normal), 1 - 1e-5);
+            result.worst_range = std::max(result.worst_range, difference);
+        }
+    }
+    return result;
+}
+
+}  // namespace laws

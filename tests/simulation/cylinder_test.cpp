@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+
+#include <gtest/gtest.h>
+
+#include "laws/shape_laws.hpp"
+#include <gnomon/simulation/cylinder.hpp>
+
+namespace {
+
+static_assert(gnomon::shape<gnomon::cylinder>);
+const gnomon::cylinder bin{0.3, 0.9};
+
+TEST(cylinder, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(bin, 1), 1000u); }
+
+TEST(cylinder, agrees_with_its_equation) {
+    EXPECT_GT(laws::agrees_with_equation(bin, 2,
+                                         [](auto x, auto y, auto z) {
+                                             return std::max(std::sqrt(x * x + y * y) - 0.3L,
+                                                             std::abs(z - 0.45L) - 0.45L);
+                                         }),
+              1000u);
+}
+
+TEST(cylinder, numbers_mantle_bottom_and_top) {
+    EXPECT_EQ(bin.first_hit({{2, 0, 0.5}, {-1, 0, 0}})->surface, 0);
+    EXPECT_EQ(bin.first_hit({{0.1, 0, -1}, {0, 0, 1}})->surface, 1);
+    EXPECT_EQ(bin.first_hit({{0.1, 0, 3}, {0, 0, -1}})->surface, 2);
+}
+
+}  // namespace

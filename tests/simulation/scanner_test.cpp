@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stdexcept>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/simulation/scanner.hpp>
+
+namespace {
+
+using gnomon::degrees;
+
+/// n = t_s f_s alpha_FoV / alpha_r, Fig. 2.16.
+TEST(scanner, counts_as_the_thesis_does) {
+    for (const auto& [finder, count] : {std::pair{gnomon::densities::low(), 7'200u},
+                                        {gnomon::densities::medium(), 28'800u},
+                                        {gnomon::densities::high(), 115'200u}}) {
+        EXPECT_EQ(finder.lines(4.0) * finder.beams(), count);
+    }
+    // Tab. 4.1, where times are rounded to a tenth of a second.
+    EXPECT_EQ(gnomon::scanner().lines(6.9) * gnomon::scanner().beams(), 198'720u);
+    EXPECT_EQ(gnomon::scanner().lines(5.5) * gnomon::scanner().beams(), 158'400u);
+}
+
+TEST(scanner, cuts_its_field_of_view_into_equal_parts) {
+    const gnomon::scanner finder{.field_of_view = degrees(90), .resolution = degrees(1)};
+    ASSERT_EQ(finder.beams(), 90u);
+    const auto first = finder.direction(0);
+    const auto last = finder.direction(89);
+    EXPECT_LT((first - Eigen::Vector3d(last.x(), -last.y(), 0)).norm(), 1e-15);
+    EXPECT_LT(first.y(), 0.0);
+    for (std::size_t j = 0; j < 90; ++j) {
+        EXPECT_NEAR(finder.direction(j).norm(), 1.0, 1e-15);
+        if (j > 0) {
+            const double cosine = finder.direction(j).dot(finder.direction(j - 1));
+            EXPECT_NEAR(cosine, std::cos(degrees(1).radians()), 1e-15);
+        }
+    }
+}
+
+TEST(scanner, presets_are_valid) {
+    for (const auto& finder :
+         {gnomon::scanner(), gnomon::scanners::sick_lms_200(), gnomon::scanners::sick_lms_400(),
+          gnomon::scanners::hokuyo_urg_04lx(), gnomon::scanners::hokuyo_utm_30lx()}) {
+        EXPECT_NO_THROW(finder.require_valid());
+    }
+    EXPECT_EQ(gnomon::scanners::sick_lms_200().beams(), 360u);
+    EXPECT_EQ(gnomon::scanners::sick_lms_400().beams(), 280u);
+    EXPECT_EQ(gnomon::scanners::hokuyo_urg_04lx().beams(), 682u);
+    EXPECT_EQ(gnomon::scanners::hokuyo_utm_30lx().beams(), 1080u);
+}
+
+TEST(scanner, refuses_what_cannot_be) {
+    for (const gnomon::scanner& bad :
+         {gnomon::scanner{.field_of_view = degrees(361)}, gnomon::scanner{.resolution = degrees(0)},
+          gnomon::scanner{.resolution = degrees(200)},
+          gnomon::scanner{.field_of_view = degrees(clouds::nan)},
+          gnomon::scanner{.resolution = degrees(clouds::nan)}, gnomon::scanner{.frequency = 0},
+          gnomon::scanner{.frequency = clouds::infinity}, gnomon::scanner{.min_range = -1},
+          gnomon::scanner{.min_range = 40}, gnomon::scanner{.max_range = clouds::infinity}}) {
+        EXPECT_THROW(bad.require_valid(), std::invalid_argument);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "laws/shape_laws.hpp"
+#include "simulation/meshes.hpp"
+#include <gnomon/simulation/box.hpp>
+#include <gnomon/simulation/cylinder.hpp>
+#include <gnomon/simulation/triangle_mesh.hpp>
+
+namespace {
+
+using gnomon::triangle_mesh;
+static_assert(gnomon::shape<triangle_mesh>);
+
+TEST(triangle_mesh, obeys_the_laws) {
+    EXPECT_GT(laws::obeys_shape_laws(meshes::of_box({0.4, 0.3, 1.2}), 1), 1000u);
+    EXPECT_GT(laws::obeys_shape_laws(meshes::of_cylinder({0.3, 0.9}, 300), 2), 1000u);
+}
+
+TEST(triangle_mesh, of_a_box_is_the_box) {
+    const gnomon::box box{0.4, 0.3, 1.2};
+    const auto mesh = meshes::of_box(box);
+    std::size_t hits = 0;
+    for (const gnomon::ray& r : laws::rays_at(box.extent(), 5000, 3)) {
+        const auto expected = box.first_hit(r);
+        const auto found = mesh.first_hit(r);
+        ASSERT_EQ(expected.has_value(), found.has_value());
+        if (!expected) continue;
+        ++hits;
+        EXPECT_NEAR(found->range, expected->range, 1e-12 * (1 + expected->range));
+        EXPECT_EQ(found->surface, expected->surface);
+        EXPECT_LT((found->normal - expected->normal).norm(), 1e-12);
+    }
+    EXPECT_GT(hits, 2000u);
+}
+
+/// Facets of n sides stand r (1 - cos(pi / n)) behind the mantle at most.
+TEST(triangle_mesh, of_a_cylinder_comes_near_the_cylinder) {
+    const gnomon::cylinder bin{0.3, 0.9};
+    constexpr int sides = 1000;
+    const auto mesh = meshes::of_cylinder(bin, sides);
+    const double sagitta = bin.radius * (1 - std::cos(std::numbers::pi / sides));
+    std::size_t hits = 0;
+    for (const gnomon::ray& r : laws::rays_at(bin.extent(), 5000, 4)) {
+        const auto expected = bin.first_hit(r);
+        const auto found = mesh.first_hit(r);
+        if (!expected || std::abs(expected->normal.dot(r.direction)) < 0.2) continue;
+        const Eigen::Vector3d p = r.point_at(expected->range);
+        // Near the rim the mesh may show another side.
+        if (std::hypot(p.x(), p.y()) > 0.29 && (p.z() < 0.01 || p.z() > 0.89)) continue;
+        ASSERT_TRUE(found);
+        ++hits;
+        EXPECT_EQ(found->surface, expected->surface);
+        EXPECT_NEAR(found->range, expected->range, sagitta / 0.19);
+        EXPECT_GT(found->normal.dot(expected->normal), std::cos(2 * std::numbers::pi / sides));
+    }
+    EXPECT_GT(hits, 1000u);
+}
+
+/// Every ray through a shared edge or a shared vertex is stopped.
+TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
+    std::vector<Eigen::Vector3d> vertices;
+    std::vector<gnomon::triangle> triangles;
+    constexpr std::uint32_t n = 20;
+    gnomon::random_stream random(7);
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j <= n; ++j) {
+            vertices.push_back({i + (i % n ? 0.3 * random.uniform() : 0.0),
+                                j + (j % n ? 0.3 * random.uniform() : 0.0), random.uniform()});
+        }
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const std::uint32_t a = i * (n + 1) + j;
+            triangles.push_back({a, a + 1, a + n + 2});
+            triangles.push_back({a, a + n + 2, a + n + 1});
+        }
+    }
+    const triangle_mesh sheet(vertices, triangles);
+    for (int k = 0; k < 100'000; ++k) {
+        const auto& t = triangles[random.bits() % triangles.size()];
+        const double share = k % 10 ? random.uniform() : 0.0;
+        const Eigen::Vector3d target = vertices[t[0]] + share * (vertices[t[1]] - vertices[t[0]]);
+        if (target.x() < 0.1 || target.y() < 0.1 || target.x() > n - 0.1 || target.y() > n - 0.1)
+            continue;
+        const Eigen::Vector3d from(n * random.uniform(), n * random.uniform(), 30.0);
+        ASSERT_TRUE(sheet.first_hit({from, (target - from).normalized()}));
+    }
+}
+
+TEST(triangle_mesh, passes_over_degenerate_triangles) {
+    const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
+    const triangle_mesh needles(vertices, {{0, 1, 2}, {1, 1, 3}, {2, 2, 2}});
+    for (const gnomon::ray& r : laws::rays_at(needles.extent(), 1000, 5)) {
+        EXPECT_FALSE(needles.first_hit(r));
+    }
+    EXPECT_FALSE(needles.first_hit({{1, 0, 3}, {0, 0, -1}}));
+    const triangle_mesh one_good(vertices, {{0, 1, 2}, {0, 1, 3}, {2, 2, 2}});
+    EXPECT_TRUE(one_good.first_hit({{0.2, 0.2, 3}, {0, 0, -1}}));
+}
+
+TEST(triangle_mesh, refuses_what_is_no_mesh) {
+    const std::vector<Eigen::Vector3d> v{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
+    std::vector<Eigen::Vector3d> broken = v;
+    broken[1].y() = clouds::nan;
+    const std::vector<gnomon::triangle> one{{0, 1, 2}};
+    using names = std::vector<std::string>;
+    EXPECT_NO_THROW(triangle_mesh(v, one, {1}, {"a", "b"}));
+    EXPECT_THROW(triangle_mesh(v, {}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(broken, one), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(v, {{0, 1, 3}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(v, one, {0, 0}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(v, one, {-1}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(v, one, {2}, {"a", "b"}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh(v, one, {}, names{}), std::invalid_argument);
+}
+
+}  // namespace
