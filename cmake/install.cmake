@@ -5,7 +5,7 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/gnomon)
 
-install(TARGETS gnomon EXPORT gnomonTargets FILE_SET HEADERS)
+install(TARGETS gnomon EXPORT gnomonTargets FILE_SET HEADERS FILE_SET adapters)
 install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${package_dir})
 
 configure_package_config_file(
@@ -16,6 +16,7 @@ write_basic_package_version_file(
     COMPATIBILITY SameMinorVersion ARCH_INDEPENDENT)
 install(
     FILES ${PROJECT_BINARY_DIR}/gnomonConfig.cmake ${PROJECT_BINARY_DIR}/gnomonConfigVersion.cmake
+          cmake/adapters.cmake
     DESTINATION ${package_dir})
 
 # pkg-config finds the prefix from the place of gnomon.pc, so that the tree can be moved.

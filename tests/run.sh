@@ -6,13 +6,13 @@ set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 . "$root/tools/setup.sh"
 # shellcheck disable=SC2086  # lists of words
-set_up $build_packages $example_packages libgtest-dev python3 ccache codespell pkgconf \
-    -- clang-format-16
+set_up $build_packages $example_packages libgtest-dev libbenchmark-dev python3 ccache codespell \
+    pkgconf -- clang-format-16 libembree-dev
 if [ "${1-}" = --set-up-only ]; then exit 0; fi
 
 cd "$root"
 jobs=$(getconf _NPROCESSORS_ONLN)
-cmake --preset release -D GNOMON_BUILD_TESTS=ON -D GNOMON_BUILD_EXAMPLES=ON \
+cmake --preset release -D GNOMON_BUILD_TESTS=ON -D GNOMON_BUILD_EXAMPLES=ON -D GNOMON_BUILD_BENCHMARKS=ON \
     -D CMAKE_COMPILE_WARNING_AS_ERROR=ON
 cmake --build --preset release --target all all_verify_interface_header_sets
 

@@ -47,4 +47,4 @@ set_up() {
 
 # What every build needs, and what the examples need beside it.
 build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev"
-example_packages="libstb-dev nlohmann-json3-dev"
+example_packages="libstb-dev nlohmann-json3-dev libassimp-dev"

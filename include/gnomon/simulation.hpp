@@ -13,6 +13,7 @@
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
+#include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>

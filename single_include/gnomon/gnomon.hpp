@@ -4697,6 +4697,32 @@ class instrument {
 }  // namespace detail
 }  // namespace gnomon
 
+// -------- gnomon/simulation/polyhedron.hpp -------------------------------------------------------
+
+/// @file
+/// Flat faces, as triangles: what shapes without a curve are exactly, and what ray casters for
+/// triangles want to have.
+
+namespace gnomon {
+
+/// Three vertices by number, in either sense of rotation.
+using triangle = std::array<std::uint32_t, 3>;
+
+/// Triangles and the number of the surface that each belongs to.
+struct polyhedron {
+    std::vector<Eigen::Vector3d> vertices;  ///< [m]
+    std::vector<triangle> triangles;
+    std::vector<std::int32_t> surface_of_triangle;  ///< one for each, or none: all are surface 0
+};
+
+/// A shape that can say so: s.triangles() is the same surface, numbered alike.
+template <class S>
+concept flat_shape = requires(const S& s) {
+    { s.triangles() } -> std::convertible_to<polyhedron>;
+};
+
+}  // namespace gnomon
+
 // -------- gnomon/simulation/shape.hpp ------------------------------------------------------------
 
 /// @file
@@ -4755,6 +4781,25 @@ struct box {
     [[nodiscard]] static std::span<const std::string_view> surface_names() {
         static constexpr std::array<std::string_view, 6> names{"+x", "-x", "+y", "-y", "+z", "-z"};
         return names;
+    }
+
+    [[nodiscard]] polyhedron triangles() const {
+        polyhedron result;
+        for (int i = 0; i < 8; ++i) {  // bit a of a vertex: on the positive side of axis a
+            result.vertices.push_back({(i & 1 ? 0.5 : -0.5) * length, (i & 2 ? 0.5 : -0.5) * width,
+                                       (i & 4 ? 0.5 : -0.5) * height});
+        }
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t u = 1u << ((axis + 1) % 3);
+            const std::uint32_t v = 1u << ((axis + 2) % 3);
+            for (const std::uint32_t side : {1u << axis, 0u}) {
+                result.triangles.push_back({side, side | u, side | u | v});
+                result.triangles.push_back({side, side | u | v, side | v});
+                const auto surface = static_cast<std::int32_t>(2 * axis + (side == 0 ? 1 : 0));
+                result.surface_of_triangle.insert(result.surface_of_triangle.end(), 2, surface);
+            }
+        }
+        return result;
     }
 
     /// The slab method (Kay and Kajiya 1986): the ray is inside between the last entry into a pair
@@ -4849,6 +4894,7 @@ class bvh {
     /// visitor shortens the reach to what it found.
     void walk(ray& r, auto&& visit) const {
         if (nodes_.empty()) return;
+        r.reach = std::min(r.reach, std::numeric_limits<double>::max());  // a miss is beyond
         const slopes s(r);
         std::array<pending, stack_size> stack;
         std::size_t height = 0;
@@ -5091,175 +5137,6 @@ namespace detail {
 
 }  // namespace gnomon
 
-// -------- gnomon/simulation/triangle_mesh.hpp ----------------------------------------------------
-
-/// @file
-/// Triangles: what CAD models and scanned rooms are made of.
-
-namespace gnomon {
-
-/// Three vertices by number, in either sense of rotation.
-using triangle = std::array<std::uint32_t, 3>;
-
-namespace detail {
-
-/// A ray, sheared so that it runs along an axis of its own; the same arithmetic on an edge for both
-/// triangles that share it, so that no ray slips through between them (Woop, Benthin and Wald
-/// 2013).
-class triangle_probe {
-  public:
-    explicit triangle_probe(const ray& r) : origin_(r.origin) {
-        for (int a = 1; a < 3; ++a) {
-            if (std::abs(r.direction[a]) > std::abs(r.direction[z_])) z_ = a;
-        }
-        x_ = (z_ + 1) % 3;
-        y_ = (z_ + 2) % 3;
-        shear_x_ = r.direction[x_] / r.direction[z_];
-        shear_y_ = r.direction[y_] / r.direction[z_];
-        scale_ = 1.0 / r.direction[z_];
-    }
-
-    /// The range at which the ray meets the triangle, from either side; NaN or not positive if it
-    /// does not.
-    [[nodiscard]] double range(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                               const Eigen::Vector3d& c) const {
-        const Eigen::Vector3d p = sheared(a);
-        const Eigen::Vector3d q = sheared(b);
-        const Eigen::Vector3d s = sheared(c);
-        const double u = s.x() * q.y() - s.y() * q.x();
-        const double v = p.x() * s.y() - p.y() * s.x();
-        const double w = q.x() * p.y() - q.y() * p.x();
-        if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
-        return (u * p.z() + v * q.z() + w * s.z()) / (u + v + w);
-    }
-
-  private:
-    /// `vertex` in the frame in which the ray is the third axis, and z its range.
-    [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
-        const Eigen::Vector3d d = vertex - origin_;
-        return {d[x_] - shear_x_ * d[z_], d[y_] - shear_y_ * d[z_], scale_ * d[z_]};
-    }
-
-    Eigen::Vector3d origin_;
-    int x_;
-    int y_;
-    int z_ = 0;  // the axis along which the ray runs fastest
-    double shear_x_;
-    double shear_y_;
-    double scale_;
-};
-
-}  // namespace detail
-
-/// A mesh of one or more surfaces. Copies share the triangles.
-class triangle_mesh {
-  public:
-    /// @param surface_of_triangle  a number for each triangle, or none: all are surface 0
-    /// @param surface_names  one for each number
-    /// Degenerate triangles may be there; no ray meets them. O(n log n).
-    /// @throws std::invalid_argument  without triangles; for a vertex that is not finite; for a
-    ///                                triangle of a missing vertex; if the numbers of surfaces do
-    ///                                not fit triangles and names
-    triangle_mesh(std::vector<Eigen::Vector3d> vertices, std::vector<triangle> triangles,
-                  std::vector<std::int32_t> surface_of_triangle = {},
-                  std::vector<std::string> surface_names = {"mesh"})
-        : content_(std::make_shared<const content>(std::move(vertices), std::move(triangles),
-                                                   std::move(surface_of_triangle),
-                                                   std::move(surface_names))) {}
-
-    [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const {
-        return content_->vertices;
-    }
-    [[nodiscard]] const std::vector<triangle>& triangles() const { return content_->triangles; }
-    /// The number of the surface of triangle t.
-    [[nodiscard]] std::int32_t surface_of(std::size_t t) const { return content_->surface_of(t); }
-
-    [[nodiscard]] bounds extent() const { return content_->extent; }
-    [[nodiscard]] const std::vector<std::string>& surface_names() const {
-        return content_->surface_names;
-    }
-
-    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& given) const {
-        const detail::triangle_probe probe(given);
-        const std::vector<Eigen::Vector3d>& v = content_->vertices;
-        ray r = given;
-        std::optional<ray_hit> hit;
-        content_->tree.walk(r, [&](std::uint32_t t) {
-            const auto [a, b, c] = content_->triangles[t];
-            const double range = probe.range(v[a], v[b], v[c]);
-            if (!(range > 0.0 && range <= r.reach)) return;
-            const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
-            const double length = std::sqrt(n.dot(n));
-            if (!(length > 0.0)) return;
-            const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
-            hit = ray_hit{range, n * (sign / length), content_->surface_of(t)};
-            r.reach = range;
-        });
-        return hit;
-    }
-
-  private:
-    struct content {
-        std::vector<Eigen::Vector3d> vertices;
-        std::vector<triangle> triangles;
-        std::vector<std::int32_t> surface_of_triangle;
-        std::vector<std::string> surface_names;
-        bounds extent = detail::no_bounds();
-        detail::bvh tree;
-
-        content(std::vector<Eigen::Vector3d> vs, std::vector<triangle> ts,
-                std::vector<std::int32_t> surfaces, std::vector<std::string> names)
-            : vertices(std::move(vs)),
-              triangles(std::move(ts)),
-              surface_of_triangle(std::move(surfaces)),
-              surface_names(std::move(names)) {
-            using detail::require;
-            require(!triangles.empty(), "triangle_mesh: there are no triangles");
-            require(surface_of_triangle.empty() || surface_of_triangle.size() == triangles.size(),
-                    "triangle_mesh: surfaces for another number of triangles");
-            for (std::size_t t = 0; t < triangles.size(); ++t) {
-                const std::int32_t surface = surface_of(t);
-                require(surface >= 0 && static_cast<std::size_t>(surface) < surface_names.size(),
-                        "triangle_mesh: a triangle of a surface without name");
-            }
-            for (const Eigen::Vector3d& v : vertices)
-                require(is_finite(v), "triangle_mesh: a vertex is not finite");
-            std::vector<bounds> boxes;
-            boxes.reserve(triangles.size());
-            for (const triangle& t : triangles) {
-                bounds box = detail::no_bounds();
-                for (const std::uint32_t i : t) {
-                    require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
-                    detail::extend(box, vertices[i], vertices[i]);
-                }
-                detail::extend(extent, box.low, box.high);
-                boxes.push_back(box);
-            }
-            // The range of a hit carries rounding, so a flat box may be entered behind it.
-            double largest = 0.0;
-            for (int a = 0; a < 3; ++a) {
-                largest = std::max({largest, std::abs(extent.low[a]), std::abs(extent.high[a])});
-            }
-            const Eigen::Vector3d margin = Eigen::Vector3d::Constant(1e-14 * largest);
-            for (bounds& box : boxes) box = {box.low - margin, box.high + margin};
-            tree = detail::bvh(boxes);
-        }
-
-        [[nodiscard]] std::int32_t surface_of(std::size_t t) const {
-            return surface_of_triangle.empty() ? 0 : surface_of_triangle[t];
-        }
-    };
-
-    [[nodiscard]] static Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-        return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-                a.x() * b.y() - a.y() * b.x()};
-    }
-
-    std::shared_ptr<const content> content_;
-};
-
-}  // namespace gnomon
-
 // -------- gnomon/simulation/scene.hpp ------------------------------------------------------------
 
 /// @file
@@ -5295,8 +5172,8 @@ class any_shape {
     virtual ~any_shape() = default;
 
     [[nodiscard]] virtual std::optional<ray_hit> first_hit(const ray& r) const = 0;
-    /// The shape if it is a mesh.
-    [[nodiscard]] virtual const triangle_mesh* mesh() const = 0;
+    /// The shape as triangles, if it is one of flat faces.
+    [[nodiscard]] virtual std::optional<polyhedron> triangles() const = 0;
 };
 
 template <shape S>
@@ -5307,11 +5184,11 @@ class any_shape_of final : public any_shape {
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const override {
         return shape_.first_hit(r);
     }
-    [[nodiscard]] const triangle_mesh* mesh() const override {
-        if constexpr (std::same_as<S, triangle_mesh>)
-            return &shape_;
+    [[nodiscard]] std::optional<polyhedron> triangles() const override {
+        if constexpr (flat_shape<S>)
+            return shape_.triangles();
         else
-            return nullptr;
+            return std::nullopt;
     }
 
   private:
@@ -6274,6 +6151,14 @@ struct plane_patch {
         return names;
     }
 
+    [[nodiscard]] polyhedron triangles() const {
+        const double x = 0.5 * length;
+        const double y = 0.5 * width;
+        return {{{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}},
+                {{0, 1, 2}, {0, 2, 3}},
+                {0, 0}};
+    }
+
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
         const double range = -r.origin.z() / r.direction.z();
         if (!(range > 0.0 && range <= r.reach)) return std::nullopt;
@@ -6795,6 +6680,157 @@ struct sphere {
         const detail::revolved_arc all{-radius, radius, -1.0, 0.0, radius * radius};
         return detail::first_hit_of({&all, 1}, {.bottom = false, .top = false}, r);
     }
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/simulation/triangle_mesh.hpp ----------------------------------------------------
+
+/// @file
+/// Triangles: what CAD models and scanned rooms are made of.
+
+namespace gnomon {
+
+namespace detail {
+
+/// A ray, sheared so that it runs along an axis of its own; the same arithmetic on an edge for both
+/// triangles that share it, so that no ray slips through between them (Woop, Benthin and Wald
+/// 2013).
+class triangle_probe {
+  public:
+    explicit triangle_probe(const ray& r) : origin_(r.origin) {
+        for (int a = 1; a < 3; ++a) {
+            if (std::abs(r.direction[a]) > std::abs(r.direction[z_])) z_ = a;
+        }
+        x_ = (z_ + 1) % 3;
+        y_ = (z_ + 2) % 3;
+        shear_x_ = r.direction[x_] / r.direction[z_];
+        shear_y_ = r.direction[y_] / r.direction[z_];
+        scale_ = 1.0 / r.direction[z_];
+    }
+
+    /// The range at which the ray meets the triangle, from either side; NaN or not positive if it
+    /// does not.
+    [[nodiscard]] double range(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                               const Eigen::Vector3d& c) const {
+        const Eigen::Vector3d p = sheared(a);
+        const Eigen::Vector3d q = sheared(b);
+        const Eigen::Vector3d s = sheared(c);
+        const double u = s.x() * q.y() - s.y() * q.x();
+        const double v = p.x() * s.y() - p.y() * s.x();
+        const double w = q.x() * p.y() - q.y() * p.x();
+        if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
+        return (u * p.z() + v * q.z() + w * s.z()) / (u + v + w);
+    }
+
+  private:
+    /// `vertex` in the frame in which the ray is the third axis, and z its range.
+    [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
+        const Eigen::Vector3d d = vertex - origin_;
+        return {d[x_] - shear_x_ * d[z_], d[y_] - shear_y_ * d[z_], scale_ * d[z_]};
+    }
+
+    Eigen::Vector3d origin_;
+    int x_;
+    int y_;
+    int z_ = 0;  // the axis along which the ray runs fastest
+    double shear_x_;
+    double shear_y_;
+    double scale_;
+};
+
+}  // namespace detail
+
+/// A mesh of one or more surfaces. Copies share the triangles.
+class triangle_mesh {
+  public:
+    /// @param surface_names  one for each number of a surface
+    /// Degenerate triangles may be there; no ray meets them. O(n log n).
+    /// @throws std::invalid_argument  without triangles; for a vertex that is not finite; for a
+    ///                                triangle of a missing vertex; if the numbers of surfaces do
+    ///                                not fit triangles and names
+    explicit triangle_mesh(polyhedron faces, std::vector<std::string> surface_names = {"mesh"})
+        : content_(std::make_shared<const content>(std::move(faces), std::move(surface_names))) {}
+
+    [[nodiscard]] const polyhedron& triangles() const { return content_->faces; }
+
+    [[nodiscard]] bounds extent() const { return content_->extent; }
+    [[nodiscard]] const std::vector<std::string>& surface_names() const {
+        return content_->surface_names;
+    }
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& given) const {
+        const detail::triangle_probe probe(given);
+        const std::vector<Eigen::Vector3d>& v = content_->faces.vertices;
+        ray r = given;
+        std::optional<ray_hit> hit;
+        content_->tree.walk(r, [&](std::uint32_t t) {
+            const auto [a, b, c] = content_->faces.triangles[t];
+            const double range = probe.range(v[a], v[b], v[c]);
+            if (!(range > 0.0 && range <= r.reach)) return;
+            const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
+            const double length = std::sqrt(n.dot(n));
+            if (!(length > 0.0)) return;
+            const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
+            hit = ray_hit{range, n * (sign / length), content_->surface_of(t)};
+            r.reach = range;
+        });
+        return hit;
+    }
+
+  private:
+    struct content {
+        polyhedron faces;
+        std::vector<std::string> surface_names;
+        bounds extent = detail::no_bounds();
+        detail::bvh tree;
+
+        content(polyhedron given, std::vector<std::string> names)
+            : faces(std::move(given)), surface_names(std::move(names)) {
+            using detail::require;
+            const auto& [vertices, triangles, surfaces] = faces;
+            require(!triangles.empty(), "triangle_mesh: there are no triangles");
+            require(surfaces.empty() || surfaces.size() == triangles.size(),
+                    "triangle_mesh: surfaces for another number of triangles");
+            for (std::size_t t = 0; t < triangles.size(); ++t) {
+                const std::int32_t surface = surface_of(t);
+                require(surface >= 0 && static_cast<std::size_t>(surface) < surface_names.size(),
+                        "triangle_mesh: a triangle of a surface without name");
+            }
+            for (const Eigen::Vector3d& v : vertices)
+                require(is_finite(v), "triangle_mesh: a vertex is not finite");
+            std::vector<bounds> boxes;
+            boxes.reserve(triangles.size());
+            for (const triangle& t : triangles) {
+                bounds box = detail::no_bounds();
+                for (const std::uint32_t i : t) {
+                    require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
+                    detail::extend(box, vertices[i], vertices[i]);
+                }
+                detail::extend(extent, box.low, box.high);
+                boxes.push_back(box);
+            }
+            // The range of a hit carries rounding, so a flat box may be entered behind it.
+            double largest = 0.0;
+            for (int a = 0; a < 3; ++a) {
+                largest = std::max({largest, std::abs(extent.low[a]), std::abs(extent.high[a])});
+            }
+            const Eigen::Vector3d margin = Eigen::Vector3d::Constant(1e-14 * largest);
+            for (bounds& box : boxes) box = {box.low - margin, box.high + margin};
+            tree = detail::bvh(boxes);
+        }
+
+        [[nodiscard]] std::int32_t surface_of(std::size_t t) const {
+            return faces.surface_of_triangle.empty() ? 0 : faces.surface_of_triangle[t];
+        }
+    };
+
+    [[nodiscard]] static Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+                a.x() * b.y() - a.y() * b.x()};
+    }
+
+    std::shared_ptr<const content> content_;
 };
 
 }  // namespace gnomon

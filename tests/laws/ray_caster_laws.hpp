@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/random.hpp>
+#include <gnomon/simulation/detail/bvh.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
 #include <gnomon/simulation/scene.hpp>
@@ -45,9 +46,9 @@ inline gnomon::bounds extent_of(const gnomon::scene& world) {
 
 /// How a caster compares with the oracle.
 struct casting {
-    std::size_t hits = 0;    ///< of the oracle
-    std::size_t others = 0;  ///< rays for which one hits and the other does not, or elsewhere
-    std::size_t ties = 0;    ///< rays that met two surfaces at once: each told of another one
+    std::size_t hits = 0;      ///< of the oracle
+    std::size_t others = 0;    ///< rays for which one hits and the other does not, or elsewhere
+    std::size_t ties = 0;      ///< rays that met two surfaces at once: each told of another one
     double worst_range = 0.0;  ///< largest relative difference where both hit the same surface
 };
 

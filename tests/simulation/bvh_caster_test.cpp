@@ -52,9 +52,9 @@ TEST(bvh_caster, obeys_the_law_for_meshes) {
         const auto place =
             gnomon::at(i, 0.3 * i, 0.1 * i) * gnomon::roll(gnomon::degrees(20.0 * i));
         world.add(part, mesh, place);
-        for (std::size_t t = 0; t < mesh.triangles().size(); ++t) {
-            gnomon::triangle_mesh one(mesh.vertices(), {mesh.triangles()[t]});
-            apart.add(apart_part, one, place);
+        for (const gnomon::triangle& t : mesh.triangles().triangles) {
+            apart.add(apart_part, gnomon::triangle_mesh({mesh.triangles().vertices, {t}, {}}),
+                      place);
         }
     }
     const gnomon::bvh_caster caster(world);

@@ -44,13 +44,13 @@ TEST(triangle_mesh, of_a_box_is_the_box) {
 
 /// Facets of n sides stand r (1 - cos(pi / n)) behind the mantle at most.
 TEST(triangle_mesh, of_a_cylinder_comes_near_the_cylinder) {
-    const gnomon::cylinder bin{0.3, 0.9};
+    const gnomon::cylinder round{0.3, 0.9};
     constexpr int sides = 1000;
-    const auto mesh = meshes::of_cylinder(bin, sides);
-    const double sagitta = bin.radius * (1 - std::cos(std::numbers::pi / sides));
+    const auto mesh = meshes::of_cylinder(round, sides);
+    const double sagitta = round.radius * (1 - std::cos(std::numbers::pi / sides));
     std::size_t hits = 0;
-    for (const gnomon::ray& r : laws::rays_at(bin.extent(), 5000, 4)) {
-        const auto expected = bin.first_hit(r);
+    for (const gnomon::ray& r : laws::rays_at(round.extent(), 5000, 4)) {
+        const auto expected = round.first_hit(r);
         const auto found = mesh.first_hit(r);
         if (!expected || std::abs(expected->normal.dot(r.direction)) < 0.2) continue;
         const Eigen::Vector3d p = r.point_at(expected->range);
@@ -84,7 +84,7 @@ TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
             triangles.push_back({a, a + n + 2, a + n + 1});
         }
     }
-    const triangle_mesh sheet(vertices, triangles);
+    const triangle_mesh net({vertices, triangles, {}});
     for (int k = 0; k < 100'000; ++k) {
         const auto& t = triangles[random.bits() % triangles.size()];
         const double share = k % 10 ? random.uniform() : 0.0;
@@ -92,18 +92,18 @@ TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
         if (target.x() < 0.1 || target.y() < 0.1 || target.x() > n - 0.1 || target.y() > n - 0.1)
             continue;
         const Eigen::Vector3d from(n * random.uniform(), n * random.uniform(), 30.0);
-        ASSERT_TRUE(sheet.first_hit({from, (target - from).normalized()}));
+        ASSERT_TRUE(net.first_hit({from, (target - from).normalized()}));
     }
 }
 
 TEST(triangle_mesh, passes_over_degenerate_triangles) {
     const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
-    const triangle_mesh needles(vertices, {{0, 1, 2}, {1, 1, 3}, {2, 2, 2}});
+    const triangle_mesh needles({vertices, {{0, 1, 2}, {1, 1, 3}, {2, 2, 2}}, {}});
     for (const gnomon::ray& r : laws::rays_at(needles.extent(), 1000, 5)) {
         EXPECT_FALSE(needles.first_hit(r));
     }
     EXPECT_FALSE(needles.first_hit({{1, 0, 3}, {0, 0, -1}}));
-    const triangle_mesh one_good(vertices, {{0, 1, 2}, {0, 1, 3}, {2, 2, 2}});
+    const triangle_mesh one_good({vertices, {{0, 1, 2}, {0, 1, 3}, {2, 2, 2}}, {}});
     EXPECT_TRUE(one_good.first_hit({{0.2, 0.2, 3}, {0, 0, -1}}));
 }
 
@@ -113,14 +113,14 @@ TEST(triangle_mesh, refuses_what_is_no_mesh) {
     broken[1].y() = clouds::nan;
     const std::vector<gnomon::triangle> one{{0, 1, 2}};
     using names = std::vector<std::string>;
-    EXPECT_NO_THROW(triangle_mesh(v, one, {1}, {"a", "b"}));
-    EXPECT_THROW(triangle_mesh(v, {}), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(broken, one), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(v, {{0, 1, 3}}), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(v, one, {0, 0}), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(v, one, {-1}), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(v, one, {2}, {"a", "b"}), std::invalid_argument);
-    EXPECT_THROW(triangle_mesh(v, one, {}, names{}), std::invalid_argument);
+    EXPECT_NO_THROW(triangle_mesh({v, one, {1}}, {"a", "b"}));
+    EXPECT_THROW(triangle_mesh({v, {}, {}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({broken, one, {}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({v, {{0, 1, 3}}, {}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({v, one, {0, 0}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({v, one, {-1}}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({v, one, {2}}, {"a", "b"}), std::invalid_argument);
+    EXPECT_THROW(triangle_mesh({v, one, {}}, names{}), std::invalid_argument);
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -14,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
@@ -33,6 +35,25 @@ struct box {
     [[nodiscard]] static std::span<const std::string_view> surface_names() {
         static constexpr std::array<std::string_view, 6> names{"+x", "-x", "+y", "-y", "+z", "-z"};
         return names;
+    }
+
+    [[nodiscard]] polyhedron triangles() const {
+        polyhedron result;
+        for (int i = 0; i < 8; ++i) {  // bit a of a vertex: on the positive side of axis a
+            result.vertices.push_back({(i & 1 ? 0.5 : -0.5) * length, (i & 2 ? 0.5 : -0.5) * width,
+                                       (i & 4 ? 0.5 : -0.5) * height});
+        }
+        for (std::uint32_t axis = 0; axis < 3; ++axis) {
+            const std::uint32_t u = 1u << ((axis + 1) % 3);
+            const std::uint32_t v = 1u << ((axis + 2) % 3);
+            for (const std::uint32_t side : {1u << axis, 0u}) {
+                result.triangles.push_back({side, side | u, side | u | v});
+                result.triangles.push_back({side, side | u | v, side | v});
+                const auto surface = static_cast<std::int32_t>(2 * axis + (side == 0 ? 1 : 0));
+                result.surface_of_triangle.insert(result.surface_of_triangle.end(), 2, surface);
+            }
+        }
+        return result;
     }
 
     /// The slab method (Kay and Kajiya 1986): the ray is inside between the last entry into a pair

@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
@@ -28,6 +29,14 @@ struct plane_patch {
     [[nodiscard]] static std::span<const std::string_view> surface_names() {
         static constexpr std::array<std::string_view, 1> names{"plane"};
         return names;
+    }
+
+    [[nodiscard]] polyhedron triangles() const {
+        const double x = 0.5 * length;
+        const double y = 0.5 * width;
+        return {{{-x, -y, 0.0}, {x, -y, 0.0}, {x, y, 0.0}, {-x, y, 0.0}},
+                {{0, 1, 2}, {0, 2, 3}},
+                {0, 0}};
     }
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {

@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -21,10 +20,10 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
-#include <gnomon/simulation/triangle_mesh.hpp>
 
 namespace gnomon {
 
@@ -54,8 +53,8 @@ class any_shape {
     virtual ~any_shape() = default;
 
     [[nodiscard]] virtual std::optional<ray_hit> first_hit(const ray& r) const = 0;
-    /// The shape if it is a mesh.
-    [[nodiscard]] virtual const triangle_mesh* mesh() const = 0;
+    /// The shape as triangles, if it is one of flat faces.
+    [[nodiscard]] virtual std::optional<polyhedron> triangles() const = 0;
 };
 
 template <shape S>
@@ -66,11 +65,11 @@ class any_shape_of final : public any_shape {
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const override {
         return shape_.first_hit(r);
     }
-    [[nodiscard]] const triangle_mesh* mesh() const override {
-        if constexpr (std::same_as<S, triangle_mesh>)
-            return &shape_;
+    [[nodiscard]] std::optional<polyhedron> triangles() const override {
+        if constexpr (flat_shape<S>)
+            return shape_.triangles();
         else
-            return nullptr;
+            return std::nullopt;
     }
 
   private:

@@ -19,13 +19,11 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/simulation/detail/bvh.hpp>
+#include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
 namespace gnomon {
-
-/// Three vertices by number, in either sense of rotation.
-using triangle = std::array<std::uint32_t, 3>;
 
 namespace detail {
 
@@ -80,25 +78,15 @@ class triangle_probe {
 /// A mesh of one or more surfaces. Copies share the triangles.
 class triangle_mesh {
   public:
-    /// @param surface_of_triangle  a number for each triangle, or none: all are surface 0
-    /// @param surface_names  one for each number
+    /// @param surface_names  one for each number of a surface
     /// Degenerate triangles may be there; no ray meets them. O(n log n).
     /// @throws std::invalid_argument  without triangles; for a vertex that is not finite; for a
     ///                                triangle of a missing vertex; if the numbers of surfaces do
     ///                                not fit triangles and names
-    triangle_mesh(std::vector<Eigen::Vector3d> vertices, std::vector<triangle> triangles,
-                  std::vector<std::int32_t> surface_of_triangle = {},
-                  std::vector<std::string> surface_names = {"mesh"})
-        : content_(std::make_shared<const content>(std::move(vertices), std::move(triangles),
-                                                   std::move(surface_of_triangle),
-                                                   std::move(surface_names))) {}
+    explicit triangle_mesh(polyhedron faces, std::vector<std::string> surface_names = {"mesh"})
+        : content_(std::make_shared<const content>(std::move(faces), std::move(surface_names))) {}
 
-    [[nodiscard]] const std::vector<Eigen::Vector3d>& vertices() const {
-        return content_->vertices;
-    }
-    [[nodiscard]] const std::vector<triangle>& triangles() const { return content_->triangles; }
-    /// The number of the surface of triangle t.
-    [[nodiscard]] std::int32_t surface_of(std::size_t t) const { return content_->surface_of(t); }
+    [[nodiscard]] const polyhedron& triangles() const { return content_->faces; }
 
     [[nodiscard]] bounds extent() const { return content_->extent; }
     [[nodiscard]] const std::vector<std::string>& surface_names() const {
@@ -107,11 +95,11 @@ class triangle_mesh {
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& given) const {
         const detail::triangle_probe probe(given);
-        const std::vector<Eigen::Vector3d>& v = content_->vertices;
+        const std::vector<Eigen::Vector3d>& v = content_->faces.vertices;
         ray r = given;
         std::optional<ray_hit> hit;
         content_->tree.walk(r, [&](std::uint32_t t) {
-            const auto [a, b, c] = content_->triangles[t];
+            const auto [a, b, c] = content_->faces.triangles[t];
             const double range = probe.range(v[a], v[b], v[c]);
             if (!(range > 0.0 && range <= r.reach)) return;
             const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
@@ -126,22 +114,17 @@ class triangle_mesh {
 
   private:
     struct content {
-        std::vector<Eigen::Vector3d> vertices;
-        std::vector<triangle> triangles;
-        std::vector<std::int32_t> surface_of_triangle;
+        polyhedron faces;
         std::vector<std::string> surface_names;
         bounds extent = detail::no_bounds();
         detail::bvh tree;
 
-        content(std::vector<Eigen::Vector3d> vs, std::vector<triangle> ts,
-                std::vector<std::int32_t> surfaces, std::vector<std::string> names)
-            : vertices(std::move(vs)),
-              triangles(std::move(ts)),
-              surface_of_triangle(std::move(surfaces)),
-              surface_names(std::move(names)) {
+        content(polyhedron given, std::vector<std::string> names)
+            : faces(std::move(given)), surface_names(std::move(names)) {
             using detail::require;
+            const auto& [vertices, triangles, surfaces] = faces;
             require(!triangles.empty(), "triangle_mesh: there are no triangles");
-            require(surface_of_triangle.empty() || surface_of_triangle.size() == triangles.size(),
+            require(surfaces.empty() || surfaces.size() == triangles.size(),
                     "triangle_mesh: surfaces for another number of triangles");
             for (std::size_t t = 0; t < triangles.size(); ++t) {
                 const std::int32_t surface = surface_of(t);
@@ -172,7 +155,7 @@ class triangle_mesh {
         }
 
         [[nodiscard]] std::int32_t surface_of(std::size_t t) const {
-            return surface_of_triangle.empty() ? 0 : surface_of_triangle[t];
+            return faces.surface_of_triangle.empty() ? 0 : faces.surface_of_triangle[t];
         }
     };
 

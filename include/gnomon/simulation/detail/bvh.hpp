@@ -60,6 +60,7 @@ class bvh {
     /// visitor shortens the reach to what it found.
     void walk(ray& r, auto&& visit) const {
         if (nodes_.empty()) return;
+        r.reach = std::min(r.reach, std::numeric_limits<double>::max());  // a miss is beyond
         const slopes s(r);
         std::array<pending, stack_size> stack;
         std::size_t height = 0;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: BSL-1.0
+// How many rays per second and core? The default caster beside Embree and beside Eigen's own
+// bounding volume hierarchy, on the rays of one high-density rotational scan; and whole scans.
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <benchmark/benchmark.h>
+
+#include <gnomon/adapters/embree_caster.hpp>
+#include <gnomon/simulation.hpp>
+#include <unsupported/Eigen/BVH>
+
+namespace {
+
+using box3 = Eigen::AlignedBox<double, 3>;
+
+/// The shapes of a scene in Eigen's hierarchy, walked by its own search for a minimum.
+class eigen_caster {
+  public:
+    explicit eigen_caster(const gnomon::scene& world) : shapes_(world.shapes()) {
+        std::vector<std::size_t> numbers;
+        std::vector<box3> boxes;
+        for (std::size_t i = 0; i < shapes_.size(); ++i) {
+            numbers.push_back(i);
+            boxes.emplace_back(shapes_[i].extent.low, shapes_[i].extent.high);
+        }
+        tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
+    }
+
+    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
+        search s{shapes_, r, std::nullopt};
+        Eigen::BVMinimize(tree_, s);
+        return s.hit;
+    }
+
+  private:
+    struct search {
+        using Scalar = double;
+
+        const std::vector<gnomon::placed_shape>& shapes;
+        gnomon::ray r;
+        std::optional<gnomon::ray_hit> hit;
+
+        double minimumOnVolume(const box3& b) const {
+            double enter = 0.0;
+            double leave = r.reach;
+            for (int a = 0; a < 3; ++a) {
+                const double t0 = (b.min()[a] - r.origin[a]) / r.direction[a];
+                const double t1 = (b.max()[a] - r.origin[a]) / r.direction[a];
+                enter = std::max(enter, std::min(t0, t1));
+                leave = std::min(leave, std::max(t0, t1));
+            }
+            return enter <= leave ? enter : std::numeric_limits<double>::infinity();
+        }
+        double minimumOnObject(std::size_t i) {
+            const auto found = shapes[i].first_hit(r);
+            if (!found) return std::numeric_limits<double>::infinity();
+            hit = found;
+            r.reach = found->range;
+            return found->range;
+        }
+    };
+
+    std::vector<gnomon::placed_shape> shapes_;
+    Eigen::KdBVH<double, 3, std::size_t> tree_;
+};
+
+const gnomon::scene& scene_called(const std::string& name) {
+    static const std::map<std::string, gnomon::scene> scenes{
+        {"kitchen", gnomon::scenes::kitchen()}, {"living_room", gnomon::scenes::living_room()}};
+    return scenes.at(name);
+}
+
+/// The rays of a rotational scan of 115,200.
+std::vector<gnomon::ray> rays_of(const gnomon::scene& world) {
+    const gnomon::rotational trajectory{.mount = world.sensor};
+    const gnomon::scanner finder = gnomon::densities::high();
+    std::vector<gnomon::ray> rays;
+    for (std::size_t line = 0; line < finder.lines(4.0); ++line) {
+        const gnomon::pose sensor = trajectory((static_cast<double>(line) + 0.5) / 40.0);
+        for (std::size_t j = 0; j < finder.beams(); ++j)
+            rays.push_back({sensor.position, sensor.direction_out(finder.direction(j))});
+    }
+    return rays;
+}
+
+template <class Caster>
+void cast(benchmark::State& state, const std::string& name) {
+    const gnomon::scene& world = scene_called(name);
+    const Caster caster(world);
+    const auto rays = rays_of(world);
+    for (auto _ : state) {
+        double sum = 0.0;
+        for (const gnomon::ray& r : rays) {
+            if (const auto hit = caster(r)) sum += hit->range;
+        }
+        benchmark::DoNotOptimize(sum);
+    }
+    state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays.size()),
+                                                  benchmark::Counter::kIsIterationInvariantRate);
+}
+
+void scan(benchmark::State& state, const gnomon::beam& b) {
+    const gnomon::scene& world = scene_called("kitchen");
+    const gnomon::rotational trajectory{.mount = world.sensor};
+    std::size_t points = 0;
+    for (auto _ : state) {
+        points = gnomon::simulate(world, trajectory, gnomon::densities::high(), b).scan.size();
+    }
+    state.counters["points"] = static_cast<double>(points);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    benchmark::Initialize(&argc, argv);
+    const auto measure = [](const std::string& name, const auto& what, const auto& how) {
+        benchmark::RegisterBenchmark(name.c_str(), what, how)->Unit(benchmark::kMillisecond);
+    };
+    for (const std::string scene : {"kitchen", "living_room"}) {
+        measure("cast/" + scene + "/bvh_caster", cast<gnomon::bvh_caster>, scene);
+        measure("cast/" + scene + "/embree_caster", cast<gnomon::embree_caster>, scene);
+        measure("cast/" + scene + "/eigen_kdbvh", cast<eigen_caster>, scene);
+    }
+    measure("scan/kitchen/noisy", scan, gnomon::beam{.sigma = 0.015});
+    const gnomon::beam_footprint wide{.divergence = gnomon::radians(0.004)};
+    measure("scan/kitchen/skimmed", scan, gnomon::beam{.sigma = 0.015, .footprint = wide});
+    benchmark::RunSpecifiedBenchmarks();
+    benchmark::Shutdown();
+}

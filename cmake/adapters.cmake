@@ -1,0 +1,21 @@
+# SPDX-License-Identifier: BSL-1.0
+# Targets for the headers of gnomon/adapters/, each with the library that it adapts. The same file
+# serves the source tree and the installed package.
+
+# gnomon_adapter(NAME TARGET PACKAGE [options of find_package...]): gnomon::NAME, if PACKAGE is found
+# and has TARGET.
+function(gnomon_adapter name target package)
+    if(TARGET gnomon::${name})
+        return()
+    endif()
+    if(NOT TARGET ${target})
+        find_package(${package} CONFIG QUIET GLOBAL)
+    endif()
+    if(TARGET ${target})
+        add_library(gnomon::${name} INTERFACE IMPORTED GLOBAL)
+        target_link_libraries(gnomon::${name} INTERFACE gnomon::gnomon ${target})
+    endif()
+endfunction()
+
+gnomon_adapter(assimp assimp::assimp assimp)
+gnomon_adapter(embree embree embree)

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Scenes out of mesh files (OBJ, STL, DAE, glTF and what else Assimp reads). Link with
+/// gnomon::assimp.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <assimp/Importer.hpp>
+#include <assimp/postprocess.h>
+#include <assimp/scene.h>
+#include <gnomon/core/error.hpp>
+#include <gnomon/simulation/polyhedron.hpp>
+#include <gnomon/simulation/scene.hpp>
+#include <gnomon/simulation/triangle_mesh.hpp>
+
+namespace gnomon {
+
+/// What the named groups of a mesh file are.
+enum class mesh_groups : char {
+    objects,  ///< of a room: each is an object of one part, "body"
+    parts     ///< of one object, which is called as the file, without folder and extension
+};
+
+namespace detail {
+
+/// Adds the meshes of a file to a scene, group by group.
+class assimp_reader {
+  public:
+    assimp_reader(const std::string& path, mesh_groups groups, scene& world)
+        : groups_(groups), world_(world) {
+        const std::size_t name = path.find_last_of("/\\") + 1;  // 0 without folder
+        file_ = path.substr(name, path.find_last_of('.') - name);
+    }
+
+    /// The meshes of a node and of the nodes below it. `outer` moves the node's parent.
+    void add(const aiScene& file, const aiNode& node, const aiMatrix4x4& outer) {
+        const aiMatrix4x4 place = outer * node.mTransformation;
+        for (unsigned i = 0; i < node.mNumMeshes; ++i)
+            add(*file.mMeshes[node.mMeshes[i]], node.mName.C_Str(), place);
+        for (unsigned i = 0; i < node.mNumChildren; ++i) add(file, *node.mChildren[i], place);
+    }
+
+  private:
+    void add(const aiMesh& mesh, const std::string& node, const aiMatrix4x4& place) {
+        polyhedron faces;
+        for (unsigned t = 0; t < mesh.mNumFaces; ++t) {
+            const aiFace& face = mesh.mFaces[t];
+            if (face.mNumIndices != 3) continue;  // points and lines
+            faces.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+        }
+        if (faces.triangles.empty()) return;
+        for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
+            const aiVector3D p = place * mesh.mVertices[v];
+            faces.vertices.push_back({p.x, p.y, p.z});
+        }
+        std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : node;
+        if (name.empty()) name = file_;
+        world_.add(part(std::move(name)), triangle_mesh(std::move(faces)));
+    }
+
+    std::int32_t part(std::string name) {
+        if (groups_ == mesh_groups::objects)
+            return world_.add_part(world_.add_object(std::move(name)), "body");
+        if (object_ == nothing) object_ = world_.add_object(file_);
+        return world_.add_part(object_, std::move(name));
+    }
+
+    mesh_groups groups_;
+    scene& world_;
+    std::string file_;
+    std::int32_t object_ = nothing;
+};
+
+}  // namespace detail
+
+/// The scene in a mesh file, in the file's units and axes. The sensor is left at the origin.
+/// @throws gnomon::error  if the file cannot be read, is damaged, or holds no triangle
+/// Complexity: O(n log n).
+[[nodiscard]] inline scene read_scene(const std::string& path,
+                                      mesh_groups groups = mesh_groups::objects) {
+    Assimp::Importer importer;
+    const aiScene* const file =
+        importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+    if (file == nullptr || file->mRootNode == nullptr)
+        throw error(path, "", importer.GetErrorString());
+    scene world;
+    try {
+        detail::assimp_reader(path, groups, world).add(*file, *file->mRootNode, aiMatrix4x4());
+    } catch (const std::invalid_argument& problem) {
+        throw error(path, "", problem.what());
+    }
+    if (world.shapes().empty()) throw error(path, "", "no triangles");
+    return world;
+}
+
+}  // namespace gnomon

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Ray casting by Embree (Wald et al. 2014), 3 or 4: in single precision, at its best on meshes of
+/// many triangles. Link with gnomon::embree.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#if __has_include(<embree4/rtcore.h>)
+#include <embree4/rtcore.h>
+#else
+#include <embree3/rtcore.h>
+#endif
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/polyhedron.hpp>
+#include <gnomon/simulation/ray.hpp>
+#include <gnomon/simulation/scene.hpp>
+#include <gnomon/simulation/shape.hpp>
+
+namespace gnomon {
+
+/// Models `ray_caster`. Flat shapes are triangles to Embree; round ones are asked themselves, in
+/// double precision.
+class embree_caster {
+  public:
+    /// Keeps the shapes of `world`, not the scene.
+    /// @throws gnomon::error  if Embree refuses, e.g. for want of memory
+    explicit embree_caster(const scene& world)
+        : device_(rtcNewDevice(nullptr)), content_(std::make_unique<content>(world)) {
+        check();
+        scene_.reset(rtcNewScene(device_.get()));
+        rtcSetSceneFlags(scene_.get(), RTC_SCENE_FLAG_ROBUST);
+        rtcSetSceneBuildQuality(scene_.get(), RTC_BUILD_QUALITY_HIGH);
+        for (std::size_t i = 0; i < content_->shapes.size(); ++i) {
+            if (const auto flat = content_->shapes[i].shape->triangles()) {
+                add_triangles(i, *flat);
+            } else {
+                add_round(i);
+            }
+        }
+        rtcCommitScene(scene_.get());
+        check();
+    }
+
+    [[nodiscard]] std::optional<ray_hit> operator()(const ray& r) const {
+        const Eigen::Vector3d from = r.origin - content_->center;
+        const double length = r.direction.dot(r.direction);
+        // What Embree asserts, and what is no direction.
+        constexpr double farthest = 1e15;
+        const bool is_ray =
+            r.reach > 0.0 && length > 0.5 && length < 2.0 && from.dot(from) < farthest * farthest;
+        if (!is_ray) return std::nullopt;
+
+        RTCRayHit query{};
+        query.ray.org_x = static_cast<float>(from.x());
+        query.ray.org_y = static_cast<float>(from.y());
+        query.ray.org_z = static_cast<float>(from.z());
+        query.ray.dir_x = static_cast<float>(r.direction.x());
+        query.ray.dir_y = static_cast<float>(r.direction.y());
+        query.ray.dir_z = static_cast<float>(r.direction.z());
+        query.ray.tnear = 0.0f;
+        query.ray.tfar = static_cast<float>(r.reach);
+        query.ray.mask = ~0u;
+        query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+#if RTC_VERSION_MAJOR >= 4
+        rtcIntersect1(scene_.get(), &query);
+#else
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        rtcIntersect1(scene_.get(), &context, &query);
+#endif
+        if (query.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+
+        const placed_shape& s = content_->shapes[query.hit.geomID];
+        const std::vector<std::int32_t>& surfaces =
+            content_->surface_of_primitive[query.hit.geomID];
+        const Eigen::Vector3d n(query.hit.Ng_x, query.hit.Ng_y, query.hit.Ng_z);
+        const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
+        const std::int32_t own = surfaces.empty() ? static_cast<std::int32_t>(query.hit.primID)
+                                                  : surfaces[query.hit.primID];
+        return ray_hit{query.ray.tfar, n * (sign / std::sqrt(n.dot(n))), s.first_surface + own};
+    }
+
+  private:
+    struct release {
+        void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
+        void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+    };
+
+    /// What Embree's callbacks are given, so it must not move.
+    struct content {
+        std::vector<placed_shape> shapes;
+        Eigen::Vector3d center;  ///< of the scene: single precision is best about the origin
+        /// Of each shape and triangle; empty for round shapes, whose callback puts the number of
+        /// the surface where Embree has that of the primitive.
+        std::vector<std::vector<std::int32_t>> surface_of_primitive;
+
+        explicit content(const scene& world)
+            : shapes(world.shapes()), center(0.0, 0.0, 0.0), surface_of_primitive(shapes.size()) {
+            bounds all = detail::no_bounds();
+            for (const placed_shape& s : shapes) detail::extend(all, s.extent.low, s.extent.high);
+            if (!shapes.empty()) center = (all.low + all.high) * 0.5;
+        }
+    };
+
+    /// A shape as its callbacks know it.
+    struct round {
+        const content* all;
+        std::size_t index;
+    };
+
+    void check() const {
+        const RTCError problem = rtcGetDeviceError(device_.get());
+        if (problem == RTC_ERROR_NONE) return;
+        throw error("embree", "",
+                    problem == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "cannot make a scene");
+    }
+
+    void attach(RTCGeometry geometry, std::size_t i) {
+        rtcCommitGeometry(geometry);
+        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(i));
+        rtcReleaseGeometry(geometry);
+    }
+
+    void add_triangles(std::size_t i, const polyhedron& faces) {
+        const auto geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        auto* const vertices = static_cast<float*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                    3 * sizeof(float), faces.vertices.size()));
+        auto* const indices = static_cast<std::uint32_t*>(
+            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                    3 * sizeof(std::uint32_t), faces.triangles.size()));
+        check();
+        for (std::size_t v = 0; v < faces.vertices.size(); ++v) {
+            const Eigen::Vector3d p =
+                content_->shapes[i].pose.point_out(faces.vertices[v]) - content_->center;
+            for (int a = 0; a < 3; ++a)
+                vertices[3 * v + static_cast<std::size_t>(a)] = static_cast<float>(p[a]);
+        }
+        std::vector<std::int32_t>& surfaces = content_->surface_of_primitive[i];
+        surfaces = faces.surface_of_triangle;
+        surfaces.resize(faces.triangles.size(), 0);
+        for (std::size_t t = 0; t < faces.triangles.size(); ++t) {
+            for (std::size_t k = 0; k < 3; ++k) indices[3 * t + k] = faces.triangles[t][k];
+        }
+        attach(geometry, i);
+    }
+
+    void add_round(std::size_t i) {
+        round_.push_back(std::make_unique<round>(round{content_.get(), i}));
+        const auto geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
+        rtcSetGeometryUserPrimitiveCount(geometry, 1);
+        rtcSetGeometryUserData(geometry, round_.back().get());
+        rtcSetGeometryBoundsFunction(geometry, bounds_of_round, nullptr);
+        rtcSetGeometryIntersectFunction(geometry, intersect_round);
+        attach(geometry, i);
+    }
+
+    static void bounds_of_round(const RTCBoundsFunctionArguments* a) {
+        const auto& self = *static_cast<const round*>(a->geometryUserPtr);
+        const bounds& b = self.all->shapes[self.index].extent;
+        const Eigen::Vector3d low = b.low - self.all->center;
+        const Eigen::Vector3d high = b.high - self.all->center;
+        constexpr float infinity = std::numeric_limits<float>::infinity();
+        const auto down = [&](double x) { return std::nextafter(float(x), -infinity); };
+        const auto up = [&](double x) { return std::nextafter(float(x), infinity); };
+        *a->bounds_o = {down(low.x()), down(low.y()), down(low.z()), 0.0f,
+                        up(high.x()),  up(high.y()),  up(high.z()),  0.0f};
+    }
+
+    static void intersect_round(const RTCIntersectFunctionNArguments* a) {
+        if (a->N != 1 || a->valid[0] == 0) return;
+        const auto& self = *static_cast<const round*>(a->geometryUserPtr);
+        auto& query = *reinterpret_cast<RTCRayHit*>(a->rayhit);
+        const ray r{
+            Eigen::Vector3d(query.ray.org_x, query.ray.org_y, query.ray.org_z) + self.all->center,
+            {query.ray.dir_x, query.ray.dir_y, query.ray.dir_z},
+            query.ray.tfar};
+        const placed_shape& s = self.all->shapes[self.index];
+        const auto hit = s.first_hit(r);
+        if (!hit) return;
+        query.ray.tfar = static_cast<float>(hit->range);
+        query.hit.Ng_x = static_cast<float>(hit->normal.x());
+        query.hit.Ng_y = static_cast<float>(hit->normal.y());
+        query.hit.Ng_z = static_cast<float>(hit->normal.z());
+        query.hit.geomID = a->geomID;
+        query.hit.primID = static_cast<unsigned>(hit->surface - s.first_surface);
+    }
+
+    std::unique_ptr<RTCDeviceTy, release> device_;
+    std::unique_ptr<content> content_;
+    std::vector<std::unique_ptr<round>> round_;
+    std::unique_ptr<RTCSceneTy, release> scene_;
+};
+
+}  // namespace gnomon
