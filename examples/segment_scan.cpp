@@ -21,9 +21,9 @@
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "common/progress.hpp"
 #include "picture/picture.hpp"
 #include "segment_scan/options.hpp"
-#include "segment_scan/progress.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -41,10 +41,17 @@ struct result {
     double segmentation_seconds = 0.0;
 };
 
+/// What there is to segment if the user has no scan: a kitchen, as a UTM-30LX that rolls about its
+/// axis of sight would see it (Klasing 2010, Fig. 4.8).
+gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
+    const gnomon::scene kitchen = gnomon::scenes::kitchen();
+    const gnomon::rotational trajectory{.mount = kitchen.sensor};
+    return gnomon::simulate(kitchen, trajectory, {}, {.sigma = 0.015}, threads).scan;
+}
+
 gnomon::scan scan_of(const options& o) {
     const progress telling("reading");
-    gnomon::scan scan = o.scan.empty() ? gnomon::simulate(gnomon::box_and_cylinder{}).scan
-                                       : gnomon::io::read(o.scan);
+    gnomon::scan scan = o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan);
     if (o.viewpoint) scan.viewpoints = *o.viewpoint;
     return scan;
 }
@@ -139,14 +146,14 @@ std::vector<picture::splat> splats_of(const gnomon::scan& scan, const result& r)
 
 std::string picture_of(const gnomon::scan& scan, const result& r, const options& o) {
     const progress telling("drawing");
-    std::vector<std::size_t> sizes;
+    std::vector<std::string> legend;
     for (std::size_t label = 0; label < r.segments.size(); ++label) {
-        sizes.push_back(r.segments[label].size());
+        legend.push_back(picture::with_commas(r.segments[label].size()));
     }
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
-    return picture::picture_of(splats_of(scan, r), sizes, viewpoint, o.up).png();
+    return picture::picture_of(splats_of(scan, r), legend, "segment", viewpoint, o.up).png();
 }
 
 void write_points(const std::string& directory, const gnomon::scan& scan, const result& r) {
@@ -219,11 +226,10 @@ void segment_scan(const options& o) {
 
 int main(int argc, char** argv) {
     try {
-        const options o = options_from({argv + 1, argv + argc});
-        if (o.help) {
-            std::fputs(usage, stdout);
+        if (const auto o = options_from({argv + 1, argv + argc})) {
+            segment_scan(*o);
         } else {
-            segment_scan(o);
+            std::fputs(usage, stdout);
         }
         return 0;
     } catch (const usage_error& problem) {

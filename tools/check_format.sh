@@ -7,7 +7,7 @@ cd "$(dirname "$0")/.."
 status=0
 
 if command -v clang-format-16 >/dev/null; then
-    find include tests examples -name '*.[ch]pp' -exec clang-format-16 --dry-run -Werror {} + ||
+    find include tests examples benchmarks -name '*.[ch]pp' -exec clang-format-16 --dry-run -Werror {} + ||
         status=1
 else
     echo "clang-format-16 is missing: layout not checked"

@@ -29,7 +29,7 @@ for test in sorted(set(TESTS.glob("*/*_test.cpp")) - set(CHAIN.glob("*"))):
     if not any(home.exists() for home in homes):
         problems.append(f"tests/{name} has no include/gnomon/{header}")
 
-for tree in ("include", "tests", "examples"):
+for tree in ("include", "tests", "examples", "benchmarks"):
     for source in sorted((ROOT / tree).rglob("*.[ch]pp")):
         if not source.read_text(encoding="utf-8").startswith(SPDX):
             problems.append(f"{source.relative_to(ROOT)} does not begin with its SPDX line")

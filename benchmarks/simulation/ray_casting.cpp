@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // How many rays per second and core? The default caster beside Embree and beside Eigen's own
 // bounding volume hierarchy, on the rays of one high-density rotational scan; and whole scans.
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
@@ -72,9 +75,38 @@ class eigen_caster {
     Eigen::KdBVH<double, 3, std::size_t> tree_;
 };
 
+/// One mesh: a bumpy cave of 80,000 triangles around the sensor.
+gnomon::scene cave() {
+    constexpr std::uint32_t n = 200;
+    gnomon::polyhedron faces;
+    for (std::uint32_t i = 0; i <= n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const double latitude = std::numbers::pi * i / n;
+            const double longitude = 2.0 * std::numbers::pi * j / n;
+            const double r = 3.0 + 0.3 * std::sin(9.0 * latitude) * std::cos(7.0 * longitude);
+            faces.vertices.push_back({r * std::sin(latitude) * std::cos(longitude),
+                                      r * std::sin(latitude) * std::sin(longitude),
+                                      r * std::cos(latitude)});
+        }
+    }
+    for (std::uint32_t i = 0; i < n; ++i) {
+        for (std::uint32_t j = 0; j < n; ++j) {
+            const std::uint32_t here = i * n + j;
+            const std::uint32_t right = i * n + (j + 1) % n;
+            faces.triangles.push_back({here, right, right + n});
+            faces.triangles.push_back({here, right + n, here + n});
+        }
+    }
+    gnomon::scene world;
+    world.add(world.add_part(world.add_object("cave"), "wall"), gnomon::triangle_mesh(faces));
+    return world;
+}
+
 const gnomon::scene& scene_called(const std::string& name) {
     static const std::map<std::string, gnomon::scene> scenes{
-        {"kitchen", gnomon::scenes::kitchen()}, {"living_room", gnomon::scenes::living_room()}};
+        {"kitchen", gnomon::scenes::kitchen()},
+        {"living_room", gnomon::scenes::living_room()},
+        {"cave_of_80000_triangles", cave()}};
     return scenes.at(name);
 }
 
@@ -124,7 +156,7 @@ int main(int argc, char** argv) {
     const auto measure = [](const std::string& name, const auto& what, const auto& how) {
         benchmark::RegisterBenchmark(name.c_str(), what, how)->Unit(benchmark::kMillisecond);
     };
-    for (const std::string scene : {"kitchen", "living_room"}) {
+    for (const std::string scene : {"kitchen", "living_room", "cave_of_80000_triangles"}) {
         measure("cast/" + scene + "/bvh_caster", cast<gnomon::bvh_caster>, scene);
         measure("cast/" + scene + "/embree_caster", cast<gnomon::embree_caster>, scene);
         measure("cast/" + scene + "/eigen_kdbvh", cast<eigen_caster>, scene);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A segmented scan in one picture: two views side by side, captions above, a legend below.
+/// A scan in groups, such as segments, in one picture: two views side by side, captions above, a
+/// legend below.
 #pragma once
 
 #include <cstddef>
@@ -29,14 +30,15 @@ namespace picture {
     return with_commas(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// The picture of a segmented scan.
-/// @param splats         its finite points
-/// @param segment_sizes  number of points by label
-/// @param viewpoint      where the sensor stood [m]
-/// @param up             against gravity; guessed if not known
+/// The picture of a scan in groups.
+/// @param splats     its finite points
+/// @param legend     what to say of the groups, by label
+/// @param group      what a group is called
+/// @param viewpoint  where the sensor stood [m]
+/// @param up         against gravity; guessed if not known
 [[nodiscard]] inline image picture_of(const std::vector<splat>& splats,
-                                      const std::vector<std::size_t>& segment_sizes,
-                                      const Eigen::Vector3d& viewpoint,
+                                      const std::vector<std::string>& legend,
+                                      const std::string& group, const Eigen::Vector3d& viewpoint,
                                       const std::optional<Eigen::Vector3d>& up = {}) {
     constexpr int margin = 24;
     constexpr int width = 764;
@@ -59,15 +61,14 @@ namespace picture {
 
     const int y = top + height + 30;
     const std::string title =
-        counted(splats.size(), "point") + ", " + counted(segment_sizes.size(), "segment");
+        counted(splats.size(), "point") + ", " + counted(legend.size(), group);
     sheet.write(margin, y, title);
     int x = margin + image::width_of(title) + 40;
-    for (std::size_t label = 0; label < segment_sizes.size() && label < 8; ++label) {
-        const std::string text = with_commas(segment_sizes[label]);
-        const int end = x + 28 + image::width_of(text) + 24;
+    for (std::size_t label = 0; label < legend.size() && label < 8; ++label) {
+        const int end = x + 28 + image::width_of(legend[label]) + 24;
         if (end > sheet.width()) break;
         sheet.fill(x, y - 4, x + 20, y + 18, color_of(static_cast<std::int32_t>(label)));
-        sheet.write(x + 28, y, text);
+        sheet.write(x + 28, y, legend[label]);
         x = end;
     }
     return sheet;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks and
-/// training, and would cost every robot compile time.
+/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks
+/// and training, and would cost every robot compile time.
 #pragma once
 
 #include <gnomon/simulation/beam.hpp>

@@ -6838,5 +6838,5 @@ class triangle_mesh {
 // -------- gnomon/simulation.hpp ------------------------------------------------------------------
 
 /// @file
-/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks and
-/// training, and would cost every robot compile time.
+/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks
+/// and training, and would cost every robot compile time.

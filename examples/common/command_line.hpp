@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What did the user ask for? A command line of words, checked one by one.
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <cstddef>
+#include <limits>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
+#include <type_traits>
+#include <vector>
+
+#include <Eigen/Core>
+
+/// A command line that cannot be understood.
+struct usage_error : std::runtime_error {
+    using std::runtime_error::runtime_error;
+};
+
+/// The whole of `text` as a number in [low, high], which `range` puts in words, whatever the
+/// locale.
+template <class Number>
+Number number_within(const std::string& option, std::string_view text, Number low, Number high,
+                     const char* range) {
+    Number number{};
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), number);
+    if (problem == std::errc::result_out_of_range) {
+        throw usage_error(option + ": " + std::string(text) + " is too large or too small");
+    }
+    if (problem != std::errc{} || end != text.data() + text.size()) {
+        throw usage_error(
+            option + ": '" + std::string(text) + "' is not " +
+            (std::is_integral_v<Number> ? "a whole number of 0 or more" : "a number"));
+    }
+    if (!(number >= low && number <= high)) {
+        throw usage_error(option + ": must be " + range + ", not " + std::string(text));
+    }
+    return number;
+}
+
+/// Three numbers with commas between.
+inline Eigen::Vector3d vector_of(const std::string& option, std::string_view text) {
+    Eigen::Vector3d v;
+    for (int i = 0; i < 3; ++i) {
+        const std::size_t comma = text.find(',');
+        if ((comma == text.npos) != (i == 2)) throw usage_error(option + ": wants X,Y,Z");
+        v[i] = number_within(option, text.substr(0, comma), -1e9, 1e9, "within 1e9 m");
+        if (i < 2) text.remove_prefix(comma + 1);
+    }
+    return v;
+}
+
+/// The number of threads.
+inline unsigned threads_of(const std::string& option, std::string_view text) {
+    return number_within(option, text, 0u, 1024u, "from 0 to 1,024");
+}
+
+/// An option, whether a value follows it, and what becomes of it.
+template <class Options>
+struct option {
+    const char* name;
+    bool has_value;
+    void (*set)(Options& o, const std::string& name, const std::string& value);
+};
+
+/// Reads the words of the command line; values come as `--name VALUE` or `--name=VALUE`.
+/// @param positional  what becomes of a word that is no option
+/// @return nothing if the user asked for help
+/// @throws usage_error  if there is a word that makes no sense
+template <class Options>
+std::optional<Options> options_from(const std::vector<std::string>& words,
+                                    std::span<const option<Options>> known,
+                                    void (*positional)(Options& o, const std::string& word)) {
+    Options o;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        const std::string& word = words[i];
+        if (word == "--help" || word == "-h") return std::nullopt;
+        if (!word.starts_with("-")) {
+            positional(o, word);
+            continue;
+        }
+        const std::size_t equals = word.find('=');
+        const std::string name = word.substr(0, equals);
+        const auto found = std::ranges::find(known, name, &option<Options>::name);
+        if (found == known.end()) throw usage_error("no such option: " + word);
+        const bool in_this_word = equals != word.npos;
+        if (!found->has_value) {
+            if (in_this_word) throw usage_error(name + ": takes no value");
+            found->set(o, name, "");
+        } else if (in_this_word) {
+            found->set(o, name, word.substr(equals + 1));
+        } else {
+            if (i + 1 == words.size() || words[i + 1].starts_with("--")) {
+                throw usage_error(name + ": its value is missing");
+            }
+            found->set(o, name, words[++i]);
+        }
+    }
+    return o;
+}

@@ -1,0 +1,156 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What would a range finder see, and what is the truth about each point? Scans a room of the
+/// library or a mesh file and writes points, truth, names and a picture.
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <system_error>
+#include <vector>
+
+#include <Eigen/Core>
+#include <nlohmann/json.hpp>
+
+#include "common/progress.hpp"
+#include "picture/picture.hpp"
+#include "simulate_scan/options.hpp"
+#include "simulate_scan/scenes.hpp"
+#include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
+
+namespace {
+
+using json = nlohmann::ordered_json;
+
+gnomon::true_scan scan_of(const gnomon::scene& world, const options& o) {
+    const progress telling("scanning");
+    const auto along = [&](const auto& trajectory) {
+        return gnomon::simulate(world, trajectory, o.finder, o.beam, o.threads);
+    };
+    switch (o.trajectory) {
+        case trajectory_kind::horizontal:
+            return along(gnomon::horizontal{.mount = world.sensor});
+        case trajectory_kind::vertical:
+            return along(gnomon::vertical{.mount = world.sensor});
+        case trajectory_kind::rotational:
+            break;
+    }
+    return along(gnomon::rotational{.mount = world.sensor});
+}
+
+/// The number of points of each object of the scene.
+std::vector<std::size_t> points_of_objects(const gnomon::scene& world,
+                                           const gnomon::true_scan& truth) {
+    std::vector<std::size_t> count(world.objects().size(), 0);
+    for (const std::int32_t object : truth.objects) {
+        if (object != gnomon::nothing) ++count[static_cast<std::size_t>(object)];
+    }
+    return count;
+}
+
+std::string picture_of(const gnomon::scene& world, const gnomon::true_scan& truth,
+                       const std::vector<std::size_t>& count) {
+    const progress telling("drawing");
+    // Colors go by size.
+    std::vector<std::size_t> order(count.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::stable_sort(order.begin(), order.end(),
+                     [&](std::size_t a, std::size_t b) { return count[a] > count[b]; });
+    std::vector<std::int32_t> label_of(count.size(), gnomon::unlabeled);
+    std::vector<std::string> legend;
+    for (const std::size_t object : order) {
+        if (count[object] == 0) break;
+        label_of[object] = static_cast<std::int32_t>(legend.size());
+        legend.push_back(world.objects()[object] + " " + picture::with_commas(count[object]));
+    }
+
+    const gnomon::kd_tree tree(truth.scan);
+    std::vector<gnomon::neighbor> ring;
+    std::vector<picture::splat> splats;
+    for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+        constexpr std::size_t k = 12;
+        tree.nearest(truth.scan.points[i], k, i, ring);
+        const double reach = ring.empty() ? 0.0 : std::sqrt(ring.back().squared_distance);
+        const double spacing = reach * std::sqrt(std::numbers::pi / static_cast<double>(k));
+        const std::int32_t object = truth.objects[i];
+        const std::int32_t label = object == gnomon::nothing
+                                       ? gnomon::unlabeled
+                                       : label_of[static_cast<std::size_t>(object)];
+        splats.push_back({truth.scan.points[i], truth.normals[i], 1.2 * spacing, label});
+    }
+    const auto& viewpoints = truth.scan.viewpoints.positions();
+    const Eigen::Vector3d viewpoint =
+        viewpoints.empty() ? Eigen::Vector3d::Zero() : viewpoints.front();
+    return picture::picture_of(splats, legend, "object", viewpoint, Eigen::Vector3d::UnitZ()).png();
+}
+
+void write_points(const std::string& path, const gnomon::true_scan& truth) {
+    using namespace gnomon::io;
+    write_ply(path, truth.scan,
+              {normal_properties(truth.normals), scalar_property("object", truth.objects),
+               scalar_property("part", truth.parts), scalar_property("surface", truth.surfaces),
+               scalar_property("range", truth.ranges), scalar_property("echo", truth.echoes)});
+}
+
+/// Which number means what.
+json names_of(const gnomon::scene& world) {
+    json parts = json::array();
+    for (const auto& part : world.parts())
+        parts.push_back({{"name", part.name}, {"object", part.object}});
+    json surfaces = json::array();
+    for (const auto& surface : world.surfaces())
+        surfaces.push_back({{"name", surface.name}, {"part", surface.part}});
+    return {{"objects", world.objects()}, {"parts", parts}, {"surfaces", surfaces}};
+}
+
+void simulate_scan(const options& o) {
+    const gnomon::scene world = scene_of(o);
+    const stopwatch watch;
+    const gnomon::true_scan truth = scan_of(world, o);
+    const double seconds = watch.seconds();
+
+    std::error_code problem;
+    std::filesystem::create_directories(o.out, problem);
+    if (problem) throw gnomon::error(o.out, "", problem.message());
+    const auto count = points_of_objects(world, truth);
+    gnomon::io::replace_file(o.out + "/scan.png", picture_of(world, truth, count));
+    gnomon::io::replace_file(o.out + "/names.json", names_of(world).dump(2) + "\n");
+    write_points(o.out + "/scan.ply", truth);
+
+    const auto mixed = std::count(truth.echoes.begin(), truth.echoes.end(), gnomon::echo::mixed);
+    std::printf("%s in %.3f s, %s of several surfaces\n\n",
+                picture::counted(truth.scan.size(), "point").c_str(), seconds,
+                picture::with_commas(static_cast<std::size_t>(mixed)).c_str());
+    for (std::size_t object = 0; object < count.size(); ++object) {
+        std::printf("%3zu  %-28s %9s\n", object, world.objects()[object].c_str(),
+                    picture::with_commas(count[object]).c_str());
+    }
+    std::printf("\nwrote scan.ply, scan.png, names.json into %s\n", o.out.c_str());
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        if (const auto o = options_from({argv + 1, argv + argc})) {
+            simulate_scan(*o);
+        } else {
+            std::fputs(usage, stdout);
+        }
+        return 0;
+    } catch (const usage_error& problem) {
+        std::fprintf(stderr, "simulate_scan: %s\n%s", problem.what(), usage);
+        return 2;
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "simulate_scan: %s\n", problem.what());
+        return 1;
+    }
+}

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What can one ask simulate_scan for?
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "common/command_line.hpp"
+#include <gnomon/core.hpp>
+#include <gnomon/simulation.hpp>
+
+inline constexpr const char* usage =
+    R"(usage: simulate_scan --out DIR [options]
+
+Scans a scene with a simulated range finder. Writes scan.ply, the points with what is true of
+them (normal, object, part, surface, range, echo), scan.png and names.json into DIR.
+
+  --scene NAME         kitchen, living_room, box_and_cylinder, boxes_and_bin, two_chairs,
+                       seat_armchair_table, furnished_room (of the seed), or a mesh file such as
+                       FILE.obj, z up, in metres (kitchen)
+  --trajectory NAME    horizontal, vertical or rotational (rotational)
+  --density NAME       low, medium or high: 7,200, 28,800 or 115,200 beams (high)
+  --sigma M            standard deviation of the range (0.015)
+  --skimmed            a beam of finite width, 4 mrad, which meets several surfaces at edges
+  --seed N             of all that is random (1)
+  --sensor X,Y,Z       where the sensor stands (as the scene says; in a mesh file the middle, 1.2 m
+                       above the ground)
+  --yaw DEG            to the left (0)
+  --pitch DEG          downwards (as the scene says; in a mesh file 10)
+  --threads N          0 for all there are (0)
+  --help               this text
+)";
+
+enum class trajectory_kind : char { horizontal, vertical, rotational };
+
+struct options {
+    std::string scene = "kitchen";  ///< a name, or the path of a mesh file
+    std::string out;
+    trajectory_kind trajectory = trajectory_kind::rotational;
+    gnomon::scanner finder;
+    gnomon::beam beam{.sigma = 0.015};
+    std::optional<Eigen::Vector3d> sensor;
+    std::optional<gnomon::angle> yaw;
+    std::optional<gnomon::angle> pitch;
+    gnomon::threads threads;
+};
+
+/// The meaning of a word among a few.
+template <class Meaning>
+struct choice {
+    const char* word;
+    Meaning meaning;
+};
+
+/// @throws usage_error  if `value` is none of the words
+template <class Meaning, std::size_t n>
+Meaning chosen(const std::string& name, const std::string& value,
+               const choice<Meaning> (&choices)[n]) {
+    std::string words;
+    for (const auto& [word, meaning] : choices) {
+        if (value == word) return meaning;
+        words += words.empty() ? word : std::string(", ") + word;
+    }
+    throw usage_error(name + ": must be one of " + words + ", not " + value);
+}
+
+inline gnomon::angle angle_of(const std::string& name, const std::string& value) {
+    return gnomon::degrees(number_within(name, value, -360.0, 360.0, "from -360 to 360"));
+}
+
+inline const option<options> known_options[] = {
+    {"--scene", true,
+     [](options& o, const std::string&, const std::string& value) { o.scene = value; }},
+    {"--trajectory", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.trajectory = chosen<trajectory_kind>(name, value,
+                                                {{"horizontal", trajectory_kind::horizontal},
+                                                 {"vertical", trajectory_kind::vertical},
+                                                 {"rotational", trajectory_kind::rotational}});
+     }},
+    {"--density", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.finder = chosen<gnomon::scanner>(name, value,
+                                            {{"low", gnomon::densities::low()},
+                                             {"medium", gnomon::densities::medium()},
+                                             {"high", gnomon::densities::high()}});
+     }},
+    {"--sigma", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.beam.sigma = number_within(name, value, 0.0, 10.0, "from 0 to 10");
+     }},
+    {"--skimmed", false,
+     [](options& o, const std::string&, const std::string&) {
+         o.beam.footprint.divergence = gnomon::radians(0.004);
+     }},
+    {"--seed", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         constexpr std::uint64_t last = ~std::uint64_t{0};
+         o.beam.seed = number_within<std::uint64_t>(name, value, 0, last, "0 or more");
+     }},
+    {"--sensor", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.sensor = vector_of(name, value);
+     }},
+    {"--yaw", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.yaw = angle_of(name, value);
+     }},
+    {"--pitch", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.pitch = angle_of(name, value);
+     }},
+    {"--threads", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.threads.n = threads_of(name, value);
+     }},
+    {"--out", true,
+     [](options& o, const std::string&, const std::string& value) { o.out = value; }},
+};
+
+/// The options that the words say, or nothing if they ask for help.
+/// @throws usage_error  if there is a word that makes no sense
+inline std::optional<options> options_from(const std::vector<std::string>& words) {
+    auto o = options_from<options>(words, known_options, [](options&, const std::string& word) {
+        throw usage_error("'" + word + "' is no option; a scene goes after --scene");
+    });
+    if (o && o->out.empty()) throw usage_error("--out DIR is missing");
+    return o;
+}

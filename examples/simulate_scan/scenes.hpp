@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What is there to scan? The scenes by their names, and mesh files where Assimp is at hand.
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include <Eigen/Core>
+
+#include "simulate_scan/options.hpp"
+#include <gnomon/simulation.hpp>
+#ifdef GNOMON_EXAMPLES_ASSIMP
+#include <gnomon/adapters/assimp_scene.hpp>
+#endif
+
+namespace detail {
+
+/// The scene of a mesh file, the sensor in its middle.
+inline gnomon::scene scene_in_file(const std::string& path) {
+#ifdef GNOMON_EXAMPLES_ASSIMP
+    gnomon::scene world = gnomon::read_scene(path);
+    Eigen::Vector3d low = world.shapes().front().extent.low;
+    Eigen::Vector3d high = world.shapes().front().extent.high;
+    for (const auto& s : world.shapes()) {
+        low = low.cwiseMin(s.extent.low);
+        high = high.cwiseMax(s.extent.high);
+    }
+    world.sensor =
+        gnomon::at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z() + 1.2) *
+        gnomon::pitch(gnomon::degrees(10));
+    return world;
+#else
+    throw usage_error("--scene " + path +
+                      ": no such scene, and this program was built without "
+                      "Assimp, which reads mesh files");
+#endif
+}
+
+}  // namespace detail
+
+/// The scene that the options name, with the sensor where they want it.
+/// @throws usage_error    for a name that is neither a scene nor a file
+/// @throws gnomon::error  for a mesh file that cannot be read
+inline gnomon::scene scene_of(const options& o) {
+    static const std::map<std::string, gnomon::scene (*)(const options&)> scenes{
+        {"kitchen", [](const options&) { return gnomon::scenes::kitchen(); }},
+        {"living_room", [](const options&) { return gnomon::scenes::living_room(); }},
+        {"box_and_cylinder", [](const options&) { return gnomon::scenes::box_and_cylinder(); }},
+        {"boxes_and_bin", [](const options&) { return gnomon::scenes::boxes_and_bin(); }},
+        {"two_chairs", [](const options&) { return gnomon::scenes::two_chairs(); }},
+        {"seat_armchair_table",
+         [](const options&) { return gnomon::scenes::seat_armchair_table(); }},
+        {"furnished_room", [](const options& with) {
+             return gnomon::scenes::furnished_room({.seed = with.beam.seed});
+         }}};
+    const auto known = scenes.find(o.scene);
+    if (known == scenes.end() && o.scene.find('.') == std::string::npos)
+        throw usage_error("--scene: '" + o.scene + "' is neither a scene nor the name of a file");
+
+    gnomon::scene world = known != scenes.end() ? known->second(o) : detail::scene_in_file(o.scene);
+    const Eigen::Vector3d place = o.sensor.value_or(world.sensor.position);
+    if (o.pitch) world.sensor = gnomon::pitch(*o.pitch);
+    world.sensor = gnomon::yaw(o.yaw.value_or(gnomon::angle{})) * world.sensor;
+    world.sensor.position = place;
+    return world;
+}
