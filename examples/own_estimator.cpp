@@ -12,7 +12,8 @@
 namespace {
 
 // [own_estimator]
-// A lambda that returns a vector will do: the normal of the triangle of the first two neighbors.
+// A lambda that returns a vector (a value: say so, or Eigen returns an expression of what is gone)
+// will do: the normal of the triangle of the first two neighbors.
 const auto first_triangle = [](const auto& p, auto ring) -> Eigen::Vector3d {
     if (ring.size() < 2) return Eigen::Vector3d::Zero();
     return (ring[0] - p).cross(ring[1] - p);

@@ -3,6 +3,10 @@
 /// The version, in one place: CMake (and later Conan and vcpkg) read these three numbers.
 #pragma once
 
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
+#error "gnomon needs C++20: -std=c++20, or target_compile_features(... cxx_std_20)"
+#endif
+
 #define GNOMON_VERSION_MAJOR 0
 #define GNOMON_VERSION_MINOR 1
 #define GNOMON_VERSION_PATCH 0

@@ -45,6 +45,10 @@
 /// @file
 /// The version, in one place: CMake (and later Conan and vcpkg) read these three numbers.
 
+#if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
+#error "gnomon needs C++20: -std=c++20, or target_compile_features(... cxx_std_20)"
+#endif
+
 #define GNOMON_VERSION_MAJOR 0
 #define GNOMON_VERSION_MINOR 1
 #define GNOMON_VERSION_PATCH 0
@@ -294,8 +298,11 @@ struct point_traits;
 
 namespace detail {
 
+/// One that has its coordinates in memory. An expression, such as what a lambda returns for a + b,
+/// may refer to temporaries that are gone: say `-> Eigen::Vector3d`.
 template <class P>
-concept eigen_3vector = std::derived_from<P, Eigen::MatrixBase<P>> && P::SizeAtCompileTime == 3;
+concept eigen_3vector = std::derived_from<P, Eigen::MatrixBase<P>> && P::SizeAtCompileTime == 3 &&
+                        (P::Flags & Eigen::DirectAccessBit) != 0;
 
 template <class P>
 concept xyz_struct = requires(const P& p) {
@@ -860,9 +867,13 @@ template <detail::eigen_memory M>
                                  by_row ? m.innerStride() : m.outerStride());
 }
 
+// A temporary matrix is gone before the view; a temporary Map or Block only refers to one that
+// stays.
 template <detail::eigen_memory M>
+    requires std::derived_from<M, Eigen::PlainObjectBase<M>>
 void columns(const M&& m) = delete;
 template <detail::eigen_memory M>
+    requires std::derived_from<M, Eigen::PlainObjectBase<M>>
 void rows(const M&& m) = delete;
 
 }  // namespace gnomon
@@ -883,11 +894,14 @@ class subset_view {
     /// Those of the selected points.
     viewpoint_table viewpoints;
 
-    /// Precondition: every index is below the number of points.
+    /// O(indices).
+    /// @throws std::invalid_argument  for an index of no point, such as those of a larger cloud
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
-        : viewpoints(viewpoints_of(points).subset(indices)),
-          points_(points, std::move(projection)),
-          indices_(indices) {}
+        : points_(points, std::move(projection)), indices_(indices) {
+        for (const point_index i : indices)
+            detail::require(i < points_.size(), "subset_view: an index of no point");
+        viewpoints = viewpoints_of(points).subset(indices);
+    }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
     subset_view(const R& points, std::vector<point_index>&& indices, Proj p = {}) = delete;
@@ -1393,9 +1407,12 @@ inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule r
     found.resize(kept);
 }
 
-/// Collects the k nearest points in canonical order, and those that the rule adds to them.
+/// Collects the k nearest points, and those that the rule adds to them; finish() leaves them in
+/// canonical order. Few are inserted into a sorted list; of many, the farthest are dropped from
+/// time to time, so that the work stays linear.
 class nearest_result_set : public nanoflann_result_set {
   public:
+    /// Precondition: k > 0.
     nearest_result_set(const places& all, std::size_t k, tie_rule rule,
                        std::vector<neighbor>& found)
         : all_(all), k_(k), rule_(rule), found_(found) {}
@@ -1404,21 +1421,49 @@ class nearest_result_set : public nanoflann_result_set {
     [[nodiscard]] bool empty() const { return found_.empty(); }
     [[nodiscard]] bool full() const { return found_.size() >= k_; }
     [[nodiscard]] double worstDist() const {
-        return full() ? just_beyond(found_.back().squared_distance, rule_)
-                      : std::numeric_limits<double>::infinity();
+        if (is_sorted()) {
+            return full() ? just_beyond(found_.back().squared_distance, rule_)
+                          : std::numeric_limits<double>::infinity();
+        }
+        return limit_;
     }
 
     bool addPoint(double squared_distance, point_index place) {
         const auto points = all_.at(place);
         const std::size_t most = rule_ == tie_rule::all ? 2 * k_ : k_;
         for (const point_index index : points.first(std::min(points.size(), most))) {
-            add({squared_distance, index});
+            if (is_sorted())
+                insert({squared_distance, index});
+            else
+                append({squared_distance, index});
         }
         return true;
     }
 
+    void finish() {
+        if (is_sorted()) return;
+        std::sort(found_.begin(), found_.end());
+        keep_nearest(found_, k_, rule_);
+    }
+
   private:
-    void add(const neighbor& candidate) {
+    /// Beyond so many, moving them to insert one costs more than it saves.
+    [[nodiscard]] bool is_sorted() const { return k_ <= 128; }
+
+    void append(const neighbor& candidate) {
+        found_.push_back(candidate);
+        if (found_.size() / 4 < k_) return;
+        const auto at = [this](std::size_t i) {
+            return found_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(found_.begin(), at(k_ - 1), found_.end());
+        limit_ = just_beyond(found_[k_ - 1].squared_distance, rule_);
+        // Ties of the k-th may be among twice as many.
+        std::nth_element(at(k_), at(2 * k_), found_.end());
+        found_.resize(2 * k_);
+    }
+
+    void insert(const neighbor& candidate) {
         if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return;
         found_.push_back(candidate);
         neighbor* slot = &found_.back();
@@ -1431,6 +1476,7 @@ class nearest_result_set : public nanoflann_result_set {
     std::size_t k_;
     tie_rule rule_;
     std::vector<neighbor>& found_;
+    double limit_ = std::numeric_limits<double>::infinity();  // if not sorted
 };
 
 /// Hands every place within a limit, the limit included, to a visitor.
@@ -1492,8 +1538,8 @@ class kd_tree {
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
     /// out (`no_point` for none), in canonical order; fewer if there are no more, and up to twice
-    /// as many if the rule asks for all ties. O(log n + k^2) on average: meant for k up to
-    /// hundreds. Precondition: p is finite.
+    /// as many if the rule asks for all ties. O(log n + k log k) on average. Precondition: p is
+    /// finite.
     void nearest(const Eigen::Vector3d& p, std::size_t k, std::size_t except,
                  std::vector<neighbor>& found, tie_rule rule = tie_rule::by_index) const {
         found.clear();
@@ -1502,6 +1548,7 @@ class kd_tree {
         // One more than asked for: `except` may be among them.
         detail::nearest_result_set results(*places_, k + 1, rule, found);
         find(p, results);
+        results.finish();
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
         detail::keep_nearest(found, k, rule);
     }
@@ -1582,7 +1629,7 @@ struct knn {
     std::size_t k = 50;  ///< number of neighbors, at least 1; the thesis's choice, Sec. 4.4.1
     tie_rule ties = tie_rule::by_index;  ///< `all` for what must not depend on the points' order
 
-    /// The stored graph, which every floor above accepts. O(n (log n + k^2)).
+    /// The stored graph, which every floor above accepts. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -1694,7 +1741,9 @@ template <class E>
 using estimator_result_t =
     std::remove_cvref_t<std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>>;
 
-/// e(point, ring) gives a `normal_estimate` or a bare 3-vector. Const and thread-safe.
+/// e(point, ring) gives a `normal_estimate` or a bare 3-vector. Const and thread-safe. The vector
+/// is a value, not an Eigen expression, which would refer to what is gone when e returns: let
+/// lambdas say `-> Eigen::Vector3d`.
 template <class E>
 concept estimator = std::invocable<const E&, const Eigen::Vector3d&, ring_view> &&
                     (normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
@@ -1747,7 +1796,11 @@ class surfel_maker {
             return s;
         }
         positions_.clear();
-        for (const auto& q : ring) positions_.push_back(points_[index_in(q)]);
+        for (const auto& q : ring) {
+            const std::size_t j = index_in(q);
+            require(j < points_.size(), "estimate_normals: the graph lists a neighbor of no point");
+            positions_.push_back(points_[j]);
+        }
         static_cast<estimate_t<E>&>(s) = checked(p);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
@@ -1825,7 +1878,7 @@ void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& poi
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
 ///         neighbor distance (float points far from the origin).
-/// @throws std::invalid_argument  if graph and points differ in size
+/// @throws std::invalid_argument  if graph and points differ in size, or an index is of no point
 /// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>
@@ -1984,10 +2037,11 @@ namespace gnomon {
 ///
 /// @param points   a scan, or with_viewpoint(s)(points, ...); a bare range was seen from the origin
 /// @param surface  a normal for each point; changed in place
-/// @throws std::invalid_argument  if surface, view points and points differ in number
+/// @throws std::invalid_argument  if surface, view points and points differ in number, or a normal
+///                                has a view point that is not finite
 /// Complexity: O(n).
 template <class R, normal_range Surface, class Proj = std::identity>
-    requires point_range<R, Proj>
+    requires point_range<R, Proj> && (!std::is_const_v<Surface>)
 void orient_normals(const R& points, Surface& surface, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const viewpoint_table v = viewpoints_of(points);
@@ -1995,6 +2049,8 @@ void orient_normals(const R& points, Surface& surface, Proj projection = {}) {
                     "orient_normals: the surface is of other points");
     for (std::size_t i = 0; i < p.size(); ++i) {
         auto& n = surface[i].normal;
+        if (is_missing(n)) continue;
+        detail::require(is_finite(v[i]), "orient_normals: a view point is not finite");
         if (n.dot(p[i] - v[i]) > 0.0) n = -n;
     }
 }
@@ -2182,12 +2238,14 @@ class segments {
     [[nodiscard]] bool empty() const { return size() == 0; }
 
     /// The indices of the points of segment `label`, ascending.
-    [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const {
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const& {
         return {members_.data() + begin_[label], members_.data() + begin_[label + 1]};
     }
+    void operator[](std::size_t label) && = delete;  // its points would be gone
 
     /// The label of each point, `unlabeled` for those of no segment.
-    [[nodiscard]] const std::vector<std::int32_t>& labels() const { return labels_; }
+    [[nodiscard]] const std::vector<std::int32_t>& labels() const& { return labels_; }
+    [[nodiscard]] std::vector<std::int32_t> labels() && { return std::move(labels_); }
 
     friend bool operator==(const segments&, const segments&) = default;
 
@@ -2295,6 +2353,7 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
+                    require(j < points_.size(), "the graph lists a neighbor of no point");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);
@@ -2561,17 +2620,29 @@ struct leveling {
     }
 };
 
+namespace detail {
+
+/// @throws std::invalid_argument  unless the plane is in Hesse normal form
+inline void require_hesse(const plane& p) {
+    require(std::abs(p.normal.dot(p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+            "the normal of a plane, or the direction upwards, must be of unit length");
+}
+
+}  // namespace detail
+
 /// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
 /// the points lies (a quarter of those at the most frequent height, in bins of 10 cm).
 ///
 /// @param up  unit vector against gravity
 /// @return nothing without finite points
+/// @throws std::invalid_argument  unless `up` is of unit length
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
                                                const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                                Proj projection = {}) {
+    detail::require_hesse({up, 0.0});
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
     if (histogram.bins().empty()) return std::nullopt;
@@ -2586,7 +2657,7 @@ template <class R, class Proj = std::identity>
 /// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
 /// @return the plane, its normal on the side of the guess's; nothing where the points of the
 ///         band do not determine one
-/// @throws std::invalid_argument  unless the band is positive
+/// @throws std::invalid_argument  unless the band is positive and the guess's normal of unit length
 /// Complexity: O(n) per refit, a handful of them, at most 50.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -2594,6 +2665,7 @@ template <class R, class Proj = std::identity>
                                               const floor_search& search = {},
                                               Proj projection = {}) {
     detail::require(search.band > 0.0, "find_floor: the band must be positive");
+    detail::require_hesse(guess);
     const position_view<R, Proj> p(points, std::move(projection));
     plane floor = guess;
     double band = search.band;
@@ -2638,7 +2710,8 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive and the share is not negative
+/// @throws std::invalid_argument  unless the bin is positive, the share is not negative, and the
+///                                floor's normal of unit length
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -2647,6 +2720,7 @@ template <class R, class Proj = std::identity>
                                                  Proj projection = {}) {
     detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
     detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
     if (histogram.bins().empty()) return std::nullopt;
@@ -2692,6 +2766,7 @@ template <class R, class Proj = std::identity>
 /// Points that are not finite are left out.
 ///
 /// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
+/// @throws std::invalid_argument  unless the floor's normal is of unit length
 /// Complexity: O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -2699,6 +2774,7 @@ template <class R, class Proj = std::identity>
                                                      std::optional<double> ceiling,
                                                      const height_bands& bands = {},
                                                      Proj projection = {}) {
+    detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     std::vector<point_index> kept;
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -3108,8 +3184,8 @@ inline constexpr std::array<ply_type, 8> ply_types = {{{"char", "int8", {'I', 1}
 /// What a file can hold of a point beside its position: named columns of numbers, computed when
 /// they are written. Several are put together with braces:
 ///
-///     write_ply("normals.ply", scan, {normal_properties(surface, &surfel::normal),
-///                                     scalar_property("quality", surface, &surfel::quality)});
+///     write_ply("surface.ply", scan, {normal_properties(surface),
+///                                     scalar_property("label", segments.labels())});
 
 namespace gnomon::io {
 
@@ -3208,6 +3284,15 @@ template <indexed_range R, class Proj = std::identity>
         detail::converted(range, std::move(projection), [](const auto& n) { return position(n); }));
 }
 
+/// nx, ny, nz as float32 of the normals of a surface; refers to it.
+template <normal_range S>
+[[nodiscard]] properties normal_properties(const S& surface) {
+    return detail::three_properties(
+        {"nx", "ny", "nz"}, field_type::float32,
+        static_cast<std::size_t>(std::ranges::size(surface)),
+        [&surface](std::size_t i) -> Eigen::Vector3d { return surface[i].normal; });
+}
+
 /// red, green, blue from arrays of three bytes; refers to the range.
 template <indexed_range R, class Proj = std::identity>
     requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
@@ -3219,10 +3304,15 @@ template <indexed_range R, class Proj = std::identity>
 }
 
 template <indexed_range R, class Proj = std::identity>
+    requires detail::scalar<projected_element_t<R, Proj>>
 void scalar_property(std::string name, const R&& range, Proj projection = {}) = delete;
 template <indexed_range R, class Proj = std::identity>
+    requires point_range<R, Proj>
 void normal_properties(const R&& range, Proj projection = {}) = delete;
+template <normal_range S>
+void normal_properties(const S&& surface) = delete;
 template <indexed_range R, class Proj = std::identity>
+    requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
 void color_properties(const R&& range, Proj projection = {}) = delete;
 
 }  // namespace gnomon::io
@@ -3653,6 +3743,11 @@ class scan_builder {
             sources_.push_back(column(columns, name, text));
             result_.fields.push_back({name, {}});
         }
+        for (const char* const name : {"viewpoint_x", "viewpoint_y", "viewpoint_z"}) {
+            const auto found = std::find(columns.begin(), columns.end(), name);
+            if (found == columns.end()) break;
+            viewpoint_.push_back(static_cast<std::size_t>(found - columns.begin()));
+        }
     }
 
     /// Precondition: the caller has checked that the file really holds about so many points.
@@ -3667,11 +3762,14 @@ class scan_builder {
         result_.points.emplace_back(row[axes_[0]], row[axes_[1]], row[axes_[2]]);
         for (std::size_t k = 0; k < sources_.size(); ++k)
             result_.fields[k].values.push_back(row[sources_[k]]);
+        if (viewpoint_.size() == 3)
+            viewpoints_.emplace_back(row[viewpoint_[0]], row[viewpoint_[1]], row[viewpoint_[2]]);
     }
 
-    /// What was built, seen from `viewpoints`.
+    /// What was built, seen from where each row says, else from `viewpoints`.
     [[nodiscard]] scan finish(viewpoint_table viewpoints = {}) && {
-        result_.viewpoints = std::move(viewpoints);
+        result_.viewpoints = viewpoint_.size() == 3 ? viewpoint_table(std::move(viewpoints_))
+                                                    : std::move(viewpoints);
         return std::move(result_);
     }
 
@@ -3690,6 +3788,8 @@ class scan_builder {
 
     std::array<std::size_t, 3> axes_;
     std::vector<std::size_t> sources_;
+    std::vector<std::size_t> viewpoint_;  // columns of the view point, if the file has all three
+    std::vector<Eigen::Vector3d> viewpoints_;
     scan result_;
 };
 
@@ -4324,7 +4424,11 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
     require(
         options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
         "write_ply: coordinates must be float32 or float64");
+    std::vector<std::string> names{"x", "y", "z"};
     for (const property& column : columns) {
+        require(std::find(names.begin(), names.end(), column.name) == names.end(),
+                "write_ply: two properties of one name");
+        names.push_back(column.name);
         require(column.size == points, "write_ply: a property is for another number of points");
         require(
             !column.name.empty() && column.name.find_first_of(" \t\v\f\r\n") == std::string::npos,
@@ -4353,21 +4457,29 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
 
 /// Writes the file `path`, whole or not at all; an older one is replaced.
 /// @param points   their positions [m] are written exactly, as long as `coordinates` is float64;
-///                 NaN too. A single known view point goes into a comment that `read_ply` knows.
+///                 NaN too. A single known view point goes into a comment, several into the
+///                 properties viewpoint_x, viewpoint_y, viewpoint_z; `read_ply` knows both.
 /// @param columns  what else to write of each point
 /// @throws gnomon::error          if the system refuses, e.g. for a full disk
 /// @throws std::invalid_argument  before anything is written, for a property of another number of
-///                                points; with nothing left behind, for a value that its type
-///                                cannot hold
+///                                points or a name that is taken; with nothing left behind, for a
+///                                value that its type cannot hold
 /// Complexity: O(points * properties).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},
                ply_options options = {}, Proj projection = {}) {
     const position_view<R, Proj> positions(points, std::move(projection));
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    properties all = columns;
+    if (viewpoints.positions().size() > 1) {
+        all = {columns, detail::three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"},
+                                                 field_type::float64, positions.size(),
+                                                 [&](std::size_t i) { return viewpoints[i]; })};
+    }
     detail::write_ply_rows(
-        path, positions.size(), [&positions](std::size_t i) { return positions[i]; },
-        viewpoints_of(points), columns, options);
+        path, positions.size(), [&positions](std::size_t i) { return positions[i]; }, viewpoints,
+        all, options);
 }
 
 }  // namespace gnomon::io

@@ -35,6 +35,11 @@ static_assert(point<std::array<float, 3>> && point<double[3]>);
 static_assert(point<own::pcl_like> && point<own::polar>);
 static_assert(!point<int> && !point<std::string> && !point<own::ticks>);
 static_assert(!point<Eigen::Vector4d> && !point<Eigen::VectorXd> && !point<Eigen::Vector3i>);
+// Expressions may refer to temporaries; blocks and maps refer to what stays.
+static_assert(!point<decltype(Eigen::Vector3d() + Eigen::Vector3d())>);
+static_assert(!point<decltype(-Eigen::Vector3d())>);
+static_assert(point<decltype(std::declval<Eigen::Matrix3Xd&>().col(0))>);
+static_assert(point<Eigen::Map<Eigen::Vector3f>>);
 static_assert(!point<std::array<int, 3>> && !point<std::array<double, 2>>);
 
 TEST(point, position_is_the_same_through_every_door) {

@@ -109,14 +109,26 @@ TEST(io_write_ply, writes_this_text) {
     EXPECT_EQ(written_and_read(path).viewpoints[0], s.viewpoints[0]);
 }
 
-TEST(io_write_ply, keeps_a_single_view_point_only) {
+TEST(io_write_ply, keeps_a_single_view_point) {
     const std::string path = io_test::scratch_path("a.ply");
     const Eigen::Vector3d here(691234.1234567891, 1.0 / 3.0, -1e-9);
     io::write_ply(path, gnomon::with_viewpoint(awkward_points, here));
     EXPECT_EQ(written_and_read(path).viewpoints[0], here);
-    io::write_ply(
-        path, gnomon::with_viewpoints(awkward_points, gnomon::viewpoint_table({here, here, here})));
-    EXPECT_TRUE(written_and_read(path).viewpoints.empty());
+}
+
+/// Points of a moving sensor keep their view points.
+TEST(io_write_ply, keeps_many_view_points) {
+    gnomon::scan s;
+    s.points = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
+    const std::vector<Eigen::Vector3d> seen_from{{0.1, 0, 0}, {0.2, 0, 0}, {0.3, 0, 1e-20}};
+    s.viewpoints = gnomon::viewpoint_table(seen_from);
+    const std::string path = io_test::scratch_path("a.ply");
+    for (const auto format : {io::ply_format::ascii, io::ply_format::binary_little_endian}) {
+        io::write_ply(path, s, {}, {.format = format});
+        const auto again = io::read_ply(io::load(path));
+        ASSERT_TRUE(again.viewpoints.covers(3));
+        for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(again.viewpoints[i], seen_from[i]);
+    }
 }
 
 struct foreign_hit {
@@ -153,6 +165,9 @@ TEST(io_write_ply, refuses_impossible_arguments_and_leaves_nothing) {
     const std::vector<int> four(4);
     refuse(io::scalar_property("other_size", four));
     refuse({}, {.coordinates = field_type::int32});
+    refuse(io::property{"x", field_type::float64, 3, constant(0)});
+    const io::property once{"twice", field_type::float64, 3, constant(0)};
+    refuse({once, once});
     refuse(io::property{"", field_type::float64, 3, constant(0)});
     refuse(io::property{"two words", field_type::float64, 3, constant(0)});
     for (const double value : {256.0, -1.0, 0.5, not_a_number, 1e300})

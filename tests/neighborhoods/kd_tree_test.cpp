@@ -100,6 +100,27 @@ TEST(kd_tree, ball_equals_brute_force_rim_included) {
     }
 }
 
+/// Many neighbors are gathered in another way than few.
+TEST(kd_tree, nearest_of_many_equals_brute_force) {
+    for (const auto& points : {clouds::in_cube(3000, 7), clouds::on_grid(3000, 8)}) {
+        const gnomon::kd_tree tree(points);
+        std::vector<gnomon::neighbor> found;
+        for (std::size_t i = 0; i < points.size(); i += 500) {
+            auto expected = by_brute_force(points, points[i]);
+            std::erase_if(expected, [i](const auto& q) { return q.index == i; });
+            for (const std::size_t k : {127u, 129u, 300u, 1000u, 2999u}) {
+                tree.nearest(points[i], k, i, found);
+                ASSERT_EQ(found.size(), k);
+                EXPECT_TRUE(std::equal(found.begin(), found.end(), expected.begin()));
+                tree.nearest(points[i], k, i, found, gnomon::tie_rule::all);
+                auto with_ties = expected;
+                gnomon::detail::keep_nearest(with_ties, k, gnomon::tie_rule::all);
+                EXPECT_EQ(found, with_ties);
+            }
+        }
+    }
+}
+
 /// Asking for all ties, for nobody in particular, or for more than there are.
 TEST(kd_tree, gives_no_more_than_asked_for) {
     const auto points = clouds::in_cube(500, 4);

@@ -46,6 +46,22 @@ TEST(orient_normals, faces_the_view_point_of_each_point) {
     EXPECT_LT(both_sides[1].normal.z(), 0.0);
 }
 
+/// A view point that is missing must not leave normals as they are, silently.
+TEST(orient_normals, refuses_a_view_point_that_is_not_finite) {
+    const auto points = clouds::sheet(50, 1);
+    auto surface = gnomon::estimate_normals(points, gnomon::knn{.k = 8}, gnomon::plane_pca{});
+    EXPECT_THROW(
+        gnomon::orient_normals(gnomon::with_viewpoint(points, {clouds::nan, 0, 0}), surface),
+        std::invalid_argument);
+}
+
+/// A view point is no projection.
+template <class S>
+concept takes_a_bare_view_point = requires(const std::vector<Eigen::Vector3d>& points, S& surface) {
+    gnomon::orient_normals(points, surface, Eigen::Vector3d(0, 0, 1));
+};
+static_assert(!takes_a_bare_view_point<std::vector<gnomon::surfel<gnomon::plane_fit>>>);
+
 TEST(orient_normals, refuses_a_surface_of_other_points) {
     auto surface =
         gnomon::estimate_normals(clouds::sheet(5, 1), gnomon::knn{3}, gnomon::plane_pca{});

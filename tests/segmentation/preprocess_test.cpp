@@ -185,6 +185,13 @@ TEST(preprocess, says_nothing_where_there_is_nothing) {
 TEST(preprocess, refuses_bands_without_width) {
     const auto points = clouds::sheet(100, 1);
     EXPECT_THROW((void)gnomon::find_floor(points, {}, {.band = 0.0}), std::invalid_argument);
+    for (const Eigen::Vector3d& bad :
+         {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, clouds::nan)}) {
+        EXPECT_THROW((void)gnomon::guess_floor(points, bad), std::invalid_argument);
+        EXPECT_THROW((void)gnomon::find_floor(points, {bad, 0.0}), std::invalid_argument);
+        EXPECT_THROW((void)gnomon::find_ceiling(points, {bad, 0.0}), std::invalid_argument);
+        EXPECT_THROW((void)gnomon::between_bands(points, {bad, 0.0}, {}), std::invalid_argument);
+    }
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = clouds::nan}),
                  std::invalid_argument);
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_share = clouds::nan}),

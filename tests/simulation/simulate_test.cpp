@@ -107,7 +107,7 @@ TEST(simulate, ideal_limit_is_bit_for_bit) {
 }
 
 TEST(simulate, counts_what_went_wrong) {
-    const auto truth = gnomon::simulate(kitchen, around, {}, all_at_once);
+    const auto truth = gnomon::simulate(kitchen, around, {}, all_at_once, gnomon::threads{});
     ASSERT_EQ(truth.scan.size(), 115'200u);
     std::vector<double> count(4, 0.0);
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {

@@ -29,8 +29,11 @@ struct point_traits;
 
 namespace detail {
 
+/// One that has its coordinates in memory. An expression, such as what a lambda returns for a + b,
+/// may refer to temporaries that are gone: say `-> Eigen::Vector3d`.
 template <class P>
-concept eigen_3vector = std::derived_from<P, Eigen::MatrixBase<P>> && P::SizeAtCompileTime == 3;
+concept eigen_3vector = std::derived_from<P, Eigen::MatrixBase<P>> && P::SizeAtCompileTime == 3 &&
+                        (P::Flags & Eigen::DirectAccessBit) != 0;
 
 template <class P>
 concept xyz_struct = requires(const P& p) {

@@ -99,9 +99,13 @@ template <detail::eigen_memory M>
                                  by_row ? m.innerStride() : m.outerStride());
 }
 
+// A temporary matrix is gone before the view; a temporary Map or Block only refers to one that
+// stays.
 template <detail::eigen_memory M>
+    requires std::derived_from<M, Eigen::PlainObjectBase<M>>
 void columns(const M&& m) = delete;
 template <detail::eigen_memory M>
+    requires std::derived_from<M, Eigen::PlainObjectBase<M>>
 void rows(const M&& m) = delete;
 
 }  // namespace gnomon

@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/index_iterator.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
@@ -27,11 +28,14 @@ class subset_view {
     /// Those of the selected points.
     viewpoint_table viewpoints;
 
-    /// Precondition: every index is below the number of points.
+    /// O(indices).
+    /// @throws std::invalid_argument  for an index of no point, such as those of a larger cloud
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
-        : viewpoints(viewpoints_of(points).subset(indices)),
-          points_(points, std::move(projection)),
-          indices_(indices) {}
+        : points_(points, std::move(projection)), indices_(indices) {
+        for (const point_index i : indices)
+            detail::require(i < points_.size(), "subset_view: an index of no point");
+        viewpoints = viewpoints_of(points).subset(indices);
+    }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
     subset_view(const R& points, std::vector<point_index>&& indices, Proj p = {}) = delete;

@@ -3,8 +3,8 @@
 /// What a file can hold of a point beside its position: named columns of numbers, computed when
 /// they are written. Several are put together with braces:
 ///
-///     write_ply("normals.ply", scan, {normal_properties(surface, &surfel::normal),
-///                                     scalar_property("quality", surface, &surfel::quality)});
+///     write_ply("surface.ply", scan, {normal_properties(surface),
+///                                     scalar_property("label", segments.labels())});
 #pragma once
 
 #include <array>
@@ -19,6 +19,7 @@
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/io/ply_format.hpp>
@@ -120,6 +121,15 @@ template <indexed_range R, class Proj = std::identity>
         detail::converted(range, std::move(projection), [](const auto& n) { return position(n); }));
 }
 
+/// nx, ny, nz as float32 of the normals of a surface; refers to it.
+template <normal_range S>
+[[nodiscard]] properties normal_properties(const S& surface) {
+    return detail::three_properties(
+        {"nx", "ny", "nz"}, field_type::float32,
+        static_cast<std::size_t>(std::ranges::size(surface)),
+        [&surface](std::size_t i) -> Eigen::Vector3d { return surface[i].normal; });
+}
+
 /// red, green, blue from arrays of three bytes; refers to the range.
 template <indexed_range R, class Proj = std::identity>
     requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
@@ -131,10 +141,15 @@ template <indexed_range R, class Proj = std::identity>
 }
 
 template <indexed_range R, class Proj = std::identity>
+    requires detail::scalar<projected_element_t<R, Proj>>
 void scalar_property(std::string name, const R&& range, Proj projection = {}) = delete;
 template <indexed_range R, class Proj = std::identity>
+    requires point_range<R, Proj>
 void normal_properties(const R&& range, Proj projection = {}) = delete;
+template <normal_range S>
+void normal_properties(const S&& surface) = delete;
 template <indexed_range R, class Proj = std::identity>
+    requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
 void color_properties(const R&& range, Proj projection = {}) = delete;
 
 }  // namespace gnomon::io

@@ -3,6 +3,7 @@
 /// Writes points and what is known of them to a PLY file (Turk 1994), which all viewers open.
 #pragma once
 
+#include <algorithm>
 #include <bit>
 #include <charconv>
 #include <cmath>
@@ -13,6 +14,7 @@
 #include <string>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -106,7 +108,11 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
     require(
         options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
         "write_ply: coordinates must be float32 or float64");
+    std::vector<std::string> names{"x", "y", "z"};
     for (const property& column : columns) {
+        require(std::find(names.begin(), names.end(), column.name) == names.end(),
+                "write_ply: two properties of one name");
+        names.push_back(column.name);
         require(column.size == points, "write_ply: a property is for another number of points");
         require(
             !column.name.empty() && column.name.find_first_of(" \t\v\f\r\n") == std::string::npos,
@@ -135,21 +141,29 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
 
 /// Writes the file `path`, whole or not at all; an older one is replaced.
 /// @param points   their positions [m] are written exactly, as long as `coordinates` is float64;
-///                 NaN too. A single known view point goes into a comment that `read_ply` knows.
+///                 NaN too. A single known view point goes into a comment, several into the
+///                 properties viewpoint_x, viewpoint_y, viewpoint_z; `read_ply` knows both.
 /// @param columns  what else to write of each point
 /// @throws gnomon::error          if the system refuses, e.g. for a full disk
 /// @throws std::invalid_argument  before anything is written, for a property of another number of
-///                                points; with nothing left behind, for a value that its type
-///                                cannot hold
+///                                points or a name that is taken; with nothing left behind, for a
+///                                value that its type cannot hold
 /// Complexity: O(points * properties).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},
                ply_options options = {}, Proj projection = {}) {
     const position_view<R, Proj> positions(points, std::move(projection));
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    properties all = columns;
+    if (viewpoints.positions().size() > 1) {
+        all = {columns, detail::three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"},
+                                                 field_type::float64, positions.size(),
+                                                 [&](std::size_t i) { return viewpoints[i]; })};
+    }
     detail::write_ply_rows(
-        path, positions.size(), [&positions](std::size_t i) { return positions[i]; },
-        viewpoints_of(points), columns, options);
+        path, positions.size(), [&positions](std::size_t i) { return positions[i]; }, viewpoints,
+        all, options);
 }
 
 }  // namespace gnomon::io

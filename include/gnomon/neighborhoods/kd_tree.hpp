@@ -47,8 +47,8 @@ class kd_tree {
 
     /// Replaces the content of `found` by the k points nearest to `p`, point number `except` left
     /// out (`no_point` for none), in canonical order; fewer if there are no more, and up to twice
-    /// as many if the rule asks for all ties. O(log n + k^2) on average: meant for k up to
-    /// hundreds. Precondition: p is finite.
+    /// as many if the rule asks for all ties. O(log n + k log k) on average. Precondition: p is
+    /// finite.
     void nearest(const Eigen::Vector3d& p, std::size_t k, std::size_t except,
                  std::vector<neighbor>& found, tie_rule rule = tie_rule::by_index) const {
         found.clear();
@@ -57,6 +57,7 @@ class kd_tree {
         // One more than asked for: `except` may be among them.
         detail::nearest_result_set results(*places_, k + 1, rule, found);
         find(p, results);
+        results.finish();
         std::erase_if(found, [except](const neighbor& q) { return q.index == except; });
         detail::keep_nearest(found, k, rule);
     }

@@ -27,7 +27,7 @@ struct knn {
     std::size_t k = 50;  ///< number of neighbors, at least 1; the thesis's choice, Sec. 4.4.1
     tie_rule ties = tie_rule::by_index;  ///< `all` for what must not depend on the points' order
 
-    /// The stored graph, which every floor above accepts. O(n (log n + k^2)).
+    /// The stored graph, which every floor above accepts. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -53,7 +53,11 @@ class surfel_maker {
             return s;
         }
         positions_.clear();
-        for (const auto& q : ring) positions_.push_back(points_[index_in(q)]);
+        for (const auto& q : ring) {
+            const std::size_t j = index_in(q);
+            require(j < points_.size(), "estimate_normals: the graph lists a neighbor of no point");
+            positions_.push_back(points_[j]);
+        }
         static_cast<estimate_t<E>&>(s) = checked(p);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
@@ -131,7 +135,7 @@ void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& poi
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
 ///         neighbor distance (float points far from the origin).
-/// @throws std::invalid_argument  if graph and points differ in size
+/// @throws std::invalid_argument  if graph and points differ in size, or an index is of no point
 /// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>

@@ -39,7 +39,9 @@ template <class E>
 using estimator_result_t =
     std::remove_cvref_t<std::invoke_result_t<const E&, const Eigen::Vector3d&, ring_view>>;
 
-/// e(point, ring) gives a `normal_estimate` or a bare 3-vector. Const and thread-safe.
+/// e(point, ring) gives a `normal_estimate` or a bare 3-vector. Const and thread-safe. The vector
+/// is a value, not an Eigen expression, which would refer to what is gone when e returns: let
+/// lambdas say `-> Eigen::Vector3d`.
 template <class E>
 concept estimator = std::invocable<const E&, const Eigen::Vector3d&, ring_view> &&
                     (normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);

@@ -59,17 +59,29 @@ struct leveling {
     }
 };
 
+namespace detail {
+
+/// @throws std::invalid_argument  unless the plane is in Hesse normal form
+inline void require_hesse(const plane& p) {
+    require(std::abs(p.normal.dot(p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+            "the normal of a plane, or the direction upwards, must be of unit length");
+}
+
+}  // namespace detail
+
 /// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
 /// the points lies (a quarter of those at the most frequent height, in bins of 10 cm).
 ///
 /// @param up  unit vector against gravity
 /// @return nothing without finite points
+/// @throws std::invalid_argument  unless `up` is of unit length
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> guess_floor(const R& points,
                                                const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                                Proj projection = {}) {
+    detail::require_hesse({up, 0.0});
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
     if (histogram.bins().empty()) return std::nullopt;
@@ -84,7 +96,7 @@ template <class R, class Proj = std::identity>
 /// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
 /// @return the plane, its normal on the side of the guess's; nothing where the points of the
 ///         band do not determine one
-/// @throws std::invalid_argument  unless the band is positive
+/// @throws std::invalid_argument  unless the band is positive and the guess's normal of unit length
 /// Complexity: O(n) per refit, a handful of them, at most 50.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -92,6 +104,7 @@ template <class R, class Proj = std::identity>
                                               const floor_search& search = {},
                                               Proj projection = {}) {
     detail::require(search.band > 0.0, "find_floor: the band must be positive");
+    detail::require_hesse(guess);
     const position_view<R, Proj> p(points, std::move(projection));
     plane floor = guess;
     double band = search.band;
@@ -136,7 +149,8 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive and the share is not negative
+/// @throws std::invalid_argument  unless the bin is positive, the share is not negative, and the
+///                                floor's normal of unit length
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -145,6 +159,7 @@ template <class R, class Proj = std::identity>
                                                  Proj projection = {}) {
     detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
     detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
     if (histogram.bins().empty()) return std::nullopt;
@@ -190,6 +205,7 @@ template <class R, class Proj = std::identity>
 /// Points that are not finite are left out.
 ///
 /// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
+/// @throws std::invalid_argument  unless the floor's normal is of unit length
 /// Complexity: O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -197,6 +213,7 @@ template <class R, class Proj = std::identity>
                                                      std::optional<double> ceiling,
                                                      const height_bands& bands = {},
                                                      Proj projection = {}) {
+    detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     std::vector<point_index> kept;
     for (std::size_t i = 0; i < p.size(); ++i) {

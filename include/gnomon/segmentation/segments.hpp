@@ -55,12 +55,14 @@ class segments {
     [[nodiscard]] bool empty() const { return size() == 0; }
 
     /// The indices of the points of segment `label`, ascending.
-    [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const {
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const& {
         return {members_.data() + begin_[label], members_.data() + begin_[label + 1]};
     }
+    void operator[](std::size_t label) && = delete;  // its points would be gone
 
     /// The label of each point, `unlabeled` for those of no segment.
-    [[nodiscard]] const std::vector<std::int32_t>& labels() const { return labels_; }
+    [[nodiscard]] const std::vector<std::int32_t>& labels() const& { return labels_; }
+    [[nodiscard]] std::vector<std::int32_t> labels() && { return std::move(labels_); }
 
     friend bool operator==(const segments&, const segments&) = default;
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <gnomon/core/scan.hpp>
+#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 
 namespace gnomon::io::detail {
@@ -29,6 +30,11 @@ class scan_builder {
             sources_.push_back(column(columns, name, text));
             result_.fields.push_back({name, {}});
         }
+        for (const char* const name : {"viewpoint_x", "viewpoint_y", "viewpoint_z"}) {
+            const auto found = std::find(columns.begin(), columns.end(), name);
+            if (found == columns.end()) break;
+            viewpoint_.push_back(static_cast<std::size_t>(found - columns.begin()));
+        }
     }
 
     /// Precondition: the caller has checked that the file really holds about so many points.
@@ -43,11 +49,14 @@ class scan_builder {
         result_.points.emplace_back(row[axes_[0]], row[axes_[1]], row[axes_[2]]);
         for (std::size_t k = 0; k < sources_.size(); ++k)
             result_.fields[k].values.push_back(row[sources_[k]]);
+        if (viewpoint_.size() == 3)
+            viewpoints_.emplace_back(row[viewpoint_[0]], row[viewpoint_[1]], row[viewpoint_[2]]);
     }
 
-    /// What was built, seen from `viewpoints`.
+    /// What was built, seen from where each row says, else from `viewpoints`.
     [[nodiscard]] scan finish(viewpoint_table viewpoints = {}) && {
-        result_.viewpoints = std::move(viewpoints);
+        result_.viewpoints = viewpoint_.size() == 3 ? viewpoint_table(std::move(viewpoints_))
+                                                    : std::move(viewpoints);
         return std::move(result_);
     }
 
@@ -66,6 +75,8 @@ class scan_builder {
 
     std::array<std::size_t, 3> axes_;
     std::vector<std::size_t> sources_;
+    std::vector<std::size_t> viewpoint_;  // columns of the view point, if the file has all three
+    std::vector<Eigen::Vector3d> viewpoints_;
     scan result_;
 };
 

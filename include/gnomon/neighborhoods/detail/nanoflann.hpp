@@ -92,9 +92,12 @@ inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule r
     found.resize(kept);
 }
 
-/// Collects the k nearest points in canonical order, and those that the rule adds to them.
+/// Collects the k nearest points, and those that the rule adds to them; finish() leaves them in
+/// canonical order. Few are inserted into a sorted list; of many, the farthest are dropped from
+/// time to time, so that the work stays linear.
 class nearest_result_set : public nanoflann_result_set {
   public:
+    /// Precondition: k > 0.
     nearest_result_set(const places& all, std::size_t k, tie_rule rule,
                        std::vector<neighbor>& found)
         : all_(all), k_(k), rule_(rule), found_(found) {}
@@ -103,21 +106,49 @@ class nearest_result_set : public nanoflann_result_set {
     [[nodiscard]] bool empty() const { return found_.empty(); }
     [[nodiscard]] bool full() const { return found_.size() >= k_; }
     [[nodiscard]] double worstDist() const {
-        return full() ? just_beyond(found_.back().squared_distance, rule_)
-                      : std::numeric_limits<double>::infinity();
+        if (is_sorted()) {
+            return full() ? just_beyond(found_.back().squared_distance, rule_)
+                          : std::numeric_limits<double>::infinity();
+        }
+        return limit_;
     }
 
     bool addPoint(double squared_distance, point_index place) {
         const auto points = all_.at(place);
         const std::size_t most = rule_ == tie_rule::all ? 2 * k_ : k_;
         for (const point_index index : points.first(std::min(points.size(), most))) {
-            add({squared_distance, index});
+            if (is_sorted())
+                insert({squared_distance, index});
+            else
+                append({squared_distance, index});
         }
         return true;
     }
 
+    void finish() {
+        if (is_sorted()) return;
+        std::sort(found_.begin(), found_.end());
+        keep_nearest(found_, k_, rule_);
+    }
+
   private:
-    void add(const neighbor& candidate) {
+    /// Beyond so many, moving them to insert one costs more than it saves.
+    [[nodiscard]] bool is_sorted() const { return k_ <= 128; }
+
+    void append(const neighbor& candidate) {
+        found_.push_back(candidate);
+        if (found_.size() / 4 < k_) return;
+        const auto at = [this](std::size_t i) {
+            return found_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        std::nth_element(found_.begin(), at(k_ - 1), found_.end());
+        limit_ = just_beyond(found_[k_ - 1].squared_distance, rule_);
+        // Ties of the k-th may be among twice as many.
+        std::nth_element(at(k_), at(2 * k_), found_.end());
+        found_.resize(2 * k_);
+    }
+
+    void insert(const neighbor& candidate) {
         if (rule_ == tie_rule::by_index && full() && !(candidate < found_.back())) return;
         found_.push_back(candidate);
         neighbor* slot = &found_.back();
@@ -130,6 +161,7 @@ class nearest_result_set : public nanoflann_result_set {
     std::size_t k_;
     tie_rule rule_;
     std::vector<neighbor>& found_;
+    double limit_ = std::numeric_limits<double>::infinity();  // if not sorted
 };
 
 /// Hands every place within a limit, the limit included, to a visitor.

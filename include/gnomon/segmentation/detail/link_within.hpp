@@ -11,6 +11,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -78,6 +79,7 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
+                    require(j < points_.size(), "the graph lists a neighbor of no point");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);

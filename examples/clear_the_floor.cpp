@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSL-1.0
+// What stands on the floor? A moving sensor, the floor left out, the rest grouped by distance, the
+// groups written as labels of the whole cloud.
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
+
+int main() {
+    const gnomon::scene room = gnomon::scenes::furnished_room({.seed = 4});
+    const gnomon::vertical trajectory{.mount = room.sensor};
+    const auto scan = gnomon::simulate(room, trajectory, {}, {.sigma = 0.005}).scan;
+
+    // [clear_the_floor]
+    // Points and view points as they may lie in your memory.
+    const std::vector<Eigen::Vector3d>& points = scan.points;
+    const std::vector<Eigen::Vector3d> seen_from(points.size(), room.sensor.position);
+    const auto cloud = gnomon::with_viewpoints(points, gnomon::viewpoint_table(seen_from));
+
+    auto surface = gnomon::estimate_normals(cloud, gnomon::knn{.k = 30}, gnomon::plane_pca{},
+                                            gnomon::threads{});
+    gnomon::orient_normals(cloud, surface);
+
+    const auto guess = gnomon::guess_floor(points);
+    const auto floor = guess ? gnomon::find_floor(points, *guess) : guess;
+    if (!floor) return 1;
+    const auto kept = gnomon::between_bands(points, *floor, gnomon::find_ceiling(points, *floor));
+    const auto groups = gnomon::segment_points(gnomon::subset_view(points, kept),
+                                               {.radius = 0.1, .min_points = 100});
+
+    std::vector<std::int32_t> labels(points.size(), gnomon::unlabeled);  // of the whole cloud
+    for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = groups.labels()[i];
+
+    using namespace gnomon::io;
+    write_ply("groups.ply", cloud, {normal_properties(surface), scalar_property("label", labels)});
+    // [clear_the_floor]
+    std::printf("%zu of %zu points stand on the floor, in %zu groups\n", kept.size(), points.size(),
+                groups.size());
+    return 0;
+}
