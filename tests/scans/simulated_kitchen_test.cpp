@@ -62,6 +62,30 @@ TEST(simulated_kitchen, lattice_shatters_what_is_behind_it) {
     EXPECT_GE(wall, 4u);
 }
 
+/// Fig. 2.16: the surface variation of 30 neighbors stands out at edges, at each density.
+TEST(simulated_kitchen, surface_variation_shows_the_edges) {
+    for (const auto& finder :
+         {gnomon::densities::low(), gnomon::densities::medium(), gnomon::densities::high()}) {
+        const auto truth =
+            gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor}, finder);
+        const auto graph = gnomon::knn{.k = 30}(truth.scan);
+        const auto surface = gnomon::estimate_normals(truth.scan, graph, gnomon::plane_pca{});
+        double sum[2] = {0.0, 0.0};
+        double count[2] = {0.0, 0.0};
+        for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+            bool at_edge = false;
+            for (const auto j : graph[i]) {
+                at_edge = at_edge || truth.surfaces[j] != truth.surfaces[i];
+            }
+            sum[at_edge] += surface[i].surface_variation();
+            ++count[at_edge];
+        }
+        ASSERT_GT(count[0], 100.0);
+        ASSERT_GT(count[1], 100.0);
+        EXPECT_GT(sum[1] / count[1], 3.0 * sum[0] / count[0]);
+    }
+}
+
 /// The whole chain on a scan whose truth is known: each of the large surfaces is one segment that
 /// holds most of its points.
 TEST(simulated_kitchen, large_surfaces_are_found) {
