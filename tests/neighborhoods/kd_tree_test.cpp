@@ -140,7 +140,7 @@ TEST(kd_tree, gives_no_more_than_asked_for) {
 /// points from each would take hours.
 TEST(kd_tree, looks_at_coincident_points_once) {
     auto points = clouds::in_cube(150'000, 6);
-    for (std::size_t i = 0; i < points.size(); i += 3) points[i].setZero();
+    for (std::size_t i = 0; i < points.size(); i += 3) points[i] = {i % 2 ? 0.0 : -0.0, 0, 0};
     const gnomon::kd_tree tree(points);
     EXPECT_EQ(tree.size(), points.size());
     std::vector<gnomon::neighbor> found;
