@@ -5,9 +5,13 @@
 
 #include "laws/clouds.hpp"
 #include "laws/neighborhood_laws.hpp"
+#include <gnomon/neighborhoods/adaptive_knn.hpp>
+#include <gnomon/neighborhoods/delaunay.hpp>
+#include <gnomon/neighborhoods/hybrid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
+#include <gnomon/neighborhoods/sorted_around.hpp>
 
 namespace {
 
@@ -47,7 +51,24 @@ TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
             laws::neighborhood_laws(gnomon::knn{k, gnomon::tie_rule::all}, points);
         }
         for (const double r : {0.0, 0.03, 0.25}) laws::neighborhood_laws(gnomon::radius{r}, points);
+        for (const double r : {0.0, 0.1, 1e9}) laws::neighborhood_laws(gnomon::hybrid{9, r}, points);
+        laws::neighborhood_laws(gnomon::adaptive_knn<>{.min_k = 5, .max_k = 40}, points);
+        laws::neighborhood_laws(
+            gnomon::adaptive_knn<gnomon::prefer_low_entropy>{.growth = 1.2}, points);
+        laws::neighborhood_laws(gnomon::adaptive_knn<gnomon::prefer_small_error>{}, points);
+        for (const std::size_t k : {3u, 20u}) laws::neighborhood_laws(gnomon::delaunay{k}, points);
+        laws::neighborhood_laws(gnomon::sorted_around{gnomon::knn{9}}, points);
+        laws::neighborhood_laws(gnomon::sorted_around{gnomon::radius{0.1}}, points);
         laws::neighborhood_laws(scan_line{}, points);
+    }
+}
+
+TEST(neighborhood, policies_without_an_order_of_their_own_list_the_nearest_first) {
+    for (const auto& points : {clouds::sheet(500, 1), clouds::on_grid(500, 2)}) {
+        laws::rings_are_in_canonical_order(gnomon::knn{9}, points);
+        laws::rings_are_in_canonical_order(gnomon::radius{0.2}, points);
+        laws::rings_are_in_canonical_order(gnomon::hybrid{9, 0.1}, points);
+        laws::rings_are_in_canonical_order(gnomon::adaptive_knn<>{}, points);
     }
 }
 

@@ -65,7 +65,7 @@ static_assert(!gnomon::estimator<no_ring> && !gnomon::estimator<returns_text>);
 static_assert(!gnomon::estimator<int>);
 static_assert(!gnomon::estimator<decltype([](const auto& p, auto) { return -p; })>);
 static_assert(std::same_as<gnomon::estimate_t<gnomon::plane_pca>, gnomon::plane_fit>);
-static_assert(std::same_as<gnomon::estimate_t<decltype(largest_triangle)>, gnomon::bare_estimate>);
+static_assert(std::same_as<gnomon::estimate_t<decltype(largest_triangle)>, gnomon::normal_fit>);
 
 TEST(estimator, laws_hold_for_plane_pca) { laws::estimator_laws(gnomon::plane_pca{}); }
 

@@ -22,7 +22,7 @@ TEST(gamma, is_the_cosine_whatever_the_sign) {
 }
 
 TEST(gamma, counts_a_missing_normal_as_nothing) {
-    std::vector<gnomon::bare_estimate> surface(2);
+    std::vector<gnomon::normal_fit> surface(2);
     surface[0].normal = {0, 0, 1};
     const std::vector<Eigen::Vector3d> truth(2, Eigen::Vector3d::UnitZ());
     EXPECT_DOUBLE_EQ(gnomon::mean_gamma(surface, truth), 0.5);

@@ -6,10 +6,36 @@
 #pragma once
 
 #include <cstddef>
+#include <span>
 
 #include <Eigen/Core>
 
 namespace gnomon {
+
+namespace detail {
+
+/// sum += w d and the lower half of outer += w d d^T.
+inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eigen::Vector3d& d,
+                        double w) {
+    for (int j = 0; j < 3; ++j) {
+        sum[j] += w * d[j];
+        for (int i = j; i < 3; ++i) outer(i, j) += w * d[i] * d[j];
+    }
+}
+
+/// w outer - (w sum) (w sum)^T, whole.
+[[nodiscard]] inline Eigen::Matrix3d covariance(const Eigen::Vector3d& sum,
+                                                const Eigen::Matrix3d& outer, double w) {
+    Eigen::Matrix3d c;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = j; i < 3; ++i) {
+            c(i, j) = c(j, i) = w * outer(i, j) - (w * sum[i]) * (w * sum[j]);
+        }
+    }
+    return c;
+}
+
+}  // namespace detail
 
 /// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from
 /// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
@@ -21,30 +47,65 @@ struct moments {
     /// Takes in the neighbor at `offset` [m] from the point.
     void add(const Eigen::Vector3d& offset) {
         ++count;
-        for (int j = 0; j < 3; ++j) {
-            sum[j] += offset[j];
-            for (int i = j; i < 3; ++i) outer(i, j) += offset[i] * offset[j];
-        }
+        detail::add_moments(sum, outer, offset, 1.0);
     }
 
     /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
     /// 1/(k+1) times the scatter about their centroid. The point's own offset is zero.
-    [[nodiscard]] Eigen::Matrix3d covariance_with_point() const { return covariance(count + 1); }
+    [[nodiscard]] Eigen::Matrix3d covariance_with_point() const { return about_mean(count + 1); }
+
+    /// The mean [m] of the offsets, that of the point itself, zero, among them.
+    [[nodiscard]] Eigen::Vector3d mean_with_point() const {
+        return sum / static_cast<double>(count + 1);
+    }
 
     /// The covariance [m^2] of the neighbors alone. Precondition: count > 0.
-    [[nodiscard]] Eigen::Matrix3d covariance_of_neighbors() const { return covariance(count); }
+    [[nodiscard]] Eigen::Matrix3d covariance_of_neighbors() const { return about_mean(count); }
 
-  private:
-    [[nodiscard]] Eigen::Matrix3d covariance(std::size_t n) const {
-        const double w = 1.0 / static_cast<double>(n);
+    /// The mean of the outer products [m^2]: second moments about the point, not about a mean.
+    /// Precondition: count > 0.
+    [[nodiscard]] Eigen::Matrix3d second_moments() const {
+        const double w = 1.0 / static_cast<double>(count);
         Eigen::Matrix3d c;
         for (int j = 0; j < 3; ++j) {
-            for (int i = j; i < 3; ++i) {
-                c(i, j) = c(j, i) = w * outer(i, j) - (w * sum[i]) * (w * sum[j]);
-            }
+            for (int i = j; i < 3; ++i) c(i, j) = c(j, i) = w * outer(i, j);
         }
         return c;
     }
+
+  private:
+    [[nodiscard]] Eigen::Matrix3d about_mean(std::size_t n) const {
+        return detail::covariance(sum, outer, 1.0 / static_cast<double>(n));
+    }
 };
+
+/// The same with weights.
+struct weighted_moments {
+    double weight = 0.0;                              ///< sum of w_j
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of w_j d_j [m]
+    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of w_j d_j d_j^T [m^2], lower half
+
+    /// Takes in what lies at `offset` [m] from the point, with weight `w`.
+    void add(const Eigen::Vector3d& offset, double w) {
+        weight += w;
+        detail::add_moments(sum, outer, offset, w);
+    }
+
+    /// The weighted mean of the offsets [m]. Precondition: weight > 0.
+    [[nodiscard]] Eigen::Vector3d mean() const { return sum / weight; }
+
+    /// The weighted covariance [m^2]. Precondition: weight > 0.
+    [[nodiscard]] Eigen::Matrix3d covariance() const {
+        return detail::covariance(sum, outer, 1.0 / weight);
+    }
+};
+
+/// The moments of neighbors [m] about the point p [m]. O(k).
+[[nodiscard]] inline moments moments_about(const Eigen::Vector3d& p,
+                                           std::span<const Eigen::Vector3d> neighbors) {
+    moments m;
+    for (const Eigen::Vector3d& q : neighbors) m.add(q - p);
+    return m;
+}
 
 }  // namespace gnomon

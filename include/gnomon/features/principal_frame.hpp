@@ -51,7 +51,7 @@ template <class R, class Proj = std::identity>
     for (std::size_t i = first; i < p.size(); ++i) {
         if (is_finite(p[i])) m.add(p[i] - origin);
     }
-    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+    const eigen_decomposition<> e = symmetric_eigen(m.covariance_of_neighbors());
     frame.centroid = origin + m.sum / static_cast<double>(m.count);
     frame.box_center = frame.centroid;
     frame.axes = e.vectors;

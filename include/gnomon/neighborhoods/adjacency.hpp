@@ -14,7 +14,7 @@
 
 namespace gnomon {
 
-/// Models `neighborhood_graph` in 4 bytes per neighbor and 8 per point.
+/// Models `annotated_graph` in 4 bytes per neighbor and 8 per point, and 2 where there are notes.
 class adjacency {
   public:
     adjacency() = default;
@@ -24,11 +24,13 @@ class adjacency {
     template <neighbor_search S, execution X = sequential>
     explicit adjacency(const S& search, const X& run = {}) : begin_(search.size() + 1, 0) {
         std::vector<std::vector<point_index>> rings_of_chunk(chunk_count(search.size()));
+        if constexpr (annotated_search<S>) notes_.resize(search.size());
         for_each_chunk(run, search.size(), [&](std::size_t first, std::size_t last) {
             std::vector<point_index>& rings = rings_of_chunk[first / chunk_size];
             std::vector<neighbor> ring;
             for (std::size_t i = first; i < last; ++i) {
-                search(i, ring);
+                const ring_note note = search_noted(search, i, ring);
+                if (!notes_.empty()) notes_[i] = note;
                 begin_[i + 1] = ring.size();
                 for (const neighbor& q : ring) rings.push_back(q.index);
             }
@@ -49,11 +51,17 @@ class adjacency {
         return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
     }
 
+    /// What the search noted of the ring of point i.
+    [[nodiscard]] ring_note note(std::size_t i) const {
+        return notes_.empty() ? ring_note{} : notes_[i];
+    }
+
     friend bool operator==(const adjacency&, const adjacency&) = default;
 
   private:
     std::vector<std::uint64_t> begin_{0};
     std::vector<point_index> indices_;
+    std::vector<ring_note> notes_;  // empty, or one per point
 };
 
 }  // namespace gnomon

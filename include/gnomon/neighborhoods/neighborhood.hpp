@@ -5,13 +5,15 @@
 /// A *neighborhood* is a small policy such as `knn{.k = 30}`; called with points it gives a
 /// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
 /// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
-/// none; both doors give the same rings.
+/// none; both doors give the same rings. Some graphs know more of a ring than its members, e.g.
+/// that it ends at a boundary: they say so in a `ring_note`.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
 /// are valid and not repeated; a point that is not finite has no neighbors and is nobody's; the
 /// graph is the same bytes for every execution; both doors agree.
 ///
-/// Models: `knn`, `radius`; graphs: `adjacency`, and any std::vector<std::vector<point_index>>.
+/// Models: `knn`, `radius`, `hybrid`, `adaptive_knn`, `delaunay`, `sorted_around`; graphs:
+/// `adjacency`, and any std::vector<std::vector<point_index>>.
 #pragma once
 
 #include <concepts>
@@ -49,6 +51,14 @@ enum class tie_rule : bool {
     all
 };
 
+/// What a graph may know of a ring besides its members.
+struct ring_note {
+    bool open = false;      ///< the last neighbor and the first do not enclose the surface
+    bool certified = true;  ///< points that were not looked at could not change the ring
+
+    friend bool operator==(const ring_note&, const ring_note&) = default;
+};
+
 /// size() points, and for each i a sized range of the indices of its neighbors.
 template <class G>
 concept neighborhood_graph = requires(const G& graph, std::size_t i) {
@@ -57,13 +67,48 @@ concept neighborhood_graph = requires(const G& graph, std::size_t i) {
     { std::ranges::size(graph[i]) } -> std::convertible_to<std::size_t>;
 };
 
+/// A graph that has a note for each ring.
+template <class G>
+concept annotated_graph = neighborhood_graph<G> && requires(const G& graph, std::size_t i) {
+    { graph.note(i) } -> std::same_as<ring_note>;
+};
+
 /// Finds one ring at a time: search(i, ring) replaces the content of `ring` by the neighbors of
-/// point i in canonical order. Const and thread-safe.
+/// point i, in the order of the policy, and returns nothing or a `ring_note`. Const and
+/// thread-safe.
 template <class S>
 concept neighbor_search = requires(const S& search, std::size_t i, std::vector<neighbor>& ring) {
     { search.size() } -> std::convertible_to<std::size_t>;
     search(i, ring);
 };
+
+/// A search that returns a note for each ring.
+template <class S>
+concept annotated_search =
+    neighbor_search<S> && requires(const S& search, std::size_t i, std::vector<neighbor>& ring) {
+        { search(i, ring) } -> std::same_as<ring_note>;
+    };
+
+/// What a graph notes of the ring of point i; nothing, if it keeps no notes.
+template <neighborhood_graph G>
+[[nodiscard]] ring_note note_of(const G& graph, std::size_t i) {
+    if constexpr (annotated_graph<G>) {
+        return graph.note(i);
+    } else {
+        return {};
+    }
+}
+
+/// Calls search(i, ring) and returns its note.
+template <neighbor_search S>
+ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ring) {
+    if constexpr (annotated_search<S>) {
+        return search(i, ring);
+    } else {
+        search(i, ring);
+        return {};
+    }
+}
 
 /// A policy that makes a graph of points: policy(points, execution, projection).
 template <class N, class R, class Proj = std::identity>

@@ -20,6 +20,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -69,16 +70,17 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
     if (repaired == 0) return 0;
 
     const kd_tree tree(points, projection);
+    const viewpoint_table viewpoints = viewpoints_of(points);
     knn wider = policy;
     for (int round = 0; round < repair.doublings && !flagged.empty(); ++round) {
         if (wider.k >= p.size()) break;  // there are no more neighbors to be had
         wider.k *= 2;
-        const auto found = [&](std::size_t i, std::vector<neighbor>& ring) -> auto& {
-            wider.find(tree, p[i], i, ring);
-            return ring;
+        const auto found = [&](std::size_t i, std::vector<neighbor>& buffer) {
+            wider.find(tree, p[i], i, buffer);
+            return detail::noted_ring<const std::vector<neighbor>&>{buffer, {}};
         };
         const auto index_of = [&flagged](std::size_t f) { return flagged[f]; };
-        detail::estimate_at(run, flagged.size(), index_of, p, found, estimate, surface);
+        detail::estimate_at(run, flagged.size(), index_of, p, viewpoints, found, estimate, surface);
         std::erase_if(flagged, settled);
     }
     return repaired;

@@ -20,6 +20,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/normals/estimator.hpp>
 
@@ -37,14 +38,23 @@ namespace detail {
 [[nodiscard]] inline point_index index_in(point_index i) { return i; }
 [[nodiscard]] inline point_index index_in(const neighbor& q) { return q.index; }
 
+/// A ring as a graph or a search gives it (a view, or a reference), with what is known of it.
+template <class Ring>
+struct noted_ring {
+    Ring members;
+    ring_note note = {};
+};
+
 /// Makes surface elements of the points of a position_view one by one, through one buffer.
 template <estimator E, class Points>
 class surfel_maker {
   public:
-    surfel_maker(const E& estimate, const Points& points) : estimate_(estimate), points_(points) {}
+    surfel_maker(const E& estimate, const Points& points, const viewpoint_table& viewpoints)
+        : estimate_(estimate), points_(points), viewpoints_(viewpoints) {}
 
     /// The surface element of point i with the neighbors in `ring`.
-    surfel<estimate_t<E>> operator()(std::size_t i, const auto& ring) {
+    template <class Ring>
+    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& ring) {
         const Eigen::Vector3d p = points_[i];
         surfel<estimate_t<E>> s;
         if (!is_finite(p)) {
@@ -53,12 +63,12 @@ class surfel_maker {
             return s;
         }
         positions_.clear();
-        for (const auto& q : ring) {
+        for (const auto& q : ring.members) {
             const std::size_t j = index_in(q);
             require(j < points_.size(), "estimate_normals: the graph lists a neighbor of no point");
             positions_.push_back(points_[j]);
         }
-        static_cast<estimate_t<E>&>(s) = checked(p);
+        static_cast<estimate_t<E>&>(s) = checked(i, p, ring.note.open);
         s.neighbors = static_cast<point_index>(positions_.size());
         if (!positions_.empty()) {
             for (const Eigen::Vector3d& q : positions_) {
@@ -66,15 +76,14 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(positions_.size());
         }
-        if (s.trust == trust::good && resolution(p) > coarse * s.mean_distance) {
-            s.trust = trust::weak;
-        }
+        const bool coarse = resolution(p) > coarseness * s.mean_distance;
+        if (s.trust == trust::good && (coarse || !ring.note.certified)) s.trust = trust::weak;
         return s;
     }
 
   private:
     /// Coordinates whose ulp exceeds this part of the mean neighbor distance are too coarse.
-    static constexpr double coarse = 0.05;
+    static constexpr double coarseness = 0.05;
 
     /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
     static double resolution(const Eigen::Vector3d& p) {
@@ -84,13 +93,12 @@ class surfel_maker {
 
     /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
     /// unit length, an unusable one is zero.
-    estimate_t<E> checked(const Eigen::Vector3d& p) const {
-        const ring_view ring(positions_);
+    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, bool open) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = std::invoke(estimate_, p, ring);
+            e = raw(i, p, ring_view(positions_, open));
         } else {
-            e.normal = position(std::invoke(estimate_, p, ring));
+            e.normal = position(raw(i, p, ring_view(positions_, open)));
             e.trust = trust::good;
         }
         if (usable(e.trust)) {
@@ -103,18 +111,28 @@ class surfel_maker {
         return e;
     }
 
+    estimator_result_t<E> raw(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
+        if constexpr (ray_estimator<E>) {
+            return std::invoke(estimate_, p, ring, viewpoints_[i]);
+        } else {
+            return std::invoke(estimate_, p, ring);
+        }
+    }
+
     const E& estimate_;
     const Points& points_;
+    const viewpoint_table& viewpoints_;
     std::vector<Eigen::Vector3d> positions_;
 };
 
-/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from the rings that ring_of(i,
-/// buffer) gives, which may use the buffer.
+/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from the noted rings that
+/// ring_of(i, buffer) gives, which may use the buffer.
 template <execution X, estimator E, class Points>
-void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points, auto&& ring_of,
-                 const E& estimate, std::vector<surfel<estimate_t<E>>>& surface) {
+void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points,
+                 const viewpoint_table& viewpoints, auto&& ring_of, const E& estimate,
+                 std::vector<surfel<estimate_t<E>>>& surface) {
     for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-        surfel_maker<E, Points> make(estimate, points);
+        surfel_maker<E, Points> make(estimate, points, viewpoints);
         std::vector<neighbor> buffer;
         for (std::size_t j = begin; j < end; ++j) {
             const std::size_t i = index_of(j);
@@ -127,15 +145,17 @@ void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& poi
 
 /// The surface elements of all points, in their order: from a stored graph.
 ///
-/// @param points      any point range of n points
+/// @param points      any point range of n points; ray estimators ask a scan, or what
+///                    with_viewpoint(s) gives, for its view points and else assume the origin
 /// @param graph       the neighbors of each of the n points, indices below n
 /// @param estimate    any estimator
 /// @param run         `sequential{}` or `threads{n}`; the result is the same bytes
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
-///         neighbor distance (float points far from the origin).
-/// @throws std::invalid_argument  if graph and points differ in size, or an index is of no point
+///         neighbor distance (float points far from the origin) or the ring is not certified.
+/// @throws std::invalid_argument  if graph and points differ in size, an index is of no point, or
+///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>
@@ -146,8 +166,11 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: the graph is of other points");
     std::vector<surfel<estimate_t<E>>> surface(p.size());
-    const auto listed = [&graph](std::size_t i, auto&) -> decltype(auto) { return graph[i]; };
-    detail::estimate_at(run, p.size(), std::identity{}, p, listed, estimate, surface);
+    const auto ring_of = [&graph](std::size_t i, auto&) {
+        return detail::noted_ring<decltype(graph[i])>{graph[i], note_of(graph, i)};
+    };
+    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of, estimate,
+                        surface);
     return surface;
 }
 
@@ -163,12 +186,13 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
-        const auto found = [&search](std::size_t i, std::vector<neighbor>& ring) -> auto& {
-            search(i, ring);
-            return ring;
+        const auto ring_of = [&search](std::size_t i, std::vector<neighbor>& buffer) {
+            const ring_note note = search_noted(search, i, buffer);
+            return detail::noted_ring<const std::vector<neighbor>&>{buffer, note};
         };
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(run, p.size(), std::identity{}, p, found, estimate, surface);
+        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of,
+                            estimate, surface);
         return surface;
     } else {
         return estimate_normals(points, policy(points, run, projection), estimate, run, projection);

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// As many nearest neighbors as a point needs: few where the surface bends, many where noise must
+/// be averaged out or a scanner's lines lie far apart. The numbers of neighbors to choose from form
+/// a geometric series; a *preference* puts a cost on each, from the moments of that many neighbors,
+/// and the cheapest is taken. How many it was, the size of the ring tells.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/spectrum.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon {
+
+/// What a neighborhood of a certain size looks like.
+struct neighborhood_shape {
+    std::size_t k;               ///< number of neighbors
+    double squared_radius;       ///< of the ball that holds them [m^2]
+    gnomon::spectrum spectrum;   ///< of the neighbors and the point [m^2]
+};
+
+/// cost(shape) of a neighborhood: the least is taken, and of equals the smallest.
+template <class P>
+concept size_preference = requires(const P& preference, const neighborhood_shape& shape) {
+    { preference(shape) } -> std::convertible_to<double>;
+};
+
+/// Doubles k until the neighborhood is no longer that of a single scan line. Klasing 2010, Sec.
+/// 3.2.9, Eq. (3.19), before the estimate instead of after it.
+struct prefer_isotropic {
+    double min_aspect_ratio = 0.1;  ///< sigma_ar
+
+    [[nodiscard]] double operator()(const neighborhood_shape& shape) const {
+        return std::max(0.0, min_aspect_ratio - shape.spectrum.aspect_ratio());
+    }
+};
+
+/// The size at which one kind of shape (line, plane, ball) is most distinct: least Shannon entropy
+/// of the normalized eigenvalues. Weinmann et al. 2014.
+struct prefer_low_entropy {
+    [[nodiscard]] double operator()(const neighborhood_shape& shape) const {
+        const Eigen::Vector3d& l = shape.spectrum.lambda;
+        const double sum = l[0] + l[1] + l[2];
+        double entropy = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const double e = l[i] / sum;
+            if (e > 0.0) entropy -= e * std::log(e);
+        }
+        return sum > 0.0 ? entropy : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// The size at which the normal is expected to err least: noise turns it by sigma / (r sqrt(k)),
+/// curvature by as much as the neighbors depart from a plane beyond the noise. After Mitra, Nguyen
+/// and Guibas 2004, with the curvature read off the residual instead of estimated first.
+struct prefer_small_error {
+    double sigma = 0.015;  ///< standard deviation of points across the surface [m]
+
+    [[nodiscard]] double operator()(const neighborhood_shape& shape) const {
+        const double noise = 4.0 * sigma * sigma / static_cast<double>(shape.k + 1);
+        const double excess = std::max(0.0, shape.spectrum.lambda[2] - sigma * sigma);
+        return shape.squared_radius > 0.0 ? (noise + excess) / shape.squared_radius
+                                          : std::numeric_limits<double>::infinity();
+    }
+};
+
+/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first.
+template <size_preference Preference = prefer_isotropic>
+struct adaptive_knn {
+    std::size_t min_k = 10;
+    std::size_t max_k = 80;
+    double growth = 2.0;  ///< from one size to the next
+    Preference preference = {};
+
+    /// The stored graph. O(n (log n + max_k log max_k)).
+    /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return adjacency(search(points, std::move(projection)), run);
+    }
+
+    /// A search that stores nothing but its index; the points must outlive it.
+    /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+
+    template <class R, class Proj = std::identity>
+    void search(const R&& points, Proj projection = {}) const = delete;
+};
+
+namespace detail {
+
+/// Models `neighbor_search`.
+template <class Policy, class R, class Proj>
+class adaptive_search {
+  public:
+    adaptive_search(const Policy& policy, const R& points, Proj projection)
+        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
+        ring.clear();
+        const Eigen::Vector3d p = points_[i];
+        if (!is_finite(p)) return;
+        tree_.nearest(p, policy_.max_k, i, ring);
+
+        moments m;
+        std::size_t best = std::min(policy_.min_k, ring.size());
+        double least = std::numeric_limits<double>::infinity();
+        double wanted = static_cast<double>(policy_.min_k);
+        while (m.count < ring.size()) {
+            const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
+            while (m.count < k) m.add(points_[ring[m.count].index] - p);
+            const Eigen::Matrix3d covariance = m.covariance_with_point();
+            if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
+            const double cost = policy_.preference(
+                neighborhood_shape{k, ring[k - 1].squared_distance,
+                                   spectrum(symmetric_eigen(covariance).values)});
+            if (cost < least) {
+                least = cost;
+                best = k;
+            }
+            wanted = std::max(wanted * policy_.growth, wanted + 1.0);
+        }
+        ring.resize(best, {});
+    }
+
+  private:
+    Policy policy_;
+    position_view<R, Proj> points_;
+    kd_tree tree_;
+};
+
+}  // namespace detail
+
+template <size_preference Preference>
+template <class R, class Proj>
+    requires point_range<R, Proj>
+auto adaptive_knn<Preference>::search(const R& points, Proj projection) const {
+    detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
+    detail::require(growth >= 1.1 && std::isfinite(growth),
+                    "adaptive_knn: growth must be at least 1.1");
+    return detail::adaptive_search<adaptive_knn, R, Proj>(*this, points, std::move(projection));
+}
+
+}  // namespace gnomon

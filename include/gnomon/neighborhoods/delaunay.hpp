@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Delaunay neighbors: a point and its k nearest neighbors are projected onto their tangent plane
+/// and triangulated there; the neighbors in the triangulation, in angular order, are the ring. Few
+/// neighbors (about six), all around the point, and none behind another.
+///
+/// Only the star of the point is made, never a triangulation. A star whose circles all lie within
+/// the disc that the k nearest neighbors cover is certified: no further point of the plane could
+/// enter one. Else k is doubled. A star at the border of the points is open, and nothing certifies
+/// it.
+///
+/// Klasing 2010, Sec. 3.2.2, Fig. 3.1; k = 20 is ours, the thesis does not tell.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/delaunay_star.hpp>
+#include <gnomon/neighborhoods/detail/tangent_plane.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon {
+
+/// Models `streaming_neighborhood`; its notes say which stars are open, and which are certified.
+struct delaunay {
+    std::size_t k = 20;      ///< neighbors that are triangulated at first, and define the plane
+    int max_doublings = 4;   ///< of k, as long as there is no certificate
+
+    /// The stored graph. O(n (log n + k log k)).
+    /// @throws std::invalid_argument  if k is under 3
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return adjacency(search(points, std::move(projection)), run);
+    }
+
+    /// A search that stores nothing but its index; the points must outlive it.
+    /// @throws std::invalid_argument  if k is under 3
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+
+    template <class R, class Proj = std::identity>
+    void search(const R&& points, Proj projection = {}) const = delete;
+};
+
+namespace detail {
+
+/// Models `annotated_search`.
+template <class R, class Proj>
+class delaunay_search {
+  public:
+    delaunay_search(const delaunay& policy, const R& points, Proj projection)
+        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
+        // Kept between calls, so that no point costs an allocation.
+        static thread_local std::vector<planar_point> star;
+        ring.clear();
+        const Eigen::Vector3d p = points_[i];
+        if (!is_finite(p)) return {.open = true, .certified = false};
+        std::size_t k = policy_.k;
+        tree_.nearest(p, k, i, ring);
+        const tangent_plane plane(points_, p, ring);
+        if (!plane.exists()) {
+            ring.clear();
+            return {.open = true, .certified = false};
+        }
+        ring_note note;
+        for (int doubling = 0;; ++doubling) {
+            star.clear();
+            for (const neighbor& q : ring)
+                star.push_back(plane.project(points_[q.index], q.index));
+            note.open = reduce_to_star(static_cast<point_index>(i), star);
+            if (note.open) break;
+            constexpr double rounding = 1.0 + 1e-9;
+            note.certified = 4.0 * rounding * largest_squared_circumradius(star) <=
+                             plane.projected(ring.back().squared_distance);
+            const bool all_seen = ring.size() < k;
+            if (note.certified || all_seen || doubling >= policy_.max_doublings) break;
+            k *= 2;
+            tree_.nearest(p, k, i, ring);
+        }
+        if (note.open) note.certified = false;
+        ring.clear();
+        for (const planar_point& q : star)
+            ring.push_back({squared_distance(p, points_[q.index]), q.index});
+        return note;
+    }
+
+  private:
+    delaunay policy_;
+    position_view<R, Proj> points_;
+    kd_tree tree_;
+};
+
+}  // namespace detail
+
+template <class R, class Proj>
+    requires point_range<R, Proj>
+auto delaunay::search(const R& points, Proj projection) const {
+    detail::require(k >= 3, "delaunay: k must be at least 3");
+    return detail::delaunay_search<R, Proj>(*this, points, std::move(projection));
+}
+
+}  // namespace gnomon

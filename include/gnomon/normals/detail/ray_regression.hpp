@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The regression behind `ray_ls` and `plane_eif`: the inverse depth of a plane is linear in the
+/// tangents of the rays that see it.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <gnomon/core/trust.hpp>
+
+namespace gnomon::detail {
+
+/// Takes in points on rays near that of a point p, and regresses y = range / depth - 1 on the
+/// tangents (xi, eta) of the rays, range being the distance of p and depth that along the ray of p:
+/// y = M1 xi + M2 eta + (M3 - 1), where M = range / d * n for the plane n . x = d seen from the
+/// view point. In this frame nothing is ill-conditioned and no digits cancel, however small the
+/// patch. The point itself is counted in: y = xi = eta = 0.
+class ray_regression {
+  public:
+    /// The point at x [m] from the view point.
+    explicit ray_regression(const Eigen::Vector3d& x) : range_(std::sqrt(x.squaredNorm())) {
+        status_ = std::isfinite(range_) ? trust::good : trust::not_finite;
+        if (range_ == 0.0) status_ = trust::degenerate;
+        if (!usable(status_)) return;
+        e3_ = x / range_;
+        e1_ = e3_.unitOrthogonal();
+        e2_ = e3_.cross(e1_);
+    }
+
+    /// A neighbor at the offset d [m] from the point.
+    void add(const Eigen::Vector3d& d) {
+        const double depth = 1.0 + d.dot(e3_) / range_;
+        if (usable(status_) && !(depth > 0.0))  // beside or behind the view point
+            status_ = std::isnan(depth) ? trust::not_finite : trust::degenerate;
+        const double xi = d.dot(e1_) / (range_ * depth);
+        const double eta = d.dot(e2_) / (range_ * depth);
+        const double y = 1.0 / depth - 1.0;
+        // The error sigma of the range r makes one of sigma / (range sqrt(w)) in y.
+        const double w = depth * depth * depth * depth * (1.0 + xi * xi + eta * eta);
+        w_ += w;
+        xi_ += w * xi;
+        eta_ += w * eta;
+        y_ += w * y;
+        xx_ += w * xi * xi;
+        xe_ += w * xi * eta;
+        ee_ += w * eta * eta;
+        xy_ += w * xi * y;
+        ey_ += w * eta * y;
+    }
+
+    /// Solves, if the regression is determined: see status().
+    void solve() {
+        if (!usable(status_)) return;
+        const double a = xx_ - xi_ * xi_ / w_;
+        const double b = xe_ - xi_ * eta_ / w_;
+        const double c = ee_ - eta_ * eta_ / w_;
+        const double f = xy_ - xi_ * y_ / w_;
+        const double g = ey_ - eta_ * y_ / w_;
+        if (!std::isfinite(a + c + f + g)) {
+            status_ = trust::not_finite;
+            return;
+        }
+        const double determinant = a * c - b * b;
+        const double larger = 0.5 * (a + c + std::sqrt((a - c) * (a - c) + 4.0 * b * b));
+        constexpr double negligible = 1e-12;
+        if (!(determinant > negligible * larger * larger)) {
+            status_ = trust::degenerate;
+            return;
+        }
+        aspect_ratio_ = std::sqrt(determinant) / larger;
+
+        aa_ = c / determinant;
+        ab_ = -b / determinant;
+        bb_ = a / determinant;
+        m_[0] = aa_ * f + ab_ * g;
+        m_[1] = ab_ * f + bb_ * g;
+        m_[2] = 1.0 + (y_ - m_[0] * xi_ - m_[1] * eta_) / w_;
+    }
+
+    /// Good, unless there is no solution.
+    [[nodiscard]] trust status() const { return status_; }
+
+    /// The distance of the point [m].
+    [[nodiscard]] double range() const { return range_; }
+
+    /// sqrt of the ratio of the rays' smaller to their larger spread, 0 to 1. After solve().
+    [[nodiscard]] double aspect_ratio() const { return aspect_ratio_; }
+
+    /// M in the coordinates of the cloud. After solve().
+    [[nodiscard]] Eigen::Vector3d solution() const {
+        return m_[0] * e1_ + m_[1] * e2_ + m_[2] * e3_;
+    }
+
+    /// The covariance of M for ranges with standard deviation sigma [m]. After solve().
+    [[nodiscard]] Eigen::Matrix3d covariance(double sigma) const {
+        // Of the slopes s^2 [aa ab; ab bb], of the mean s^2 / w, which are independent; M3 is the
+        // mean less the slopes times the mean tangents.
+        const double x = -xi_ / w_;
+        const double e = -eta_ / w_;
+        const double ax = aa_ * x + ab_ * e;
+        const double bx = ab_ * x + bb_ * e;
+        Eigen::Matrix3d c;
+        c << aa_, ab_, ax, ab_, bb_, bx, ax, bx, 1.0 / w_ + ax * x + bx * e;
+        Eigen::Matrix3d frame;
+        frame << e1_, e2_, e3_;
+        const double s = sigma / range_;
+        return s * s * (frame * c * frame.transpose());
+    }
+
+  private:
+    double range_ = 0.0;
+    trust status_ = trust::good;
+    Eigen::Vector3d e1_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d e2_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d e3_ = Eigen::Vector3d::Zero();
+    double w_ = 1.0, xi_ = 0.0, eta_ = 0.0, y_ = 0.0;
+    double xx_ = 0.0, xe_ = 0.0, ee_ = 0.0, xy_ = 0.0, ey_ = 0.0;
+    double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, aspect_ratio_ = 0.0;  // of the solution
+    Eigen::Vector3d m_ = Eigen::Vector3d::Zero();
+};
+
+}  // namespace gnomon::detail

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The thesis's index of a normal estimator: half quality, half speed.
+///
+/// Klasing 2010, Sec. 3.2.6, Eq. (3.13).
+#pragma once
+
+#include <cmath>
+
+#include <gnomon/core/error.hpp>
+
+namespace gnomon {
+
+/// pi = (gamma + wanted_time / mean_time) / 2: one for perfect normals at the wanted speed, and
+/// more than one for faster ones.
+///
+/// @param gamma        mean quality, Eq. (3.12), 0 to 1
+/// @param mean_time    per normal, t-bar, in the same unit as
+/// @param wanted_time  t-hat, the bound that the user thinks reasonable; 1 us in the thesis
+/// @throws std::invalid_argument  unless times are positive and finite and gamma is in [0, 1]
+[[nodiscard]] inline double performance_index(double gamma, double mean_time, double wanted_time) {
+    detail::require(mean_time > 0.0 && std::isfinite(mean_time) && wanted_time > 0.0 &&
+                        std::isfinite(wanted_time),
+                    "performance_index: times must be positive and finite");
+    detail::require(gamma >= 0.0 && gamma <= 1.0, "performance_index: gamma must be in [0, 1]");
+    return 0.5 * gamma + 0.5 * (wanted_time / mean_time);
+}
+
+}  // namespace gnomon

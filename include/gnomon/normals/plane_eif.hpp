@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The information form of the filter: `ray_ls` with the covariance of its normal. As the inverse
+/// range is linear in m = n/d, all measurements add up to one system, and nothing is iterated.
+///
+/// Klasing 2010, Sec. 3.2.7 names the extended information filter as an extension that "avoids
+/// iterative computations".
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/ray_regression.hpp>
+#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/normal_belief.hpp>
+#include <gnomon/normals/ray_ls.hpp>
+
+namespace gnomon {
+
+/// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal and
+/// trust it gives.
+struct plane_eif {
+    double sigma = 0.015;  ///< standard deviation of the range [m]
+    ray_ls fit = {};
+
+    /// @throws std::invalid_argument  unless sigma is positive and finite
+    [[nodiscard]] with_covariance_of<ray_fit> operator()(
+        const Eigen::Vector3d& p, ring_view ring,
+        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+        detail::require_sigma(sigma);
+        with_covariance_of<ray_fit> belief;
+        if (ring.size() < 3) return belief;
+        const detail::ray_regression regression = fit.regression(p, ring, viewpoint);
+        static_cast<ray_fit&>(belief) = fit.result_of(regression);
+        if (!usable(belief.trust)) return belief;
+        // n = M / |M|: only the part of M's error across n turns n.
+        const detail::tangent_frame frame(belief.normal);
+        const Eigen::Matrix3d c =
+            regression.covariance(sigma) / regression.solution().squaredNorm();
+        const Eigen::Vector3d c1 = c * frame.b1;
+        const Eigen::Vector3d c2 = c * frame.b2;
+        belief.covariance = frame.in_space(frame.b1.dot(c1), frame.b1.dot(c2), frame.b2.dot(c2));
+        return belief;
+    }
+};
+
+}  // namespace gnomon

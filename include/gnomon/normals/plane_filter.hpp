@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Kalman filters for normals: `plane_ekf` and `plane_ukf`. The neighbors are measurements of
+/// range, one after the other, of a plane that does not move; what comes out is a normal with its
+/// covariance, for a known standard deviation of the range.
+///
+/// The state is a unit vector and the plane's distance from the neighborhood's centroid, three
+/// degrees of freedom, so that neither the length of the normal nor the error of the centroid
+/// distorts the covariance, as they do in the thesis's recipe (`literal_plane_ekf`). It starts with
+/// PlanePCA and a prior that says nothing. A measurement counts once: to gain accuracy the update is
+/// iterated, each time from the prior and about the better state (Gauss and Newton's method for the
+/// extended filter: Bell and Cathey 1993; posterior linearization for the unscented one:
+/// Garcia-Fernandez et al. 2015).
+///
+/// Klasing 2010, Sec. 3.2.7, Eqs. (3.14)-(3.18), which names the unscented filter as an extension.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/normal_belief.hpp>
+#include <gnomon/normals/plane_fit.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+
+namespace gnomon {
+
+/// A plane near an anchor point, with the covariance of its three degrees of freedom: turns towards
+/// the two tangents [rad] and the distance along the normal [m].
+struct plane_state {
+    detail::tangent_frame frame{Eigen::Vector3d::UnitZ()};
+    double distance = 0.0;  ///< of the plane from the anchor [m]
+    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+
+    /// The state at `delta` from this one, without a covariance.
+    [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
+        return {detail::tangent_frame(frame.moved(delta[0], delta[1])), distance + delta[2]};
+    }
+
+    /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
+    [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
+        return (anchor.dot(frame.normal) + distance) / u.dot(frame.normal);
+    }
+};
+
+/// A measurement made linear about a state: value + slope . delta + an error of this variance.
+struct linear_range {
+    double value;           ///< [m]
+    Eigen::Vector3d slope;  ///< [m/rad], [m/rad], 1
+    double variance = 0.0;  ///< of what is not linear [m^2]
+};
+
+/// Linearizes by the derivative, Eq. (3.18).
+class by_derivative {
+  public:
+    by_derivative(const plane_state& state, const Eigen::Vector3d& anchor)
+        : state_(state), anchor_(anchor) {}
+
+    /// The range along the unit ray u.
+    [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
+        const double h = state_.range(anchor_, u);
+        const double un = u.dot(state_.frame.normal);
+        const Eigen::Vector3d gradient = (anchor_ - h * u) / un;
+        return {h, {gradient.dot(state_.frame.b1), gradient.dot(state_.frame.b2), 1.0 / un}};
+    }
+
+  private:
+    const plane_state& state_;
+    const Eigen::Vector3d& anchor_;
+};
+
+/// Linearizes by regression over six points spread as the state is: the unscented transform (Julier
+/// and Uhlmann 1997, kappa = 0). What the line misses among them is counted as noise.
+class by_sigma_points {
+  public:
+    by_sigma_points(const plane_state& state, const Eigen::Vector3d& anchor)
+        : anchor_(anchor), spread_(symmetric_eigen(state.covariance)) {
+        for (int j = 0; j < 3; ++j) {
+            const Eigen::Vector3d step = offset(j) * spread_.vectors.col(j);
+            plus_[j] = state.moved(step);
+            minus_[j] = state.moved(-step);
+        }
+    }
+
+    /// The range along the unit ray u.
+    [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
+        linear_range z{0.0, Eigen::Vector3d::Zero()};
+        double squares = 0.0;
+        double explained = 0.0;
+        for (int j = 0; j < 3; ++j) {
+            const double plus = plus_[j].range(anchor_, u);
+            const double minus = minus_[j].range(anchor_, u);
+            const double slope = (plus - minus) / (2.0 * offset(j));
+            z.value += (plus + minus) / 6.0;
+            z.slope += slope * spread_.vectors.col(j);
+            squares += (plus * plus + minus * minus) / 6.0;
+            explained += slope * slope * spread_.values[j];
+        }
+        z.variance = std::max(0.0, squares - z.value * z.value - explained);
+        return z;
+    }
+
+  private:
+    [[nodiscard]] double offset(int j) const { return std::sqrt(3.0 * spread_.values[j]); }
+
+    const Eigen::Vector3d& anchor_;
+    eigen_decomposition<> spread_;
+    std::array<plane_state, 3> plus_;
+    std::array<plane_state, 3> minus_;
+};
+
+/// Models `ray_estimator`. Needs three neighbors. O(k), some ten times as long as `plane_pca`.
+///
+/// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, and `degenerate`
+/// where the rays graze the plane so that their ranges say nothing.
+template <class Linearization>
+struct plane_filter {
+    static constexpr auto sensitive_to = sensitivity::units;
+
+    double sigma = 0.015;     ///< standard deviation of the range [m]
+    int max_iterations = 10;  ///< of the update; three or four are usual
+    double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]
+    double prior_distance = 1.0;  ///< and of the prior distance [m]; both say nothing
+
+    /// @throws std::invalid_argument  unless sigma is positive and finite
+    [[nodiscard]] with_covariance_of<plane_fit> operator()(
+        const Eigen::Vector3d& p, ring_view ring,
+        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+        detail::require_sigma(sigma);
+        with_covariance_of<plane_fit> belief;
+        if (ring.size() < 3) return belief;
+        const moments m = moments_about(p, ring);
+        static_cast<plane_fit&>(belief) = plane_pca{}(m);
+        if (!usable(belief.trust)) return belief;
+
+        // Everything as seen from the view point.
+        const Eigen::Vector3d x = p - viewpoint;
+        const Eigen::Vector3d anchor = x + m.mean_with_point();
+        const plane_state prior{detail::tangent_frame(belief.normal)};
+        plane_state state = prior;
+        // No covariance yet: sigma points this near to each other give the derivative.
+        state.covariance.diagonal() << 1e-8, 1e-8, 1e-4 * sigma * sigma;
+        bool settled = false;
+        for (int i = 0; i < max_iterations && !settled; ++i) {
+            // The prior's mean and covariance, as seen from the state.
+            Eigen::Vector3d delta = state.frame.towards(prior.frame.normal);
+            delta[2] = prior.distance - state.distance;
+            Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+            covariance.diagonal() << prior_angle * prior_angle, prior_angle * prior_angle,
+                prior_distance * prior_distance;
+            const Linearization linearize(state, anchor);
+            update(state, linearize, x, delta, covariance);
+            for (const Eigen::Vector3d& q : ring)
+                update(state, linearize, q - viewpoint, delta, covariance);
+            if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
+            state = state.moved(delta);
+            state.covariance = covariance;
+            settled = std::abs(delta[0]) + std::abs(delta[1]) < 1e-9;
+        }
+        const Eigen::Matrix3d& c = state.covariance;
+        belief.normal = state.frame.normal;
+        belief.covariance = state.frame.in_space(c(0, 0), c(0, 1), c(1, 1));
+        constexpr double vague = 0.1;  // [rad^2], some 20 degrees
+        if (!settled || belief.trace() > vague) belief.trust = trust::weak;
+        return belief;
+    }
+
+  private:
+    /// Takes in the range of one measured point: a Kalman update of delta and its covariance.
+    void update(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
+                Eigen::Vector3d& delta, Eigen::Matrix3d& covariance) const {
+        const double range = x.norm();
+        const Eigen::Vector3d u = x / range;
+        if (!(std::abs(u.dot(state.frame.normal)) > detail::grazing_cosine)) return;
+        const linear_range z = linearize(u);
+        const Eigen::Vector3d ps = covariance * z.slope;
+        const double innovation = range - z.value - z.slope.dot(delta);
+        const double variance = z.slope.dot(ps) + z.variance + sigma * sigma;
+        if (!std::isfinite(variance)) return;
+        delta += (innovation / variance) * ps;
+        covariance -= (ps / variance) * ps.transpose();
+    }
+
+    static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {
+        belief.normal.setZero();
+        belief.trust = trust::degenerate;
+        return belief;
+    }
+};
+
+/// The extended Kalman filter, iterated.
+using plane_ekf = plane_filter<by_derivative>;
+
+/// The unscented Kalman filter, iterated: for strong noise and grazing rays.
+using plane_ukf = plane_filter<by_sigma_points>;
+
+}  // namespace gnomon

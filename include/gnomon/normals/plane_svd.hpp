@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// PlaneSVD: the plane n . x + d = 0 whose four coefficients, as a unit vector, are most nearly
+/// orthogonal to the points (x, 1).
+///
+/// A unit *four*-vector weighs metres against a number, so the result depends on the unit and on
+/// the origin. In the sensor's frame and in metres, as the thesis has it, it leans the normal towards the
+/// line of sight. Under noise along the rays this happens to help, and it is why PlaneSVD comes out
+/// ahead of PlanePCA on simulated scans; it is a prior, not information.
+///
+/// Klasing 2010, Eq. (3.1), which forgets the column of ones in the matrix of its text.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_fit.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+
+namespace gnomon {
+
+/// Models `ray_estimator`: the origin of its frame is the view point. Needs two neighbors. O(k).
+///
+/// Trust: `degenerate` where the plane is not determined; more than some 1e5 neighborhood radii
+/// from the view point that is always so.
+struct plane_svd {
+    static constexpr auto sensitive_to = sensitivity::units;
+
+    /// Constrains only the normal to unit length, which makes it PlanePCA, anywhere and in any unit.
+    bool centred = false;
+
+    [[nodiscard]] normal_fit operator()(
+        const Eigen::Vector3d& p, ring_view ring,
+        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+        if (ring.size() < 2) return {};
+        if (centred) return plane_pca{}(p, ring);
+
+        Eigen::Matrix4d m = Eigen::Matrix4d::Zero();  // [Q+ 1]^T [Q+ 1]
+        const auto add = [&m, &viewpoint](const Eigen::Vector3d& q) {
+            const double row[4] = {q.x() - viewpoint.x(), q.y() - viewpoint.y(),
+                                   q.z() - viewpoint.z(), 1.0};
+            for (int j = 0; j < 4; ++j) {
+                for (int i = 0; i < 4; ++i) m(i, j) += row[i] * row[j];
+            }
+        };
+        add(p);
+        for (const Eigen::Vector3d& q : ring) add(q);
+
+        normal_fit fit;
+        fit.trust = trust::not_finite;
+        if (!std::isfinite(m(0, 0) + m(1, 1) + m(2, 2))) return fit;
+        const eigen_decomposition<4> e = symmetric_eigen<4>(m);
+        const Eigen::Vector3d n(e.vectors(0, 3), e.vectors(1, 3), e.vectors(2, 3));
+        const double length = n.norm();
+        fit.trust = trust::degenerate;
+        if (e.values[2] - e.values[3] <= detail::smallest_gap * e.values[0] || length == 0.0) {
+            return fit;
+        }
+        fit.normal = n / length;
+        fit.trust = trust::good;
+        return fit;
+    }
+};
+
+}  // namespace gnomon

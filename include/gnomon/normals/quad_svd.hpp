@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// QuadSVD: a quadric through the neighbors, S(x) = c . (x^2 y^2 z^2 xy xz yz x y z 1) = 0 with
+/// |c| = 1; the normal is its gradient at the point.
+///
+/// Exact on spheres, cylinders, cones and paraboloids, whatever their curvature. On noisy planes it
+/// is weak: two planes are a quadric, too, so that nothing but noise decides between them.
+///
+/// Klasing 2010, Eq. (3.7); the gradient is that of the specification of the quadric above.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/small_svd.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+
+namespace gnomon {
+
+/// Models `ray_estimator`: the origin of its frame is the view point. Needs nine neighbors. O(k),
+/// with a large constant: the singular value decomposition of a 10 x 10 triangle.
+///
+/// Trust: `weak`, and the normal that of PlanePCA, where more than one quadric passes through all
+/// neighbors (on a perfect plane, for instance) or the gradient vanishes.
+struct quad_svd {
+    static constexpr auto sensitive_to = sensitivity::units | sensitivity::axes;
+
+    /// Puts the origin into the point and makes the mean squared distance to its neighbors one, so
+    /// that neither units nor the view point matter; the thesis does not.
+    bool centred = false;
+
+    [[nodiscard]] normal_fit operator()(
+        const Eigen::Vector3d& p, ring_view ring,
+        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+        normal_fit fit;
+        if (ring.size() < 9) return fit;
+        const Eigen::Vector3d origin = centred ? p : viewpoint;
+        const double scale = centred ? inverse_rms_distance(p, ring) : 1.0;
+
+        row_triangle<10> rows;
+        for (const Eigen::Vector3d& q : ring) {
+            const double x = scale * (q.x() - origin.x());
+            const double y = scale * (q.y() - origin.y());
+            const double z = scale * (q.z() - origin.z());
+            Eigen::Matrix<double, 10, 1> row;
+            row << x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, 1.0;
+            rows.add(row);
+        }
+        double sum = 0.0;
+        for (int i = 0; i < 100; ++i) sum += rows.matrix().data()[i];
+        if (!std::isfinite(sum)) {
+            fit.trust = trust::not_finite;
+            return fit;
+        }
+        const auto svd = small_svd<10>(rows.matrix());
+
+        const auto c = [&svd](int i) { return svd.right(i, 9); };
+        const double x = scale * (p.x() - origin.x());
+        const double y = scale * (p.y() - origin.y());
+        const double z = scale * (p.z() - origin.z());
+        const Eigen::Vector3d gradient(2 * c(0) * x + c(3) * y + c(4) * z + c(6),
+                                       2 * c(1) * y + c(3) * x + c(5) * z + c(7),
+                                       2 * c(2) * z + c(4) * x + c(5) * y + c(8));
+        const double length = gradient.norm();
+        constexpr double negligible = 1e-12;
+        if (svd.values[8] - svd.values[9] <= negligible * svd.values[0] ||
+            length <= negligible * (1.0 + std::abs(x) + std::abs(y) + std::abs(z))) {
+            const plane_fit plane = plane_pca{}(p, ring);
+            fit.normal = plane.normal;
+            fit.trust = usable(plane.trust) ? trust::weak : plane.trust;
+            return fit;
+        }
+        fit.normal = gradient / length;
+        fit.trust = trust::good;
+        return fit;
+    }
+
+  private:
+    static double inverse_rms_distance(const Eigen::Vector3d& p, ring_view ring) {
+        double square = 0.0;
+        for (const Eigen::Vector3d& q : ring) square += squared_distance(p, q);
+        return square > 0.0 ? std::sqrt(static_cast<double>(ring.size()) / square) : 1.0;
+    }
+};
+
+}  // namespace gnomon

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// QuadTransSVD: a height function over the tangent plane, z = c1 x^2 + c2 y^2 + c3 xy + c4 x +
+/// c5 y + c6, in the frame of VectorSVD at the point; the normal is that of the surface there.
+///
+/// The thesis keeps the r = 3 largest singular values of the system only. In metres these belong
+/// to 1, x and y: the quadratic terms are all but left out, and what remains is a plane fitted in
+/// the rotated frame. Only so do the figures of the thesis come out; `rank = 6` is the full fit.
+///
+/// Klasing 2010, Eq. (3.8).
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/small_svd.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_fit.hpp>
+
+namespace gnomon {
+
+/// Models `estimator`. Needs five neighbors. O(k), with a large constant. The spectrum and the
+/// trust are those of `vector_svd`; `weak` as well where the kept singular values are not set apart
+/// from the rest, in which case the normal is that of `vector_svd`.
+struct quad_trans_svd {
+    static constexpr auto sensitive_to = sensitivity::units;
+
+    /// The number of singular values that are used, 1 to 6; those below 1e-12 of the largest never
+    /// are, so that 6 stands for the numerical rank.
+    int rank = 3;
+    double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
+
+    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
+        detail::require(rank >= 1 && rank <= 6, "quad_trans_svd: the rank must be 1 to 6");
+        if (ring.size() < 5) return {};
+        const Eigen::Matrix3d second_moments = moments_about(p, ring).second_moments();
+        plane_fit fit;
+        fit.trust = trust::not_finite;
+        if (!detail::has_finite_trace(second_moments)) return fit;
+        const eigen_decomposition<> e = symmetric_eigen(second_moments);  // VectorSVD
+        fit = detail::plane_across(e, min_aspect_ratio);
+        if (!usable(fit.trust)) return fit;
+        const Eigen::Matrix3d& frame = e.vectors;
+
+        row_triangle<7> rows;  // the unknowns' six columns, and the heights
+        for (const Eigen::Vector3d& q : ring) {
+            const Eigen::Vector3d d = q - p;
+            const double x = d.dot(frame.col(0));
+            const double y = d.dot(frame.col(1));
+            const double z = d.dot(frame.col(2));
+            Eigen::Matrix<double, 7, 1> row;
+            row << x * x, y * y, x * y, x, y, 1.0, z;
+            rows.add(row);
+        }
+        Eigen::Matrix<double, 6, 6> r;
+        for (int j = 0; j < 6; ++j) {
+            for (int i = 0; i < 6; ++i) r(i, j) = rows.matrix()(i, j);
+        }
+        const auto svd = small_svd<6>(r);
+        constexpr double negligible = 1e-12;
+        if (rank < 6 && svd.values[rank - 1] - svd.values[rank] <= negligible * svd.values[0]) {
+            fit.trust = trust::weak;
+            return fit;
+        }
+        double c4 = 0.0;
+        double c5 = 0.0;
+        for (int j = 0; j < rank && svd.values[j] > negligible * svd.values[0]; ++j) {
+            double projection = 0.0;  // <u_j, z> s_j
+            for (int i = 0; i < 6; ++i) projection += svd.scaled_left(i, j) * rows.matrix()(i, 6);
+            const double share = projection / (svd.values[j] * svd.values[j]);
+            c4 += share * svd.right(3, j);
+            c5 += share * svd.right(4, j);
+        }
+        const Eigen::Vector3d n = frame.col(2) - c4 * frame.col(0) - c5 * frame.col(1);
+        fit.normal = n / n.norm();
+        return fit;
+    }
+};
+
+}  // namespace gnomon

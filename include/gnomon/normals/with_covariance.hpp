@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A covariance for the normals of any estimator: how the errors of the points turn the least
+/// squares plane, to first order. Exact for PlanePCA, whose perturbation it is; for other methods
+/// what PlanePCA would be worth on the same neighborhood.
+///
+/// With the tangent coordinates t_j of the points about their centroid and their errors e_j along
+/// the normal, the normal turns by -A^-1 mean(t_j e_j), where A is the covariance of the t_j less
+/// the variance along the normal (Kanatani 1996; Wang et al. 2001 for noise along rays).
+#pragma once
+
+#include <cmath>
+#include <functional>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/normal_belief.hpp>
+
+namespace gnomon {
+
+/// Models `ray_estimator`, around any estimator whose result is a struct. O(k) more than that.
+///
+/// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
+template <estimator E>
+    requires normal_estimate<estimator_result_t<E>>
+struct with_covariance {
+    static constexpr auto sensitive_to = sensitivity_of<E>();
+
+    double sigma = 0.015;  ///< standard deviation of the range, along the ray [m]
+    E estimate = {};
+
+    /// @throws std::invalid_argument  unless sigma is positive and finite
+    [[nodiscard]] with_covariance_of<estimate_t<E>> operator()(
+        const Eigen::Vector3d& p, ring_view ring,
+        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+        detail::require_sigma(sigma);
+        with_covariance_of<estimate_t<E>> belief;
+        if constexpr (ray_estimator<E>) {
+            static_cast<estimate_t<E>&>(belief) = std::invoke(estimate, p, ring, viewpoint);
+        } else {
+            static_cast<estimate_t<E>&>(belief) = std::invoke(estimate, p, ring);
+        }
+        if (!usable(belief.trust)) return belief;
+
+        const detail::tangent_frame frame(belief.normal);
+        const auto& [n, b1, b2] = frame;
+        const moments m = moments_about(p, ring);
+        const Eigen::Matrix3d spread = m.covariance_with_point();
+        const double across = n.dot(spread * n);
+        const double a11 = b1.dot(spread * b1) - across;
+        const double a12 = b1.dot(spread * b2);
+        const double a22 = b2.dot(spread * b2) - across;
+
+        // The covariance of mean(t_j e_j), in which e_j = (u_j . n) times the error of the range.
+        const double count = static_cast<double>(m.count + 1);
+        const Eigen::Vector3d mean = m.mean_with_point();
+        double s11 = 0.0;
+        double s12 = 0.0;
+        double s22 = 0.0;
+        bool seen = false;  // not merely grazed
+        const auto add = [&](const Eigen::Vector3d& q) {
+            const Eigen::Vector3d ray = q - viewpoint;
+            const double cosine = ray.dot(n) / ray.norm();
+            const Eigen::Vector3d d = q - p - mean;
+            const double t1 = cosine * d.dot(b1);
+            const double t2 = cosine * d.dot(b2);
+            s11 += t1 * t1;
+            s12 += t1 * t2;
+            s22 += t2 * t2;
+            seen = seen || std::abs(cosine) > detail::grazing_cosine;
+        };
+        add(p);
+        for (const Eigen::Vector3d& q : ring) add(q);
+        if (!seen) {
+            constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
+            belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
+            belief.trust = trust::weak;
+            return belief;
+        }
+        const double w = sigma * sigma / (count * count);
+
+        // P = A^-1 S A^-1
+        const double determinant = a11 * a22 - a12 * a12;
+        const double i11 = a22 / determinant;
+        const double i12 = -a12 / determinant;
+        const double i22 = a11 / determinant;
+        const double r11 = i11 * s11 + i12 * s12;
+        const double r12 = i11 * s12 + i12 * s22;
+        const double r21 = i12 * s11 + i22 * s12;
+        const double r22 = i12 * s12 + i22 * s22;
+        belief.covariance = frame.in_space(w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
+                                           w * (r21 * i12 + r22 * i22));
+        return belief;
+    }
+};
+
+}  // namespace gnomon

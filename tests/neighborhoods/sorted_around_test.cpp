@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/sorted_around.hpp>
+
+namespace {
+
+/// The angles of the ring's members about the point, in the plane of a sheet that is nearly level.
+std::vector<double> angles(const clouds::cloud& points, std::size_t i, const auto& ring) {
+    std::vector<double> result;
+    for (const auto j : ring) {
+        const Eigen::Vector3d d = points[j] - points[i];
+        result.push_back(std::atan2(d.y(), d.x()));
+    }
+    return result;
+}
+
+/// How often a closed sequence of angles goes round, counted with sign.
+double turns(const std::vector<double>& a) {
+    double sum = 0.0;
+    for (std::size_t j = 0; j < a.size(); ++j)
+        sum += std::remainder(a[(j + 1) % a.size()] - a[j], 2.0 * std::numbers::pi);
+    return sum / (2.0 * std::numbers::pi);
+}
+
+TEST(sorted_around, goes_round_once_with_the_same_neighbors) {
+    gnomon::random_stream random(1);
+    clouds::cloud points;  // level, so that the tangent plane is known
+    for (int i = 0; i < 2000; ++i) points.push_back({random.uniform(), random.uniform(), 0.0});
+    const auto nearest = gnomon::knn{.k = 12}(points);
+    const auto sorted = gnomon::sorted_around{gnomon::knn{.k = 12}}(points);
+    int closed = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        std::vector before(nearest[i].begin(), nearest[i].end());
+        std::vector after(sorted[i].begin(), sorted[i].end());
+        const auto a = angles(points, i, after);
+        std::sort(before.begin(), before.end());
+        std::sort(after.begin(), after.end());
+        ASSERT_EQ(before, after);
+        double widest = 0.0;
+        std::vector<double> in_order = a;
+        std::sort(in_order.begin(), in_order.end());
+        for (std::size_t j = 0; j < in_order.size(); ++j) {
+            const double gap = in_order[(j + 1) % in_order.size()] - in_order[j];
+            widest = std::max(widest, gap < 0 ? gap + 2.0 * std::numbers::pi : gap);
+        }
+        const bool open = sorted.note(i).open;
+        ASSERT_EQ(open, widest >= std::numbers::pi);
+        if (!open) {
+            ASSERT_NEAR(std::abs(turns(a)), 1.0, 1e-9);
+        }
+        closed += !open;
+        // An open ring begins and ends at the gap: every step within is less than half a turn.
+        for (std::size_t j = 0; open && j + 1 < a.size(); ++j) {
+            const double step = std::remainder(a[j + 1] - a[j], 2.0 * std::numbers::pi);
+            ASSERT_EQ(step > 0, std::remainder(a[1] - a[0], 2.0 * std::numbers::pi) > 0);
+        }
+    }
+    EXPECT_GT(closed, 1700);
+    EXPECT_LT(closed, 2000);
+}
+
+TEST(sorted_around, sorts_a_stored_graph_alike) {
+    const auto points = clouds::sheet(500, 2);
+    const auto graph = gnomon::knn{.k = 9}(points);
+    EXPECT_EQ(gnomon::sort_around(points, graph), gnomon::sorted_around{gnomon::knn{.k = 9}}(points));
+    EXPECT_THROW((void)gnomon::sort_around(clouds::sheet(499, 2), graph), std::invalid_argument);
+}
+
+/// A neighbor right above the point has no direction, but is not lost.
+TEST(sorted_around, keeps_what_has_no_direction) {
+    const clouds::cloud points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 0.1}};
+    const auto graph = gnomon::sorted_around{gnomon::knn{.k = 5}}(points);
+    ASSERT_EQ(graph[0].size(), 5u);
+    EXPECT_EQ(graph[0][0], 5u);
+    EXPECT_FALSE(graph.note(0).open);
+}
+
+}  // namespace

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstdint>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/random.hpp>
+#include <gnomon/normals/normal_belief.hpp>
+
+namespace {
+
+using gnomon::detail::tangent_frame;
+
+/// A belief in the z axis with deviations a, b along directions turned by `turn` in the plane.
+gnomon::normal_belief belief_in_z(double a, double b, double turn) {
+    gnomon::normal_belief belief;
+    belief.normal = Eigen::Vector3d::UnitZ();
+    const Eigen::Vector3d u(std::cos(turn), std::sin(turn), 0.0);
+    const Eigen::Vector3d v(-u.y(), u.x(), 0.0);
+    belief.covariance = a * a * u * u.transpose() + b * b * v * v.transpose();
+    return belief;
+}
+
+TEST(normal_belief, scalars_of_the_covariance) {
+    const auto belief = belief_in_z(0.2, 0.5, 0.7);
+    EXPECT_NEAR(belief.trace(), 0.04 + 0.25, 1e-15);
+    EXPECT_NEAR(belief.determinant(), 0.04 * 0.25, 1e-15);
+    EXPECT_NEAR(belief.covariance.determinant(), 0.0, 1e-15);
+}
+
+TEST(normal_belief, nees_is_the_squared_distance_in_deviations) {
+    const auto belief = belief_in_z(0.2, 0.5, 0.7);
+    const Eigen::Vector3d u(std::cos(0.7), std::sin(0.7), 0.0);
+    // Two deviations along the first direction, by whichever sign, of a normal of whichever sign.
+    for (const double sign : {1.0, -1.0}) {
+        const Eigen::Vector3d truth = std::cos(0.4) * Eigen::Vector3d::UnitZ() + std::sin(0.4) * u;
+        EXPECT_NEAR(nees(belief, sign * truth), 4.0, 1e-12);
+    }
+    EXPECT_EQ(nees(belief, Eigen::Vector3d::UnitZ()), 0.0);
+}
+
+/// Drawn from its own covariance, an error has a mean NEES of two, and 5.991 is exceeded in 5 %.
+TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
+    gnomon::random_stream random(1);
+    const auto belief = belief_in_z(0.02, 0.05, -0.3);
+    const Eigen::Vector3d u(std::cos(-0.3), std::sin(-0.3), 0.0);
+    const Eigen::Vector3d v(-u.y(), u.x(), 0.0);
+    double sum = 0.0;
+    int beyond = 0;
+    constexpr int trials = 100'000;
+    for (int i = 0; i < trials; ++i) {
+        const Eigen::Vector3d d =
+            0.02 * random.gaussian() * u + 0.05 * random.gaussian() * v;
+        const double angle = d.norm();
+        const double value = nees(belief, std::cos(angle) * Eigen::Vector3d::UnitZ() +
+                                              std::sin(angle) / angle * d);
+        sum += value;
+        beyond += value > 5.991;
+    }
+    EXPECT_NEAR(sum / trials, 2.0, 0.03);
+    EXPECT_NEAR(static_cast<double>(beyond) / trials, 0.05, 0.003);
+}
+
+TEST(normal_belief, tangent_frame_goes_there_and_back) {
+    gnomon::random_stream random(2);
+    for (int i = 0; i < 1000; ++i) {
+        const Eigen::Vector3d n = clouds::gaussian_vector(random).normalized();
+        const tangent_frame frame(n);
+        Eigen::Matrix3d axes;
+        axes << frame.b1, frame.b2, frame.normal;
+        EXPECT_LT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm(), 1e-14);
+        const double d1 = random.uniform(-1.0, 1.0);
+        const double d2 = random.uniform(-1.0, 1.0);
+        const Eigen::Vector3d moved = frame.moved(d1, d2);
+        EXPECT_NEAR(moved.norm(), 1.0, 1e-14);
+        for (const double sign : {1.0, -1.0})  // a normal and its antipode are one
+            EXPECT_LT((frame.towards(sign * moved) - Eigen::Vector3d(d1, d2, 0.0)).norm(), 1e-12);
+    }
+}
+
+}  // namespace

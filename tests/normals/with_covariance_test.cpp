@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "laws/estimator_laws.hpp"
+#include <gnomon/normals/averaging.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/plane_svd.hpp>
+#include <gnomon/normals/with_covariance.hpp>
+
+namespace {
+
+using gnomon::plane_pca, gnomon::trust, gnomon::with_covariance;
+
+/// Against the spread of the normals themselves under many draws of the noise.
+TEST(with_covariance, is_the_spread_of_the_normals) {
+    constexpr double sigma = 0.002;
+    for (std::uint64_t seed = 0; seed < 5; ++seed) {
+        SCOPED_TRACE(seed);
+        gnomon::random_stream random(seed, 6);
+        const auto flat = [&]() -> Eigen::Vector3d {
+            const double x = random.uniform(-0.1, 0.1);
+            return {x, 0.4 * random.uniform(-0.1, 0.1) + 0.3 * x, 0.0};
+        };
+        clouds::cloud plane;
+        for (int i = 0; i < 30; ++i) plane.push_back(flat());
+        const Eigen::Vector3d viewpoint(0.6, -0.3, 0.8);
+        const auto expected =
+            with_covariance<plane_pca>{.sigma = sigma}(plane[0], std::span(plane).subspan(1),
+                                                       viewpoint);
+        Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+        constexpr int draws = 20'000;
+        for (int draw = 0; draw < draws; ++draw) {
+            clouds::cloud noisy;
+            for (const auto& p : plane)
+                noisy.push_back(p + sigma * random.gaussian() * (p - viewpoint).normalized());
+            Eigen::Vector3d n = plane_pca{}(noisy[0], std::span(noisy).subspan(1)).normal;
+            if (n.z() < 0) n = -n;
+            const Eigen::Vector3d d(n.x(), n.y(), 0.0);
+            spread += d * d.transpose() / draws;
+        }
+        EXPECT_LT((expected.covariance - spread).norm(), 0.05 * spread.norm());
+    }
+}
+
+/// Whatever the method, its own normal is kept, and gets a covariance.
+TEST(with_covariance, goes_around_any_estimator) {
+    const auto s = laws::sample_neighborhood(1);
+    const auto pca = with_covariance<plane_pca>{}(s.p, s.ring, s.viewpoint);
+    const auto svd = with_covariance<gnomon::plane_svd>{}(s.p, s.ring, s.viewpoint);
+    const auto area = with_covariance<gnomon::area_weighted>{}(s.p, s.ring, s.viewpoint);
+    EXPECT_EQ(pca.normal, plane_pca{}(s.p, s.ring).normal);
+    EXPECT_EQ(pca.aspect_ratio(), plane_pca{}(s.p, s.ring).aspect_ratio());
+    EXPECT_EQ(svd.normal, gnomon::plane_svd{}(s.p, s.ring, s.viewpoint).normal);
+    EXPECT_GT(svd.trace(), 0.0);
+    EXPECT_GT(area.trace(), 0.0);
+    static_assert(gnomon::is_sensitive_to<with_covariance<gnomon::plane_svd>>(
+        gnomon::sensitivity::units));
+}
+
+TEST(with_covariance, says_what_is_wrong) {
+    const Eigen::Vector3d p(2, 0, 0);
+    EXPECT_EQ(with_covariance<plane_pca>{}(p, clouds::cloud{{2, 1, 0}}).trust,
+              trust::too_few_neighbors);
+    EXPECT_EQ(with_covariance<plane_pca>{}(p, clouds::cloud(4, p)).covariance,
+              Eigen::Matrix3d::Zero());
+    // One scan line and its noise along the rays span a plane that all rays lie in.
+    const auto line = with_covariance<plane_pca>{}(
+        p, clouds::cloud{{2.1, 1, 0}, {1.9, -1, 0}, {2.2, 0.5, 0}, {1.8, -0.5, 0}});
+    EXPECT_EQ(line.trust, trust::weak);
+    EXPECT_GT(line.trace(), 1.0);
+    EXPECT_THROW((void)(with_covariance<plane_pca>{.sigma = 0.0}(p, clouds::cloud(4, p))),
+                 std::invalid_argument);
+}
+
+TEST(with_covariance, laws_hold) { laws::estimator_laws(with_covariance<plane_pca>{}); }
+
+}  // namespace
