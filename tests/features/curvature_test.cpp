@@ -184,6 +184,35 @@ TEST(curvature, is_one_over_a_length) {
     }
 }
 
+/// Squares of what is smaller than 1e-146 m are no numbers any more, nor are those of curvatures
+/// beyond 1e154 / m.
+TEST(curvature, of_no_size_is_not_determined) {
+    const auto [ring, p] = bent_sample(1);
+    const Eigen::Matrix3d tiny = 1e-150 * Eigen::Matrix3d::Identity();
+    clouds::cloud needle;
+    for (int i = -2; i <= 2; ++i) {
+        for (int j = -2; j <= 2; ++j)
+            needle.push_back({1e-144 * i, 1e-144 * j, -1.0 * (i * i + j * j)});
+    }
+    for (const clouds::cloud& points : {clouds::moved(ring, tiny, zero), needle}) {
+        const auto c = shape_operator_curvature{}(zero, up, points);
+        EXPECT_EQ(c.trust, trust::degenerate);
+        expect_zero(c);
+    }
+}
+
+/// Without noise the unit matters little, and the thesis's form gives small and large radii too.
+TEST(curvature, of_the_thesis_for_small_and_large_radii) {
+    const auto ring = patches::ring_of(patches::all()[0], 50, 0.02, 2);
+    for (const double s : {1e-4, 1e-2, 1e2, 1e4}) {
+        const Eigen::Matrix3d scaling = s * Eigen::Matrix3d::Identity();
+        const auto c = thesis_curvature{}(zero, up, clouds::moved(ring, scaling, zero));
+        EXPECT_EQ(c.trust, trust::good);
+        EXPECT_NEAR(c.kappa1 * s, -0.5, 1e-3);
+        EXPECT_NEAR(c.kappa2 * s, -0.5, 1e-3);
+    }
+}
+
 /// The thesis's form does break the law of scale as soon as there is noise: in millimetres it
 /// finds another surface. Should this fail, say so in its comment.
 TEST(curvature, of_the_thesis_depends_on_the_unit) {
@@ -286,20 +315,24 @@ TEST(curvature, says_what_is_wrong) {
     EXPECT_EQ(fit(zero, up, broken).trust, trust::not_finite);
     EXPECT_EQ(fit(zero, up, clouds::cloud(9, zero)).trust, trust::degenerate);
 
-    clouds::cloud line, two_lines, circle, flat;
+    clouds::cloud line, far_line, two_lines, circle, flat;
     for (int i = 0; i < 20; ++i) {
         line.push_back({0.1 * i, 0, 0});
-        two_lines.push_back({0.1 * i, 0.1 * (i % 2), 0});
+        far_line.push_back({0.1 * i, 1e-9 * (i % 3), 0});  // as rounding at UTM coordinates has it
+        two_lines.push_back({0.1 * i, 0.5 * (i % 2), 0});
         circle.push_back({std::cos(i), std::sin(i), 0});  // about the point
         flat.push_back({0.1 * i, 0.01 * (i % 3), 0});
     }
     EXPECT_EQ(fit(zero, up, line).trust, trust::degenerate);
+    EXPECT_EQ(fit(zero, up, far_line).trust, trust::degenerate);
     EXPECT_EQ(fit(zero, up, two_lines).trust, trust::degenerate);
     EXPECT_EQ(fit({1, 0, 0}, up, circle).trust, trust::degenerate);  // the point is on it
     EXPECT_EQ(fit(zero, up, circle).trust, trust::good);
     EXPECT_EQ(fit(zero, up, flat).trust, trust::weak);
     two_lines[5].y() += 1e-3;  // now determined, but by one point
     EXPECT_EQ(fit(zero, up, two_lines).trust, trust::weak);
+    EXPECT_EQ(shape_operator_curvature{.min_independence = 0}(zero, up, two_lines).trust,
+              trust::good);
     for (const auto& ring : {four, broken, line, circle}) expect_zero(fit({1, 0, 0}, up, ring));
 
     const thesis_curvature literal;
@@ -307,15 +340,34 @@ TEST(curvature, says_what_is_wrong) {
     EXPECT_EQ(literal(zero, up, {five.begin(), five.begin() + 3}).trust, trust::good);
     EXPECT_EQ(literal(zero, up, line).trust, trust::degenerate);
     EXPECT_EQ(literal(zero, up, broken).trust, trust::not_finite);
-    // x^2, xy and y^2 of two lines through the point are one number: more than one quadric fits.
-    clouds::cloud cross;
+    // On two lines through the point x^2 and y^2 are one number: more than one quadric fits.
+    clouds::cloud diagonals;
     for (int i = 1; i < 6; ++i) {
-        for (const double x : {-0.1, 0.1}) {
-            for (const double y : {-0.1, 0.1}) cross.push_back({i * x, i * y, 0});
+        for (const double x : {-0.2, 0.2}) {
+            for (const double y : {-0.1, 0.1}) diagonals.push_back({i * x, i * y, i * i * x * x});
         }
     }
-    EXPECT_EQ(literal(zero, up, cross).trust, trust::degenerate);
-    expect_zero(literal(zero, up, cross));
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const Eigen::Matrix3d r = clouds::random_rotation(seed);
+        const auto c = literal(zero, r * up, clouds::moved(diagonals, r, zero));
+        EXPECT_EQ(c.trust, trust::degenerate);
+        expect_zero(c);
+    }
+    EXPECT_EQ(fit(zero, up, diagonals).trust, trust::degenerate);
+    // On the axes xy is zero but for rounding: the least singular vector knows nothing of z.
+    clouds::cloud axes;
+    for (int i = 1; i < 6; ++i) {
+        for (const double x : {-0.2, 0.2}) {
+            axes.push_back({i * x, 0, 0.01 * (i % 2)});
+            axes.push_back({0, 0.5 * i * x, 0.01 * (i % 3)});
+        }
+    }
+    const Eigen::Vector3d turned_up = clouds::random_rotation(1) * up;
+    for (const auto& ring : {axes, clouds::moved(axes, clouds::random_rotation(1), zero)}) {
+        const auto c = literal(zero, ring == axes ? up : turned_up, ring);
+        EXPECT_EQ(c.trust, trust::degenerate);
+        expect_zero(c);
+    }
 }
 
 TEST(curvature, of_a_perfect_plane_is_zero) {

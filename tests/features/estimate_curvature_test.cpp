@@ -276,6 +276,8 @@ TEST(estimate_curvature, refuses_what_is_of_other_points) {
     EXPECT_THROW(of(ten, knn{0}), std::invalid_argument);
     const std::vector<std::vector<gnomon::point_index>> outside(10, {10u});
     EXPECT_THROW(of(ten, outside), std::invalid_argument);
+    const std::vector<std::vector<gnomon::point_index>> longer(11);
+    EXPECT_THROW(of(ten, longer), std::invalid_argument);
 }
 
 }  // namespace

@@ -48,7 +48,7 @@ template <curvature_estimator C>
     if (!is_finite(p)) none.trust = trust::not_finite;
     if (!usable(none.trust)) return none;
     auto result = std::invoke(estimate, p, Eigen::Vector3d(element.normal), ring);
-    double sum = result.kappa1 + result.kappa2;
+    double sum = result.gaussian() + result.mean();
     for (int i = 0; i < 3; ++i) sum += result.direction1[i] + result.direction2[i];
     if (usable(result.trust) && std::isfinite(sum)) {
         if (none.trust == trust::weak) result.trust = trust::weak;
