@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a surface looks like near a point, in one word: eight types by the signs of Gaussian and
+/// mean curvature. With normals that face the sensor, a peak points at the sensor and a pit away.
+///
+///              K > 0     K = 0     K < 0
+///     H < 0    peak      ridge     saddle ridge
+///     H = 0    -         flat      minimal
+///     H > 0    pit       valley    saddle valley
+///
+/// Klasing 2010, Sec. 3.3.2, Figs. 3.13 and 3.14; P. Besl and R. Jain, Segmentation through
+/// variable-order surface fitting, 1988.
+#pragma once
+
+#include <cstdint>
+
+#include <gnomon/core/trust.hpp>
+#include <gnomon/features/curvature.hpp>
+
+namespace gnomon {
+
+/// The types in the order of Fig. 3.13, and what has none.
+enum class surface_type : std::uint8_t {
+    peak,
+    ridge,
+    saddle_ridge,
+    flat,
+    minimal,
+    saddle_valley,
+    valley,
+    pit,
+    unknown  ///< the curvature is not usable
+};
+
+/// The enumerator's name, for tables and messages.
+[[nodiscard]] constexpr const char* to_string(surface_type t) {
+    switch (t) {
+        case surface_type::peak:
+            return "peak";
+        case surface_type::ridge:
+            return "ridge";
+        case surface_type::saddle_ridge:
+            return "saddle_ridge";
+        case surface_type::flat:
+            return "flat";
+        case surface_type::minimal:
+            return "minimal";
+        case surface_type::saddle_valley:
+            return "saddle_valley";
+        case surface_type::valley:
+            return "valley";
+        case surface_type::pit:
+            return "pit";
+        case surface_type::unknown:
+            return "unknown";
+    }
+    return "unknown";
+}
+
+/// Names the type of a curvature: besl_jain{}(c). O(1).
+///
+/// The thesis gives no tolerances (specification A14); zero, the default, takes any sign for real,
+/// and then nothing but a perfect plane along the axes is flat. Curvatures that err by d [1/m] on
+/// surfaces of radius r [m] want a mean tolerance of d and a Gaussian one of d / r.
+struct besl_jain {
+    double gaussian_tolerance = 0.0;  ///< epsilon_K: |K| up to this is zero [1/m^2], at least 0
+    double mean_tolerance = 0.0;      ///< epsilon_H: |H| up to this is zero [1/m], at least 0
+
+    /// From K [1/m^2] and H [1/m]. Since K <= H^2, K > 0 tells that H is not zero, and then its
+    /// sign decides even within the tolerance; `unknown` if K > 0 and H = 0, or either is NaN.
+    [[nodiscard]] constexpr surface_type operator()(double K, double H) const {
+        if (K != K || H != H) return surface_type::unknown;
+        if (K > gaussian_tolerance) {
+            if (H == 0.0) return surface_type::unknown;
+            return H < 0.0 ? surface_type::peak : surface_type::pit;
+        }
+        const bool saddle = K < -gaussian_tolerance;
+        if (H < -mean_tolerance) return saddle ? surface_type::saddle_ridge : surface_type::ridge;
+        if (H > mean_tolerance) return saddle ? surface_type::saddle_valley : surface_type::valley;
+        return saddle ? surface_type::minimal : surface_type::flat;
+    }
+
+    /// `unknown` if the curvature is not usable.
+    [[nodiscard]] surface_type operator()(const curvature& c) const {
+        return usable(c.trust) ? (*this)(c.gaussian(), c.mean()) : surface_type::unknown;
+    }
+};
+
+}  // namespace gnomon
