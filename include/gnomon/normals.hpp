@@ -1,11 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What the surface is at a point: normals, their repair, orientation and quality.
+/// What the surface is at a point. normals/registry.hpp stays outside, as it needs Boost.Hana.
 #pragma once
 
 #include <gnomon/normals/anisotropy.hpp>
+#include <gnomon/normals/averaging.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/gamma.hpp>
+#include <gnomon/normals/literal_plane_ekf.hpp>
+#include <gnomon/normals/normal_belief.hpp>
 #include <gnomon/normals/orient.hpp>
+#include <gnomon/normals/performance_index.hpp>
+#include <gnomon/normals/plane_eif.hpp>
+#include <gnomon/normals/plane_filter.hpp>
+#include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/plane_svd.hpp>
+#include <gnomon/normals/quad_svd.hpp>
+#include <gnomon/normals/quad_trans_svd.hpp>
+#include <gnomon/normals/ray_ls.hpp>
+#include <gnomon/normals/robust_pca.hpp>
+#include <gnomon/normals/sample_consensus.hpp>
+#include <gnomon/normals/vector_pca.hpp>
+#include <gnomon/normals/vector_svd.hpp>
+#include <gnomon/normals/weighted_pca.hpp>
+#include <gnomon/normals/with_covariance.hpp>

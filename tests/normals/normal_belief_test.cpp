@@ -12,7 +12,7 @@
 
 namespace {
 
-using gnomon::detail::tangent_frame;
+using gnomon::detail::tangent_basis;
 
 /// A belief in the z axis with deviations a, b along directions turned by `turn` in the plane.
 gnomon::normal_belief belief_in_z(double a, double b, double turn) {
@@ -52,11 +52,10 @@ TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
     int beyond = 0;
     constexpr int trials = 100'000;
     for (int i = 0; i < trials; ++i) {
-        const Eigen::Vector3d d =
-            0.02 * random.gaussian() * u + 0.05 * random.gaussian() * v;
+        const Eigen::Vector3d d = 0.02 * random.gaussian() * u + 0.05 * random.gaussian() * v;
         const double angle = d.norm();
-        const double value = nees(belief, std::cos(angle) * Eigen::Vector3d::UnitZ() +
-                                              std::sin(angle) / angle * d);
+        const double value =
+            nees(belief, std::cos(angle) * Eigen::Vector3d::UnitZ() + std::sin(angle) / angle * d);
         sum += value;
         beyond += value > 5.991;
     }
@@ -64,11 +63,11 @@ TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
     EXPECT_NEAR(static_cast<double>(beyond) / trials, 0.05, 0.003);
 }
 
-TEST(normal_belief, tangent_frame_goes_there_and_back) {
+TEST(normal_belief, tangent_basis_goes_there_and_back) {
     gnomon::random_stream random(2);
     for (int i = 0; i < 1000; ++i) {
         const Eigen::Vector3d n = clouds::gaussian_vector(random).normalized();
-        const tangent_frame frame(n);
+        const tangent_basis frame(n);
         Eigen::Matrix3d axes;
         axes << frame.b1, frame.b2, frame.normal;
         EXPECT_LT((axes.transpose() * axes - Eigen::Matrix3d::Identity()).norm(), 1e-14);

@@ -25,8 +25,8 @@ struct view {
     explicit view(std::uint64_t seed) {
         gnomon::random_stream random(seed, 4);
         do {
-            state.frame = gnomon::detail::tangent_frame(
-                clouds::gaussian_vector(random).normalized());
+            state.frame =
+                gnomon::detail::tangent_basis(clouds::gaussian_vector(random).normalized());
             anchor = 3.0 * clouds::gaussian_vector(random).normalized();
             u = (anchor + 0.2 * clouds::gaussian_vector(random)).normalized();
             state.distance = 0.1 * random.gaussian();
@@ -89,7 +89,7 @@ TEST(plane_filter, extended_filter_finds_the_most_likely_plane) {
             under += 1.0 / (un * un);
         }
         const double d = over / under;
-        const auto [normal, b1, b2] = gnomon::detail::tangent_frame(n);
+        const auto [normal, b1, b2] = gnomon::detail::tangent_basis(n);
         Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
         Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
         for (const auto& q : all) {

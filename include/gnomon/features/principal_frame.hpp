@@ -13,8 +13,8 @@
 #include <utility>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -49,28 +49,30 @@ template <class R, class Proj = std::identity>
     const Eigen::Vector3d origin = p[first];
     moments m;
     for (std::size_t i = first; i < p.size(); ++i) {
-        if (is_finite(p[i])) m.add(p[i] - origin);
+        if (is_finite(p[i])) m.add(detail::difference(p[i], origin));
     }
-    const eigen_decomposition<> e = symmetric_eigen(m.covariance_of_neighbors());
-    frame.centroid = origin + m.sum / static_cast<double>(m.count);
+    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+    frame.centroid = detail::combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
     frame.box_center = frame.centroid;
     frame.axes = e.vectors;
-    frame.axes.col(1) = frame.axes.col(2).cross(frame.axes.col(0));  // right-handed
+    const Eigen::Vector3d second =  // right-handed
+        detail::cross(detail::column(e.vectors, 2), detail::column(e.vectors, 0));
+    for (int i = 0; i < 3; ++i) frame.axes(i, 1) = second[i];
     frame.spectrum = spectrum(e.values);
 
     constexpr double inf = std::numeric_limits<double>::infinity();
     for (int a = 0; a < 3; ++a) {
-        const Eigen::Vector3d axis = frame.axes.col(a);
+        const Eigen::Vector3d axis = detail::column(frame.axes, a);
         double low = inf;
         double high = -inf;
         for (std::size_t i = first; i < p.size(); ++i) {
             if (!is_finite(p[i])) continue;
-            const double along = axis.dot(p[i] - frame.centroid);
+            const double along = detail::dot(axis, detail::difference(p[i], frame.centroid));
             low = std::min(low, along);
             high = std::max(high, along);
         }
         frame.box_size[a] = high - low;
-        frame.box_center += 0.5 * (low + high) * axis;
+        frame.box_center = detail::combined(1.0, frame.box_center, 0.5 * (low + high), axis);
     }
     return frame;
 }

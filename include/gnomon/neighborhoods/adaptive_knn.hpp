@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
@@ -31,9 +32,9 @@ namespace gnomon {
 
 /// What a neighborhood of a certain size looks like.
 struct neighborhood_shape {
-    std::size_t k;               ///< number of neighbors
-    double squared_radius;       ///< of the ball that holds them [m^2]
-    gnomon::spectrum spectrum;   ///< of the neighbors and the point [m^2]
+    std::size_t k;              ///< number of neighbors
+    double squared_radius;      ///< of the ball that holds them [m^2]
+    gnomon::spectrum spectrum;  ///< of the neighbors and the point [m^2]
 };
 
 /// cost(shape) of a neighborhood: the least is taken, and of equals the smallest.
@@ -131,12 +132,11 @@ class adaptive_search {
         double wanted = static_cast<double>(policy_.min_k);
         while (m.count < ring.size()) {
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
-            while (m.count < k) m.add(points_[ring[m.count].index] - p);
+            while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
             if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
-            const double cost = policy_.preference(
-                neighborhood_shape{k, ring[k - 1].squared_distance,
-                                   spectrum(symmetric_eigen(covariance).values)});
+            const double cost = policy_.preference(neighborhood_shape{
+                k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
                 least = cost;
                 best = k;

@@ -16,8 +16,8 @@
 #include <cstddef>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 
@@ -25,8 +25,8 @@ namespace gnomon {
 
 /// What decides about the sign of each triangle's normal.
 enum class triangle_sign : bool {
-    from_order,  ///< the order of the two neighbors, as in the thesis
-    to_viewpoint ///< each normal is turned to the side of the view point first
+    from_order,   ///< the order of the two neighbors, as in the thesis
+    to_viewpoint  ///< each normal is turned to the side of the view point first
 };
 
 /// A weight of the triangle (p, p + a, p + b) whose area is not zero.
@@ -62,15 +62,15 @@ struct averaging {
         for (std::size_t j = 0; j < triangles; ++j) {
             const Eigen::Vector3d a = ring[j] - p;
             const Eigen::Vector3d b = ring[j + 1 < k ? j + 1 : 0] - p;
-            const Eigen::Vector3d c = a.cross(b);
-            const double double_area = std::sqrt(c.squaredNorm());
+            const Eigen::Vector3d c = detail::cross(a, b);
+            const double double_area = detail::length(c);
             if (double_area == 0.0) continue;
             double w = weight(a, b, double_area);
             weights += w;
-            if (sign == triangle_sign::to_viewpoint && c.dot(to_viewpoint) < 0.0) w = -w;
-            sum += (w / double_area) * c;  // Eq. (3.9)
+            if (sign == triangle_sign::to_viewpoint && detail::dot(c, to_viewpoint) < 0.0) w = -w;
+            sum = detail::combined(1.0, sum, w / double_area, c);  // Eq. (3.9)
         }
-        const double length = std::sqrt(sum.squaredNorm());
+        const double length = detail::length(sum);
         if (!std::isfinite(length)) {
             fit.trust = trust::not_finite;
             return fit;
@@ -80,7 +80,7 @@ struct averaging {
             fit.trust = trust::degenerate;
             return fit;
         }
-        fit.normal = sum / length;
+        fit.normal = detail::scaled(1.0 / length, sum);
         fit.trust = trust::good;
         return fit;
     }
@@ -102,14 +102,16 @@ struct area_weight {
 struct angle_weight {
     double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       double double_area) const {
-        return std::atan2(double_area, a.dot(b));  // acos would lose half the digits near 0 and pi
+        return std::atan2(double_area,
+                          detail::dot(a, b));  // acos would lose half the digits near 0 and pi
     }
 };
 
 /// The inverse squared distance [1/m^2] of the triangle's centroid. Chen and Wu 2004.
 struct centroid_weight {
     double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double) const {
-        return 9.0 / (a + b).squaredNorm();
+        const Eigen::Vector3d sum = detail::combined(1.0, a, 1.0, b);
+        return 9.0 / detail::dot(sum, sum);
     }
 };
 
@@ -118,7 +120,8 @@ struct centroid_weight {
 struct gravitational_weight {
     double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                       double double_area) const {
-        return 4.5 * double_area / (a + b).squaredNorm();
+        const Eigen::Vector3d sum = detail::combined(1.0, a, 1.0, b);
+        return 4.5 * double_area / detail::dot(sum, sum);
     }
 };
 

@@ -12,7 +12,8 @@
 /// Laws, checked in tests/laws/estimator_laws.hpp for every model: a usable normal has unit length,
 /// an unusable one is zero; the result does not depend on the order of the ring, nor on where cloud
 /// and view point lie or how large the cloud is, and turns with them up to its sign. A model that
-/// breaks one of these by its nature says so in a member `static constexpr sensitivity sensitive_to`.
+/// breaks one of these by its nature says so in a member `static constexpr sensitivity
+/// sensitive_to`.
 ///
 /// Models: `plane_svd`, `plane_pca`, `vector_svd`, `vector_pca`, `quad_svd`, `quad_trans_svd`,
 /// `area_weighted`, `angle_weighted`, `plane_ekf` of the thesis; `ray_ls` and others beyond it, see
@@ -36,7 +37,7 @@ class ring_view : public std::span<const Eigen::Vector3d> {
   public:
     using std::span<const Eigen::Vector3d>::span;
 
-    ring_view(std::span<const Eigen::Vector3d> positions, bool open)
+    explicit(false) ring_view(std::span<const Eigen::Vector3d> positions, bool open = false)
         : std::span<const Eigen::Vector3d>(positions), open_(open) {}
 
     /// Whether the fan of neighbors ends at a boundary: last and first are then no pair.
@@ -87,8 +88,8 @@ using estimator_result_t = std::remove_cvref_t<typename detail::result_of<E>::ty
 /// and thread-safe. The vector is a value, not an Eigen expression, which would refer to what is
 /// gone when e returns: let lambdas say `-> Eigen::Vector3d`.
 template <class E>
-concept estimator = (detail::takes_ring<E> || detail::takes_viewpoint<E>) &&
-                    (normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
+concept estimator = (detail::takes_ring<E> || detail::takes_viewpoint<E>)&&(
+    normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
 
 /// Is told from where the point was seen [m]: the origin where no view point is known.
 template <class E>
@@ -135,7 +136,7 @@ template <class E>
 
 /// The type that an estimator's results are kept in.
 template <estimator E>
-using estimate_t = std::conditional_t<normal_estimate<estimator_result_t<E>>, estimator_result_t<E>,
-                                      normal_fit>;
+using estimate_t =
+    std::conditional_t<normal_estimate<estimator_result_t<E>>, estimator_result_t<E>, normal_fit>;
 
 }  // namespace gnomon

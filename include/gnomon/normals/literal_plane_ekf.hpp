@@ -12,8 +12,8 @@
 #include <cstdint>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/trust.hpp>
@@ -27,21 +27,22 @@ namespace gnomon {
 /// with the normal x of any length.
 [[nodiscard]] inline double predicted_range(const Eigen::Vector3d& centroid,
                                             const Eigen::Vector3d& x, const Eigen::Vector3d& u) {
-    return centroid.dot(x) / u.dot(x);
+    return detail::dot(centroid, x) / detail::dot(u, x);
 }
 
 /// dh/dx of Eq. (3.18).
 [[nodiscard]] inline Eigen::Vector3d range_jacobian(const Eigen::Vector3d& centroid,
                                                     const Eigen::Vector3d& x,
                                                     const Eigen::Vector3d& u) {
-    const double ux = u.dot(x);
-    return (ux * centroid - centroid.dot(x) * u) / (ux * ux);
+    const double ux = detail::dot(u, x);
+    return detail::combined(1.0 / ux, centroid, -detail::dot(centroid, x) / (ux * ux), u);
 }
 
 /// Models `ray_estimator`. Needs two neighbors. O(passes k). The covariance is that of the
 /// algorithm, made one of the unit normal.
 struct literal_plane_ekf {
-    static constexpr auto sensitive_to = sensitivity::order | sensitivity::units | sensitivity::axes;
+    static constexpr auto sensitive_to =
+        sensitivity::order | sensitivity::units | sensitivity::axes;
 
     double sigma = 0.015;          ///< standard deviation of the range [m]
     int passes = 5;                ///< over all points
@@ -53,43 +54,45 @@ struct literal_plane_ekf {
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         detail::require_sigma(sigma);
+        using namespace detail;  // dot, scaled, ...
         normal_belief belief;
         if (ring.size() < 2) return belief;
 
         random_stream random(seed);
         Eigen::Vector3d x;  // line 1
         for (int a = 0; a < 3; ++a) x[a] = random.gaussian();
-        x /= x.norm();
-        Eigen::Matrix3d covariance = prior_variance * Eigen::Matrix3d::Identity();
+        x = scaled(1.0 / length(x), x);
+        Eigen::Matrix3d covariance;
+        covariance.setZero();
+        for (int a = 0; a < 3; ++a) covariance(a, a) = prior_variance;
         const moments m = moments_about(p, ring);
-        const Eigen::Vector3d centroid =
-            p - viewpoint + m.mean_with_point();  // line 2
+        const Eigen::Vector3d seen = difference(p, viewpoint);
+        const Eigen::Vector3d centroid = combined(1.0, seen, 1.0, m.mean_with_point());  // line 2
         const auto take_in = [&](const Eigen::Vector3d& q) {
-            const double range = q.norm();
-            const Eigen::Vector3d u = q / range;                            // line 4
-            const double h = predicted_range(centroid, x, u);               // line 5
+            const double range = length(q);
+            const Eigen::Vector3d u = scaled(1.0 / range, q);                 // line 4
+            const double h = predicted_range(centroid, x, u);                 // line 5
             const Eigen::Vector3d jacobian = range_jacobian(centroid, x, u);  // line 6
-            const Eigen::Vector3d ph = covariance * jacobian;
-            const Eigen::Vector3d gain = ph / (jacobian.dot(ph) + sigma * sigma);  // line 7
-            x += (range - h) * gain;                                               // line 8
-            covariance -= gain * ph.transpose();                                   // line 9
+            const Eigen::Vector3d ph = product(covariance, jacobian);
+            const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
+            x = combined(1.0, x, (range - h) * gain, ph);                   // line 8
+            add_outer(covariance, -gain, ph, ph);                           // line 9
         };
         for (int pass = 0; pass < passes; ++pass) {
-            take_in(p - viewpoint);
-            for (const Eigen::Vector3d& q : ring) take_in(q - viewpoint);
+            take_in(seen);
+            for (const Eigen::Vector3d& q : ring) take_in(difference(q, viewpoint));
         }
 
-        const double length = x.norm();
-        belief.trust = trust::not_finite;
-        if (!std::isfinite(length) || !covariance.allFinite()) return belief;
-        belief.trust = trust::degenerate;
-        if (length == 0.0) return belief;
-        belief.normal = x / length;
-        const detail::tangent_frame frame(belief.normal);
-        const Eigen::Vector3d c1 = covariance * frame.b1 / (length * length);
-        const Eigen::Vector3d c2 = covariance * frame.b2 / (length * length);
-        belief.covariance =
-            frame.in_space(frame.b1.dot(c1), frame.b1.dot(c2), frame.b2.dot(c2));
+        const double size = length(x);
+        double sum = size;
+        for (int i = 0; i < 9; ++i) sum += covariance.data()[i];
+        belief.trust = std::isfinite(sum) ? trust::degenerate : trust::not_finite;
+        if (!std::isfinite(sum) || size == 0.0) return belief;
+        belief.normal = scaled(1.0 / size, x);
+        const detail::tangent_basis frame(belief.normal);
+        const Eigen::Vector3d c1 = scaled(1.0 / (size * size), product(covariance, frame.b1));
+        const Eigen::Vector3d c2 = scaled(1.0 / (size * size), product(covariance, frame.b2));
+        belief.covariance = frame.in_space(dot(frame.b1, c1), dot(frame.b1, c2), dot(frame.b2, c2));
         belief.trust = trust::good;
         return belief;
     }

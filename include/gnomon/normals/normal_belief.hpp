@@ -10,8 +10,8 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -19,33 +19,40 @@ namespace gnomon {
 namespace detail {
 
 /// A unit normal and two orthonormal directions across it.
-struct tangent_frame {
+struct tangent_basis {
     Eigen::Vector3d normal, b1, b2;
 
-    explicit tangent_frame(const Eigen::Vector3d& n)
-        : normal(n), b1(n.unitOrthogonal()), b2(n.cross(b1)) {}
+    explicit tangent_basis(const Eigen::Vector3d& n)
+        : normal(n), b1(orthogonal(n)), b2(cross(n, b1)) {}
 
     /// The unit vector at the end of the rotation by (d1, d2) [rad]: the exponential on the sphere.
     [[nodiscard]] Eigen::Vector3d moved(double d1, double d2) const {
         const double angle = std::hypot(d1, d2);
         if (angle == 0.0) return normal;
         const double s = std::sin(angle) / angle;
-        return std::cos(angle) * normal + s * d1 * b1 + s * d2 * b2;
+        return combined(std::cos(angle), normal, s * d1, b1, s * d2, b2);
     }
 
     /// The turn (d1, d2, 0) [rad] from the normal to n or -n, whichever is nearer: the logarithm.
     [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& n) const {
-        const double along = n.dot(normal);
-        const double across = std::hypot(n.dot(b1), n.dot(b2));
+        const double along = dot(n, normal);
+        const double x = dot(n, b1);
+        const double y = dot(n, b2);
+        const double across = std::hypot(x, y);
         if (across == 0.0) return {0.0, 0.0, 0.0};
         const double s = std::copysign(std::atan2(across, std::abs(along)) / across, along);
-        return {s * n.dot(b1), s * n.dot(b2), 0.0};
+        return {s * x, s * y, 0.0};
     }
 
     /// The 3 x 3 covariance of a covariance in the coordinates (b1, b2).
     [[nodiscard]] Eigen::Matrix3d in_space(double p11, double p12, double p22) const {
-        return p11 * (b1 * b1.transpose()) + p12 * (b1 * b2.transpose() + b2 * b1.transpose()) +
-               p22 * (b2 * b2.transpose());
+        Eigen::Matrix3d p;
+        p.setZero();
+        add_outer(p, p11, b1, b1);
+        add_outer(p, p12, b1, b2);
+        add_outer(p, p12, b2, b1);
+        add_outer(p, p22, b2, b2);
+        return p;
     }
 };
 
@@ -86,14 +93,15 @@ using normal_belief = with_covariance_of<normal_fit>;
 template <normal_estimate Estimate>
 [[nodiscard]] double nees(const with_covariance_of<Estimate>& estimate,
                           const Eigen::Vector3d& truth) {
-    const detail::tangent_frame frame(estimate.normal);
+    const detail::tangent_basis frame(estimate.normal);
     const Eigen::Vector3d d = frame.towards(truth);
     const auto& [n, b1, b2] = frame;
-    const Eigen::Vector3d p1 = estimate.covariance * b1;
-    const double p11 = b1.dot(p1);
-    const double p12 = b2.dot(p1);
-    const double p22 = b2.dot(estimate.covariance * b2);
-    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) / (p11 * p22 - p12 * p12);
+    const Eigen::Vector3d p1 = detail::product(estimate.covariance, b1);
+    const double p11 = detail::dot(b1, p1);
+    const double p12 = detail::dot(b2, p1);
+    const double p22 = detail::dot(b2, detail::product(estimate.covariance, b2));
+    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) /
+           (p11 * p22 - p12 * p12);
 }
 
 }  // namespace gnomon

@@ -7,10 +7,9 @@
 /// iterative computations".
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/ray_regression.hpp>
 #include <gnomon/normals/detail/require_sigma.hpp>
@@ -20,8 +19,8 @@
 
 namespace gnomon {
 
-/// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal and
-/// trust it gives.
+/// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal
+/// and trust it gives.
 struct plane_eif {
     double sigma = 0.015;  ///< standard deviation of the range [m]
     ray_ls fit = {};
@@ -37,12 +36,12 @@ struct plane_eif {
         static_cast<ray_fit&>(belief) = fit.result_of(regression);
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of M's error across n turns n.
-        const detail::tangent_frame frame(belief.normal);
-        const Eigen::Matrix3d c =
-            regression.covariance(sigma) / regression.solution().squaredNorm();
-        const Eigen::Vector3d c1 = c * frame.b1;
-        const Eigen::Vector3d c2 = c * frame.b2;
-        belief.covariance = frame.in_space(frame.b1.dot(c1), frame.b1.dot(c2), frame.b2.dot(c2));
+        const detail::tangent_basis frame(belief.normal);
+        const auto& [n, b1, b2] = frame;
+        const double scaled_sigma = sigma / detail::length(regression.solution());
+        belief.covariance = frame.in_space(regression.covariance(scaled_sigma, b1, b1),
+                                           regression.covariance(scaled_sigma, b1, b2),
+                                           regression.covariance(scaled_sigma, b2, b2));
         return belief;
     }
 };

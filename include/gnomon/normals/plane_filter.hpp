@@ -7,9 +7,9 @@
 /// The state is a unit vector and the plane's distance from the neighborhood's centroid, three
 /// degrees of freedom, so that neither the length of the normal nor the error of the centroid
 /// distorts the covariance, as they do in the thesis's recipe (`literal_plane_ekf`). It starts with
-/// PlanePCA and a prior that says nothing. A measurement counts once: to gain accuracy the update is
-/// iterated, each time from the prior and about the better state (Gauss and Newton's method for the
-/// extended filter: Bell and Cathey 1993; posterior linearization for the unscented one:
+/// PlanePCA and a prior that says nothing. A measurement counts once: to gain accuracy the update
+/// is iterated, each time from the prior and about the better state (Gauss and Newton's method for
+/// the extended filter: Bell and Cathey 1993; posterior linearization for the unscented one:
 /// Garcia-Fernandez et al. 2015).
 ///
 /// Klasing 2010, Sec. 3.2.7, Eqs. (3.14)-(3.18), which names the unscented filter as an extension.
@@ -20,8 +20,8 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
@@ -36,18 +36,18 @@ namespace gnomon {
 /// A plane near an anchor point, with the covariance of its three degrees of freedom: turns towards
 /// the two tangents [rad] and the distance along the normal [m].
 struct plane_state {
-    detail::tangent_frame frame{Eigen::Vector3d::UnitZ()};
+    detail::tangent_basis frame{Eigen::Vector3d(0.0, 0.0, 1.0)};
     double distance = 0.0;  ///< of the plane from the anchor [m]
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
 
     /// The state at `delta` from this one, without a covariance.
     [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
-        return {detail::tangent_frame(frame.moved(delta[0], delta[1])), distance + delta[2]};
+        return {detail::tangent_basis(frame.moved(delta[0], delta[1])), distance + delta[2]};
     }
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
     [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
-        return (anchor.dot(frame.normal) + distance) / u.dot(frame.normal);
+        return (detail::dot(anchor, frame.normal) + distance) / detail::dot(u, frame.normal);
     }
 };
 
@@ -67,9 +67,11 @@ class by_derivative {
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
         const double h = state_.range(anchor_, u);
-        const double un = u.dot(state_.frame.normal);
-        const Eigen::Vector3d gradient = (anchor_ - h * u) / un;
-        return {h, {gradient.dot(state_.frame.b1), gradient.dot(state_.frame.b2), 1.0 / un}};
+        const double un = detail::dot(u, state_.frame.normal);
+        const Eigen::Vector3d gradient = detail::combined(1.0 / un, anchor_, -h / un, u);
+        return {h,
+                {detail::dot(gradient, state_.frame.b1), detail::dot(gradient, state_.frame.b2),
+                 1.0 / un}};
     }
 
   private:
@@ -84,15 +86,15 @@ class by_sigma_points {
     by_sigma_points(const plane_state& state, const Eigen::Vector3d& anchor)
         : anchor_(anchor), spread_(symmetric_eigen(state.covariance)) {
         for (int j = 0; j < 3; ++j) {
-            const Eigen::Vector3d step = offset(j) * spread_.vectors.col(j);
-            plus_[j] = state.moved(step);
-            minus_[j] = state.moved(-step);
+            const Eigen::Vector3d axis = detail::column(spread_.vectors, j);
+            plus_[j] = state.moved(detail::scaled(offset(j), axis));
+            minus_[j] = state.moved(detail::scaled(-offset(j), axis));
         }
     }
 
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
-        linear_range z{0.0, Eigen::Vector3d::Zero()};
+        linear_range z{0.0, {0.0, 0.0, 0.0}};
         double squares = 0.0;
         double explained = 0.0;
         for (int j = 0; j < 3; ++j) {
@@ -100,7 +102,7 @@ class by_sigma_points {
             const double minus = minus_[j].range(anchor_, u);
             const double slope = (plus - minus) / (2.0 * offset(j));
             z.value += (plus + minus) / 6.0;
-            z.slope += slope * spread_.vectors.col(j);
+            z.slope = detail::combined(1.0, z.slope, slope, detail::column(spread_.vectors, j));
             squares += (plus * plus + minus * minus) / 6.0;
             explained += slope * slope * spread_.values[j];
         }
@@ -112,7 +114,7 @@ class by_sigma_points {
     [[nodiscard]] double offset(int j) const { return std::sqrt(3.0 * spread_.values[j]); }
 
     const Eigen::Vector3d& anchor_;
-    eigen_decomposition<> spread_;
+    eigen_decomposition spread_;
     std::array<plane_state, 3> plus_;
     std::array<plane_state, 3> minus_;
 };
@@ -125,8 +127,8 @@ template <class Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
-    double sigma = 0.015;     ///< standard deviation of the range [m]
-    int max_iterations = 10;  ///< of the update; three or four are usual
+    double sigma = 0.015;         ///< standard deviation of the range [m]
+    int max_iterations = 10;      ///< of the update; three or four are usual
     double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]
     double prior_distance = 1.0;  ///< and of the prior distance [m]; both say nothing
 
@@ -144,7 +146,7 @@ struct plane_filter {
         // Everything as seen from the view point.
         const Eigen::Vector3d x = p - viewpoint;
         const Eigen::Vector3d anchor = x + m.mean_with_point();
-        const plane_state prior{detail::tangent_frame(belief.normal)};
+        const plane_state prior{detail::tangent_basis(belief.normal)};
         plane_state state = prior;
         // No covariance yet: sigma points this near to each other give the derivative.
         state.covariance.diagonal() << 1e-8, 1e-8, 1e-4 * sigma * sigma;

@@ -31,8 +31,7 @@ inline constexpr double smallest_gap = 1e-12;
 
 /// The plane across the direction of least spread, from the eigenvectors of a neighborhood's second
 /// moments [m^2]: degenerate where that is not determined, weak under the given aspect ratio.
-[[nodiscard]] inline plane_fit plane_across(const eigen_decomposition<>& e,
-                                            double min_aspect_ratio) {
+[[nodiscard]] inline plane_fit plane_across(const eigen_decomposition& e, double min_aspect_ratio) {
     plane_fit fit;
     fit.spectrum = gnomon::spectrum(e.values);
     if (e.values[1] - e.values[2] <= smallest_gap * e.values[0]) {

@@ -10,9 +10,11 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/small_svd.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
@@ -45,26 +47,26 @@ struct quad_svd {
             const double x = scale * (q.x() - origin.x());
             const double y = scale * (q.y() - origin.y());
             const double z = scale * (q.z() - origin.z());
-            Eigen::Matrix<double, 10, 1> row;
-            row << x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, 1.0;
-            rows.add(row);
+            rows.add({x * x, y * y, z * z, x * y, x * z, y * z, x, y, z, 1.0});
         }
         double sum = 0.0;
-        for (int i = 0; i < 100; ++i) sum += rows.matrix().data()[i];
+        for (const auto& row : rows.matrix()) {
+            for (const double entry : row) sum += entry;
+        }
         if (!std::isfinite(sum)) {
             fit.trust = trust::not_finite;
             return fit;
         }
         const auto svd = small_svd<10>(rows.matrix());
 
-        const auto c = [&svd](int i) { return svd.right(i, 9); };
+        const auto c = [&svd](std::size_t i) { return svd.right[i][9]; };
         const double x = scale * (p.x() - origin.x());
         const double y = scale * (p.y() - origin.y());
         const double z = scale * (p.z() - origin.z());
         const Eigen::Vector3d gradient(2 * c(0) * x + c(3) * y + c(4) * z + c(6),
                                        2 * c(1) * y + c(3) * x + c(5) * z + c(7),
                                        2 * c(2) * z + c(4) * x + c(5) * y + c(8));
-        const double length = gradient.norm();
+        const double length = detail::length(gradient);
         constexpr double negligible = 1e-12;
         if (svd.values[8] - svd.values[9] <= negligible * svd.values[0] ||
             length <= negligible * (1.0 + std::abs(x) + std::abs(y) + std::abs(z))) {
@@ -73,7 +75,7 @@ struct quad_svd {
             fit.trust = usable(plane.trust) ? trust::weak : plane.trust;
             return fit;
         }
-        fit.normal = gradient / length;
+        fit.normal = detail::scaled(1.0 / length, gradient);
         fit.trust = trust::good;
         return fit;
     }

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/small_svd.hpp>
@@ -42,24 +43,23 @@ struct quad_trans_svd {
         plane_fit fit;
         fit.trust = trust::not_finite;
         if (!detail::has_finite_trace(second_moments)) return fit;
-        const eigen_decomposition<> e = symmetric_eigen(second_moments);  // VectorSVD
+        const eigen_decomposition e = symmetric_eigen(second_moments);  // VectorSVD
         fit = detail::plane_across(e, min_aspect_ratio);
         if (!usable(fit.trust)) return fit;
-        const Eigen::Matrix3d& frame = e.vectors;
+        const Eigen::Vector3d e1 = detail::column(e.vectors, 0);
+        const Eigen::Vector3d e2 = detail::column(e.vectors, 1);
+        const Eigen::Vector3d e3 = detail::column(e.vectors, 2);
 
         row_triangle<7> rows;  // the unknowns' six columns, and the heights
         for (const Eigen::Vector3d& q : ring) {
-            const Eigen::Vector3d d = q - p;
-            const double x = d.dot(frame.col(0));
-            const double y = d.dot(frame.col(1));
-            const double z = d.dot(frame.col(2));
-            Eigen::Matrix<double, 7, 1> row;
-            row << x * x, y * y, x * y, x, y, 1.0, z;
-            rows.add(row);
+            const Eigen::Vector3d d = detail::difference(q, p);
+            const double x = detail::dot(d, e1);
+            const double y = detail::dot(d, e2);
+            rows.add({x * x, y * y, x * y, x, y, 1.0, detail::dot(d, e3)});
         }
-        Eigen::Matrix<double, 6, 6> r;
+        square_array<6> r;
         for (int j = 0; j < 6; ++j) {
-            for (int i = 0; i < 6; ++i) r(i, j) = rows.matrix()(i, j);
+            for (int i = 0; i < 6; ++i) r[i][j] = rows.matrix()[i][j];
         }
         const auto svd = small_svd<6>(r);
         constexpr double negligible = 1e-12;
@@ -71,13 +71,13 @@ struct quad_trans_svd {
         double c5 = 0.0;
         for (int j = 0; j < rank && svd.values[j] > negligible * svd.values[0]; ++j) {
             double projection = 0.0;  // <u_j, z> s_j
-            for (int i = 0; i < 6; ++i) projection += svd.scaled_left(i, j) * rows.matrix()(i, 6);
+            for (int i = 0; i < 6; ++i) projection += svd.scaled_left[i][j] * rows.matrix()[i][6];
             const double share = projection / (svd.values[j] * svd.values[j]);
-            c4 += share * svd.right(3, j);
-            c5 += share * svd.right(4, j);
+            c4 += share * svd.right[3][j];
+            c5 += share * svd.right[4][j];
         }
-        const Eigen::Vector3d n = frame.col(2) - c4 * frame.col(0) - c5 * frame.col(1);
-        fit.normal = n / n.norm();
+        const Eigen::Vector3d n = detail::combined(1.0, e3, -c4, e1, -c5, e2);
+        fit.normal = detail::scaled(1.0 / detail::length(n), n);
         return fit;
     }
 };

@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// RayLS: a range finder errs along its rays, so fit the plane to what it measured. A plane n . x =
-/// d is seen along the unit ray u at the range r with 1/r = m . u, m = n/d: linear in m. Weighted by
-/// r^4, the variance of 1/r, least squares is the maximum likelihood fit of first order, and it
+/// d is seen along the unit ray u at the range r with 1/r = m . u, m = n/d: linear in m. Weighted
+/// by r^4, the variance of 1/r, least squares is the maximum likelihood fit of first order, and it
 /// takes no eigenvalues: a regression on two coordinates.
 ///
 /// Beyond the thesis. The inverse range is the idea of Badino et al., Fast and Accurate Computation
 /// of Surface Normals from Range Images, ICRA 2011; here on any neighborhood in space.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/ray_regression.hpp>
 #include <gnomon/normals/estimator.hpp>
@@ -46,8 +45,8 @@ struct ray_ls {
     /// The two steps of it, for those who want to know more of the regression.
     [[nodiscard]] detail::ray_regression regression(const Eigen::Vector3d& p, ring_view ring,
                                                     const Eigen::Vector3d& viewpoint) const {
-        detail::ray_regression r(p - viewpoint);
-        for (const Eigen::Vector3d& q : ring) r.add(q - p);
+        detail::ray_regression r(detail::difference(p, viewpoint));
+        for (const Eigen::Vector3d& q : ring) r.add(detail::difference(q, p));
         r.solve();
         return r;
     }
@@ -56,8 +55,8 @@ struct ray_ls {
         fit.trust = r.status();
         if (!usable(fit.trust)) return fit;
         const Eigen::Vector3d m = r.solution();
-        const double length = std::sqrt(m.squaredNorm());
-        fit.normal = m / length;
+        const double length = detail::length(m);
+        fit.normal = detail::scaled(1.0 / length, m);
         fit.distance = r.range() / length;
         fit.ray_aspect_ratio = r.aspect_ratio();
         fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;

@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -19,8 +20,8 @@
 
 namespace gnomon {
 
-/// Models `estimator`. Needs two neighbors. O(iterations k). Trust as for `plane_pca`, of the points
-/// with their final weights.
+/// Models `estimator`. Needs two neighbors. O(iterations k). Trust as for `plane_pca`, of the
+/// points with their final weights.
 struct robust_pca {
     int iterations = 6;
     /// Points this many standard deviations from the plane have lost 40 % of their weight. The
@@ -39,11 +40,11 @@ struct robust_pca {
             const double precision = 0.5 / (cutoff * cutoff * variance);
             weighted_moments m;
             const auto add = [&](const Eigen::Vector3d& d) {
-                const double r = fit.normal.dot(d - center);
+                const double r = detail::dot(fit.normal, detail::difference(d, center));
                 m.add(d, std::exp(-precision * r * r));
             };
             add({0.0, 0.0, 0.0});
-            for (const Eigen::Vector3d& q : ring) add(q - p);
+            for (const Eigen::Vector3d& q : ring) add(detail::difference(q, p));
             const plane_fit next = detail::plane_of_least_spread(m.covariance(), min_aspect_ratio);
             if (!usable(next.trust)) break;
             fit = next;

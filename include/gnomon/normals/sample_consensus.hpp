@@ -14,8 +14,8 @@
 #include <numbers>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/random.hpp>
@@ -41,7 +41,7 @@ struct count_outliers {
 /// MLESAC: minus the logarithm of the likelihood of inliers, normally distributed, and outliers,
 /// anywhere within `reach`, in the proportion that fits best.
 struct mixture_likelihood {
-    double reach = 40.0;  ///< the width over which outliers are spread [sigma]
+    double reach = 40.0;   ///< the width over which outliers are spread [sigma]
     int mixing_steps = 3;  ///< of expectation and maximization, for the proportion
 
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
@@ -62,9 +62,7 @@ struct mixture_likelihood {
             share = expected / n;
         }
         double cost = 0.0;
-        distances([&](double d) {
-            cost -= std::log(share * inlier(d) + (1.0 - share) * outlier);
-        });
+        distances([&](double d) { cost -= std::log(share * inlier(d) + (1.0 - share) * outlier); });
         return cost;
     }
 };
@@ -88,7 +86,7 @@ struct sample_consensus {
         if (ring.size() < 3) return {};
         const std::size_t n = ring.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {
-            return j == 0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : Eigen::Vector3d(ring[j - 1] - p);
+            return j == 0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : detail::difference(ring[j - 1], p);
         };
 
         random_stream random(seed);
@@ -98,10 +96,12 @@ struct sample_consensus {
             const Eigen::Vector3d a = offset(random.bits() % n);
             const Eigen::Vector3d b = offset(random.bits() % n);
             const Eigen::Vector3d c = offset(random.bits() % n);
-            const Eigen::Vector3d normal = (b - a).cross(c - a);
-            const double length = std::sqrt(normal.squaredNorm());
+            const Eigen::Vector3d normal =
+                detail::cross(detail::difference(b, a), detail::difference(c, a));
+            const double length = detail::length(normal);
             if (!(length > 0.0) || !std::isfinite(length)) continue;  // a line: no plane
-            const plane candidate{normal / length, a.dot(normal) / length};
+            const plane candidate{detail::scaled(1.0 / length, normal),
+                                  detail::dot(a, normal) / length};
             const double value = cost(sigma, [&](auto&& visit) {
                 for (std::size_t j = 0; j < n; ++j) visit(candidate.signed_distance(offset(j)));
             });

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
@@ -35,8 +36,8 @@ struct weighted_pca {
         weighted_moments m;
         m.add({0.0, 0.0, 0.0}, 1.0);
         for (const Eigen::Vector3d& q : ring) {
-            const Eigen::Vector3d d = q - p;
-            m.add(d, farthest2 > 0.0 ? std::exp(half_precision * d.squaredNorm()) : 1.0);
+            const Eigen::Vector3d d = detail::difference(q, p);
+            m.add(d, farthest2 > 0.0 ? std::exp(half_precision * detail::dot(d, d)) : 1.0);
         }
         return detail::plane_of_least_spread(m.covariance(), min_aspect_ratio);
     }

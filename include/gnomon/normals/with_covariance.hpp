@@ -47,7 +47,7 @@ struct with_covariance {
         }
         if (!usable(belief.trust)) return belief;
 
-        const detail::tangent_frame frame(belief.normal);
+        const detail::tangent_basis frame(belief.normal);
         const auto& [n, b1, b2] = frame;
         const moments m = moments_about(p, ring);
         const Eigen::Matrix3d spread = m.covariance_with_point();

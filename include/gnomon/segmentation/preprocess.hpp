@@ -122,7 +122,7 @@ template <class R, class Proj = std::identity>
             distances.push_back(d);
         }
         if (m.count < 3) return std::nullopt;
-        const eigen_decomposition<> e = symmetric_eigen(m.covariance_of_neighbors());
+        const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
         plane next{e.vectors.col(2), 0.0};

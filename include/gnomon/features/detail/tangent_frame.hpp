@@ -16,6 +16,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon::detail {
 
@@ -135,7 +136,6 @@ struct tangent_frame {
                                w * xy - (w * sum_x) * (w * sum_y),
                                w * yy - (w * sum_y) * (w * sum_y));
         // On one line, up to the same gap as in plane_pca.
-        constexpr double smallest_gap = 1e-12;
         if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
         aspect_ratio = std::sqrt(spread.smaller / spread.larger);
 

@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
@@ -28,7 +29,7 @@ class tangent_plane {
         : origin_(p) {
         double largest = 0.0;
         for (const neighbor& q : ring) {
-            const Eigen::Vector3d d = points[q.index] - p;
+            const Eigen::Vector3d d = difference(points[q.index], p);
             for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(d[a]));
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
@@ -38,8 +39,10 @@ class tangent_plane {
         std::frexp(largest, &exponent);
         scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
         moments m;
-        for (const neighbor& q : ring) m.add(scale_ * (points[q.index] - p));
-        axes_ = symmetric_eigen(m.covariance_with_point()).vectors;
+        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
+        const Eigen::Matrix3d axes = symmetric_eigen(m.covariance_with_point()).vectors;
+        x_axis_ = column(axes, 0);
+        y_axis_ = column(axes, 1);
     }
 
     /// False where all points are one place, or too far apart for numbers.
@@ -48,11 +51,11 @@ class tangent_plane {
     /// The projection of point q, scaled. What is directly above or below the origin is at the
     /// origin, whatever rounding says.
     [[nodiscard]] planar_point project(const Eigen::Vector3d& q, point_index index) const {
-        const Eigen::Vector3d d = scale_ * (q - origin_);
-        const double x = d.dot(axes_.col(0));
-        const double y = d.dot(axes_.col(1));
+        const Eigen::Vector3d d = scaled(scale_, difference(q, origin_));
+        const double x = dot(d, x_axis_);
+        const double y = dot(d, y_axis_);
         constexpr double rounding = 1e-14;
-        if (!(std::abs(x) + std::abs(y) > rounding * d.norm())) return {0.0, 0.0, index};
+        if (!(std::abs(x) + std::abs(y) > rounding * length(d))) return {0.0, 0.0, index};
         return {x, y, index};
     }
 
@@ -63,7 +66,8 @@ class tangent_plane {
 
   private:
     Eigen::Vector3d origin_;
-    Eigen::Matrix3d axes_ = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d x_axis_;
+    Eigen::Vector3d y_axis_;
     double scale_ = 1.0;
     bool exists_ = false;
 };

@@ -4,11 +4,12 @@
 /// tangents of the rays that see it.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include <Eigen/Core>
-#include <Eigen/Geometry>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 
 namespace gnomon::detail {
@@ -21,22 +22,22 @@ namespace gnomon::detail {
 class ray_regression {
   public:
     /// The point at x [m] from the view point.
-    explicit ray_regression(const Eigen::Vector3d& x) : range_(std::sqrt(x.squaredNorm())) {
+    explicit ray_regression(const Eigen::Vector3d& x) : range_(length(x)) {
         status_ = std::isfinite(range_) ? trust::good : trust::not_finite;
         if (range_ == 0.0) status_ = trust::degenerate;
         if (!usable(status_)) return;
-        e3_ = x / range_;
-        e1_ = e3_.unitOrthogonal();
-        e2_ = e3_.cross(e1_);
+        e3_ = scaled(1.0 / range_, x);
+        e1_ = orthogonal(e3_);
+        e2_ = cross(e3_, e1_);
     }
 
     /// A neighbor at the offset d [m] from the point.
     void add(const Eigen::Vector3d& d) {
-        const double depth = 1.0 + d.dot(e3_) / range_;
+        const double depth = 1.0 + dot(d, e3_) / range_;
         if (usable(status_) && !(depth > 0.0))  // beside or behind the view point
             status_ = std::isnan(depth) ? trust::not_finite : trust::degenerate;
-        const double xi = d.dot(e1_) / (range_ * depth);
-        const double eta = d.dot(e2_) / (range_ * depth);
+        const double xi = dot(d, e1_) / (range_ * depth);
+        const double eta = dot(d, e2_) / (range_ * depth);
         const double y = 1.0 / depth - 1.0;
         // The error sigma of the range r makes one of sigma / (range sqrt(w)) in y.
         const double w = depth * depth * depth * depth * (1.0 + xi * xi + eta * eta);
@@ -91,23 +92,23 @@ class ray_regression {
 
     /// M in the coordinates of the cloud. After solve().
     [[nodiscard]] Eigen::Vector3d solution() const {
-        return m_[0] * e1_ + m_[1] * e2_ + m_[2] * e3_;
+        return combined(m_[0], e1_, m_[1], e2_, m_[2], e3_);
     }
 
-    /// The covariance of M for ranges with standard deviation sigma [m]. After solve().
-    [[nodiscard]] Eigen::Matrix3d covariance(double sigma) const {
-        // Of the slopes s^2 [aa ab; ab bb], of the mean s^2 / w, which are independent; M3 is the
-        // mean less the slopes times the mean tangents.
-        const double x = -xi_ / w_;
-        const double e = -eta_ / w_;
-        const double ax = aa_ * x + ab_ * e;
-        const double bx = ab_ * x + bb_ * e;
-        Eigen::Matrix3d c;
-        c << aa_, ab_, ax, ab_, bb_, bx, ax, bx, 1.0 / w_ + ax * x + bx * e;
-        Eigen::Matrix3d frame;
-        frame << e1_, e2_, e3_;
+    /// The covariance of a . M and b . M for ranges with standard deviation sigma [m]. After
+    /// solve().
+    [[nodiscard]] double covariance(double sigma, const Eigen::Vector3d& a,
+                                    const Eigen::Vector3d& b) const {
+        // The slopes have the covariance s^2 [aa ab; ab bb], the mean s^2 / w, independent of them;
+        // M3 is the mean less the slopes times the mean tangents.
+        const auto slopes = [this](const Eigen::Vector3d& c) {
+            const double along = dot(c, e3_) / w_;
+            return std::array{dot(c, e1_) - along * xi_, dot(c, e2_) - along * eta_, along};
+        };
+        const auto [a1, a2, a3] = slopes(a);
+        const auto [b1, b2, b3] = slopes(b);
         const double s = sigma / range_;
-        return s * s * (frame * c * frame.transpose());
+        return s * s * (a1 * (aa_ * b1 + ab_ * b2) + a2 * (ab_ * b1 + bb_ * b2) + a3 * b3 * w_);
     }
 
   private:

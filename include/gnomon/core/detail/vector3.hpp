@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The few operations on 3-vectors and 3x3 matrices that inline functions need, spelt out. As Eigen
+/// expressions, each new combination costs everybody who includes it some 50 ms of compile time.
+#pragma once
+
+#include <cmath>
+
+#include <Eigen/Core>
+
+namespace gnomon::detail {
+
+[[nodiscard]] inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+[[nodiscard]] inline double length(const Eigen::Vector3d& a) { return std::sqrt(dot(a, a)); }
+
+[[nodiscard]] inline Eigen::Vector3d difference(const Eigen::Vector3d& a,
+                                                const Eigen::Vector3d& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+[[nodiscard]] inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// s a
+[[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+
+/// s a + t b
+[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
+                                              const Eigen::Vector3d& b) {
+    return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
+}
+
+/// s a + t b + u c
+[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
+                                              const Eigen::Vector3d& b, double u,
+                                              const Eigen::Vector3d& c) {
+    return combined(1.0, combined(s, a, t, b), u, c);
+}
+
+/// M a
+[[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
+    Eigen::Vector3d r;
+    for (int i = 0; i < 3; ++i) r[i] = m(i, 0) * a[0] + m(i, 1) * a[1] + m(i, 2) * a[2];
+    return r;
+}
+
+/// Column j of M.
+[[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
+    return {m(0, j), m(1, j), m(2, j)};
+}
+
+/// M += s a b^T
+inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b) {
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) m(i, j) += s * a[i] * b[j];
+    }
+}
+
+/// A unit vector orthogonal to the unit vector n.
+[[nodiscard]] inline Eigen::Vector3d orthogonal(const Eigen::Vector3d& n) {
+    // The coordinate axis farthest from n, less its part along n.
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+        if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
+    }
+    Eigen::Vector3d e(-n[axis] * n[0], -n[axis] * n[1], -n[axis] * n[2]);
+    e[axis] += 1.0;
+    return scaled(1.0 / length(e), e);
+}
+
+}  // namespace gnomon::detail
