@@ -70,7 +70,7 @@ TEST(box_and_cylinder, refuses_impossible_scenes) {
     for (const auto& bad :
          {box_and_cylinder{.sigma = -1}, box_and_cylinder{.sigma = clouds::nan},
           box_and_cylinder{.scale = 0.01}, box_and_cylinder{.scale = clouds::infinity},
-          box_and_cylinder{.points = 0}}) {
+          box_and_cylinder{.points = 0}, box_and_cylinder{.scale = 0.1, .points = 10'000'000}}) {
         EXPECT_THROW((void)gnomon::simulate(bad), std::invalid_argument);
     }
 }

@@ -50,6 +50,9 @@ TEST(scene, refuses_what_cannot_be) {
     gnomon::pose skewed;
     skewed.rotation(0, 1) = 0.5;
     EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, skewed), std::invalid_argument);
+    gnomon::pose mirrored;
+    mirrored.rotation(0, 0) = -1.0;
+    EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, mirrored), std::invalid_argument);
     EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, gnomon::at(clouds::nan, 0, 0)),
                  std::invalid_argument);
     EXPECT_TRUE(world.shapes().empty());

@@ -181,6 +181,53 @@ TEST(simulate, refuses_what_cannot_be) {
     EXPECT_THROW((void)scanning(1e7, {}, {}), std::invalid_argument);
     EXPECT_THROW((void)scanning(1, {.frequency = -1}, {}), std::invalid_argument);
     EXPECT_THROW((void)scanning(1, {}, {.sigma = -1}), std::invalid_argument);
+    EXPECT_THROW((void)scanning(1, {.resolution = gnomon::radians(1e-300)}, {}),
+                 std::invalid_argument);
+}
+
+/// A sensor that is no rigid motion would give NaN, or ranges of another unit.
+TEST(simulate, refuses_poses_that_are_none) {
+    gnomon::pose doubled;
+    doubled.rotation *= 2.0;
+    gnomon::pose mirrored;
+    mirrored.rotation(1, 1) = -1.0;
+    const gnomon::scanner finder = gnomon::densities::low();
+    for (const gnomon::pose& bad : {doubled, mirrored, gnomon::at(clouds::nan, 0, 0)}) {
+        EXPECT_THROW((void)gnomon::simulate(kitchen, gnomon::fixed{.mount = bad}, finder),
+                     std::invalid_argument);
+    }
+    EXPECT_THROW(
+        (void)gnomon::simulate(kitchen, gnomon::horizontal{.sweep = degrees(clouds::nan)}, finder),
+        std::invalid_argument);
+}
+
+TEST(simulate, refuses_the_caster_of_another_scene) {
+    const gnomon::bvh_caster caster(kitchen);
+    EXPECT_THROW((void)gnomon::simulate(gnomon::scene(), caster, around, gnomon::densities::low()),
+                 std::invalid_argument);
+}
+
+/// What meets nothing costs nothing: a sky full of rays, and a few that hit.
+TEST(simulate, keeps_what_became_a_point_only) {
+    const gnomon::scene world = gnomon::scenes::plate(5);
+    const gnomon::bvh_caster caster(world);
+    const gnomon::scanner finder = gnomon::densities::low();
+    const gnomon::horizontal scan;
+    const auto ray_of = [&](std::size_t i) {
+        const auto sensor = scan((static_cast<double>(i / 180) + 0.5) / 10.0);
+        return gnomon::ray{sensor.position, sensor.direction_out(finder.direction(i % 180))};
+    };
+    const gnomon::detail::instrument<gnomon::bvh_caster> read(caster, {}, 0.1, 30.0);
+    std::size_t kept = 0;
+    std::size_t room = 0;
+    for (const auto& chunk :
+         gnomon::detail::read_rays(read, {}, 7'200, ray_of, gnomon::sequential{})) {
+        kept += chunk.size();
+        room += chunk.capacity();
+    }
+    EXPECT_EQ(kept, gnomon::simulate(world, scan, finder).scan.size());
+    EXPECT_GT(kept, 20u);
+    EXPECT_LE(room, 2 * kept);
 }
 
 }  // namespace
