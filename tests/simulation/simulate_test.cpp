@@ -49,6 +49,24 @@ TEST(simulate, tells_the_truth_about_each_point) {
     }
 }
 
+/// Also of a wide beam that meets the floor at a grazing angle.
+TEST(simulate, tells_the_truth_of_wide_beams) {
+    gnomon::scene world;
+    world.add(world.add_part(world.add_object("floor"), "floor"), gnomon::plane_patch{60, 60});
+    const gnomon::vertical scan{.mount = gnomon::at(0, 0, 1)};
+    gnomon::scanner finder = gnomon::densities::low();
+    finder.max_range = 15.0;  // farther away the floor is more than one echo
+    const auto truth = gnomon::simulate(
+        world, scan, finder, {.footprint = {.waist = 0.002, .divergence = gnomon::radians(0.004)}});
+    ASSERT_GT(truth.scan.size(), 1000u);
+    for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+        const Eigen::Vector3d p = truth.scan.viewpoints[i] + truth.ranges[i] * truth.directions[i];
+        if (truth.ranges[i] < 12.0) {
+            EXPECT_NEAR(p.z(), 0.0, 1e-9);
+        }
+    }
+}
+
 TEST(simulate, scatters_along_the_rays_only) {
     for (const double sigma : {0.015, 0.030}) {
         const auto noisy = gnomon::simulate(kitchen, around, {}, {.sigma = sigma, .seed = 7});

@@ -19,6 +19,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/detail/instrument.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
