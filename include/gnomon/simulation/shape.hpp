@@ -9,8 +9,9 @@
 /// Laws, checked in tests/laws/shape_laws.hpp for every model: the hit lies on the ray within its
 /// reach and in the bounds; the normal has unit length and faces the ray's origin; the number of
 /// the surface is below the number of names; a shorter reach changes nothing but to hide hits
-/// beyond it; a ray that starts behind the hit sees what follows; a ray of no direction, or with
-/// NaN, meets nothing.
+/// beyond it; a ray that starts behind the hit sees what follows, from wherever it starts on the
+/// way there, and nothing is seen from the other end that is not seen from within; a ray of no
+/// direction, or with NaN, meets nothing.
 ///
 /// Models: `box`, `plane_patch`, `cylinder`, `cone`, `sphere`, `surface_of_revolution`,
 /// `triangle_mesh`.
