@@ -59,8 +59,9 @@ struct room_options {
         add(alone, model, {});
         double radius = 0.0;
         for (const placed_shape& s : alone.shapes()) {
-            for (const Eigen::Vector3d& corner : {s.extent.low, s.extent.high})
-                radius = std::max(radius, std::hypot(corner.x(), corner.y()));
+            const auto& [low, high] = s.extent;
+            radius = std::max(
+                radius, std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
         }
         for (int trial = 0; trial < 100; ++trial) {
             const circle place{random.uniform(radius, length - radius),

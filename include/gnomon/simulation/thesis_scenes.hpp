@@ -100,7 +100,7 @@ inline void add_room(scene& world, const block_span& b) {
 }
 
 /// Fig. 3.9: a plate of 30 x 30 cm, anywhere in a space of 2 x 2 x 1 m before the sensor and turned
-/// in any way that shows it its face by 5 degrees at least.
+/// by any yaw and pitch, of equal chance each, that show it its face by 5 degrees at least.
 [[nodiscard]] inline scene plate(std::uint64_t seed) {
     random_stream random(seed);
     while (true) {

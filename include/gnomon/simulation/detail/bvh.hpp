@@ -47,7 +47,7 @@ class bvh {
   public:
     bvh() = default;
 
-    /// O(n log n). Precondition: all boxes are finite.
+    /// O(n log n). Precondition: all boxes are finite, and fewer than 2^31.
     explicit bvh(const std::vector<bounds>& boxes) : items_(boxes.size()) {
         std::iota(items_.begin(), items_.end(), std::uint32_t{0});
         if (boxes.empty()) return;
@@ -71,11 +71,11 @@ class bvh {
                 if (n.items > 0) {
                     for (std::uint32_t i = 0; i < n.items; ++i) visit(items_[n.first + i]);
                 } else {
-                    pending near{s.entry(nodes_[n.first].box, r.reach), n.first};
-                    pending far{s.entry(nodes_[n.first + 1].box, r.reach), n.first + 1};
-                    if (far.entry < near.entry) std::swap(near, far);
-                    if (far.entry <= r.reach) stack[height++] = far;
-                    next = near;
+                    pending nearer{s.entry(nodes_[n.first].box, r.reach), n.first};
+                    pending farther{s.entry(nodes_[n.first + 1].box, r.reach), n.first + 1};
+                    if (farther.entry < nearer.entry) std::swap(nearer, farther);
+                    if (farther.entry <= r.reach) stack[height++] = farther;
+                    next = nearer;
                     continue;
                 }
             }
