@@ -82,7 +82,7 @@ TEST(assimp_scene, reads_collada_in_metres_and_its_own_axes) {
 </mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
-    const auto extent = laws::extent_of(gnomon::read_scene(path));
+    const auto extent = gnomon::read_scene(path).extent();
     EXPECT_LT((extent.low - Eigen::Vector3d(0, 0, 0.05)).norm(), 1e-6);
     EXPECT_LT((extent.high - Eigen::Vector3d(1, 2, 0.05)).norm(), 1e-6);
 }
@@ -120,7 +120,7 @@ TEST(assimp_scene, every_piece_of_furniture_can_be_scanned) {
             const auto world =
                 gnomon::read_scene(entry.path().string(), gnomon::mesh_groups::parts);
             EXPECT_EQ(world.objects(), std::vector<std::string>{entry.path().stem().string()});
-            const auto extent = laws::extent_of(world);
+            const auto extent = world.extent();
             const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
             const double size = (extent.high - extent.low).norm();
             gnomon::pose mount = gnomon::pitch(gnomon::degrees(20));
@@ -148,7 +148,7 @@ TEST(assimp_scene, rooms_can_be_scanned) {
         const gnomon::bvh_caster exact(world);
         const gnomon::embree_caster embree(world);
         gnomon::random_stream random(1);
-        const auto extent = laws::extent_of(world);
+        const auto extent = world.extent();
         std::size_t hits = 0;
         std::size_t others = 0;
         for (int i = 0; i < 20'000; ++i) {

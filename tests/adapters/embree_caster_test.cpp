@@ -98,10 +98,8 @@ TEST(embree_caster, scans) {
 TEST(embree_caster, keeps_its_precision_far_from_the_origin) {
     gnomon::scene world;
     const Eigen::Vector3d utm(6e5, 4.8e6, 100);
-    world.add(world.add_part(world.add_object("box"), "body"), gnomon::box{1, 1, 1},
-              gnomon::at(utm.x() + 3, utm.y(), utm.z()));
-    world.add(world.add_part(world.add_object("ball"), "body"), gnomon::sphere{0.5},
-              gnomon::at(utm.x(), utm.y() + 3, utm.z()));
+    world.add_object("box", gnomon::box{1, 1, 1}, gnomon::at(utm.x() + 3, utm.y(), utm.z()));
+    world.add_object("ball", gnomon::sphere{0.5}, gnomon::at(utm.x(), utm.y() + 3, utm.z()));
     const gnomon::embree_caster caster(world);
     EXPECT_NEAR(caster({utm, {1, 0, 0}})->range, 2.5, 1e-6);
     EXPECT_NEAR(caster({utm, {0, 1, 0}})->range, 2.5, 1e-6);
@@ -114,7 +112,7 @@ TEST(embree_caster, keeps_to_the_reach) {
     const gnomon::bvh_caster exact(world);
     const gnomon::embree_caster embree(world);
     gnomon::random_stream random(1);
-    const auto extent = laws::extent_of(world);
+    const auto extent = world.extent();
     std::size_t rays = 0;
     std::size_t lost = 0;
     for (int i = 0; i < 20'000; ++i) {

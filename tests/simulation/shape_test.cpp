@@ -36,8 +36,8 @@ static_assert(!gnomon::shape<gnomon::ray>);
 TEST(shape, may_be_the_users_own) {
     EXPECT_GT(laws::obeys_shape_laws(disc{0.4}, 1), 100u);
     gnomon::scene world;
-    const auto surface = world.add(world.add_part(world.add_object("table"), "top"), disc{0.4});
-    EXPECT_EQ(world.surface_name(surface), "table/top/disc");
+    const auto surface = world.add_object("table", disc{0.4});
+    EXPECT_EQ(world.surface_name(surface), "table/body/disc");
 }
 
 /// The laws have teeth: a ball that is blind from within breaks them.

@@ -52,7 +52,7 @@ TEST(simulate, tells_the_truth_about_each_point) {
 /// Also of a wide beam that meets the floor at a grazing angle.
 TEST(simulate, tells_the_truth_of_wide_beams) {
     gnomon::scene world;
-    world.add(world.add_part(world.add_object("floor"), "floor"), gnomon::plane_patch{60, 60});
+    world.add_object("floor", gnomon::plane_patch{60, 60});
     const gnomon::vertical scan{.mount = gnomon::at(0, 0, 1)};
     gnomon::scanner finder = gnomon::densities::low();
     finder.max_range = 15.0;  // farther away the floor is more than one echo
@@ -147,8 +147,7 @@ TEST(simulate, counts_what_went_wrong) {
 /// A drive past a wall: every scan line has a view point of its own.
 TEST(simulate, moves_the_view_point_with_the_sensor) {
     gnomon::scene world;
-    world.add(world.add_part(world.add_object("wall"), "wall"), gnomon::box{0.1, 20, 4},
-              gnomon::at(3, 0, 0));
+    world.add_object("wall", gnomon::box{0.1, 20, 4}, gnomon::at(3, 0, 0));
     const gnomon::along drive(
         2.0, [](double t) { return gnomon::at(0, t - 1, 0) * gnomon::roll(degrees(90)); });
     const auto truth = gnomon::simulate(world, drive, gnomon::densities::low());

@@ -23,11 +23,10 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/scene.hpp>
-#include <gnomon/simulation/shape.hpp>
 
 namespace gnomon {
 
@@ -116,10 +115,9 @@ class embree_caster {
 
         explicit content(const scene& world)
             : shapes(world.shapes()), center(0.0, 0.0, 0.0), surface_of_primitive(shapes.size()) {
-            bounds all = detail::no_bounds();
-            for (const placed_shape& s : shapes) detail::extend(all, s.extent.low, s.extent.high);
             if (shapes.empty()) return;
-            center = (all.low + all.high) * 0.5;
+            const bounds all = world.extent();
+            center = all.middle();
             size = std::sqrt(squared_distance(all.low, all.high));
         }
     };

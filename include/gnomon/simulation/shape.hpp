@@ -22,19 +22,15 @@
 #include <optional>
 #include <string_view>
 
-#include <Eigen/Core>
-
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/ray.hpp>
 
 namespace gnomon {
 
-/// A box along the axes that holds a shape; empty if a low coordinate exceeds the high one.
-struct bounds {
-    Eigen::Vector3d low;   ///< [m]
-    Eigen::Vector3d high;  ///< [m]
-};
-
-/// Whatever rays can hit. Const calls, thread-safe.
+/// A surface, or several, that rays meet. In the shape's own frame, [m]: extent() are bounds about
+/// it; first_hit(r) is the nearest hit of the ray within its reach, r.direction being of unit
+/// length; surface_names() has one name for each number that hits tell. Calls are const and
+/// thread-safe.
 template <class S>
 concept shape = requires(const S& s, const ray& r) {
     { s.extent() } -> std::same_as<bounds>;

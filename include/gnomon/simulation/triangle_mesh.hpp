@@ -18,6 +18,7 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/detail/bvh.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
@@ -132,7 +133,7 @@ class triangle_mesh {
     struct content {
         polyhedron faces;
         std::vector<std::string> surface_names;
-        bounds extent = detail::no_bounds();
+        bounds extent;
         detail::bvh tree;
 
         content(polyhedron given, std::vector<std::string> names)
@@ -152,12 +153,12 @@ class triangle_mesh {
             std::vector<bounds> boxes;
             boxes.reserve(triangles.size());
             for (const triangle& t : triangles) {
-                bounds box = detail::no_bounds();
+                bounds box;
                 for (const std::uint32_t i : t) {
                     require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
-                    detail::extend(box, vertices[i], vertices[i]);
+                    box.extend(vertices[i]);
                 }
-                detail::extend(extent, box.low, box.high);
+                extent.extend(box);
                 boxes.push_back(box);
             }
             // The range of a hit carries rounding, so a flat box may be entered behind it.
