@@ -8,8 +8,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/random.hpp>

@@ -128,8 +128,8 @@ class instrument {
         }
         const double nearest = echo.front().hit.range - beam_.footprint.echo_separation;
         const double farthest = echo.back().hit.range + beam_.footprint.echo_separation;
-        const bool mixed = sorted_by_surface(echo);
-        const contribution& strongest = first_of_strongest(echo);
+        const bool mixed = is_mixed(echo);
+        const contribution& strongest = strongest_of(echo);
         ray_hit truth = strongest.hit;
         truth.range = strongest.range_along;
         // The axis itself meets that surface, or passes beside it.
@@ -200,19 +200,15 @@ class instrument {
         return best;
     }
 
-    /// Sorts contributions by surface, and those of each from the axis outwards.
-    /// @return whether there are several surfaces
-    static bool sorted_by_surface(std::span<contribution> echo) {
-        std::sort(echo.begin(), echo.end(), [](const auto& a, const auto& b) {
-            if (a.hit.surface != b.hit.surface) return a.hit.surface < b.hit.surface;
+    /// Of the surface with most power the contribution nearest the axis. Reorders the echo.
+    [[nodiscard]] static const contribution& strongest_of(std::span<contribution> echo) {
+        const auto nearer = [](const contribution& a, const contribution& b) {
             return a.sub_ray < b.sub_ray;
+        };
+        if (!is_mixed(echo)) return *std::min_element(echo.begin(), echo.end(), nearer);
+        std::sort(echo.begin(), echo.end(), [&](const contribution& a, const contribution& b) {
+            return a.hit.surface != b.hit.surface ? a.hit.surface < b.hit.surface : nearer(a, b);
         });
-        return echo.front().hit.surface != echo.back().hit.surface;
-    }
-
-    /// Of the surface with most power the first contribution. Precondition: sorted by surface.
-    [[nodiscard]] static const contribution& first_of_strongest(
-        std::span<const contribution> echo) {
         const contribution* strongest = &echo.front();
         double most = -1.0;
         for (std::size_t first = 0; first < echo.size();) {
@@ -227,6 +223,12 @@ class instrument {
             first = last;
         }
         return *strongest;
+    }
+
+    [[nodiscard]] static bool is_mixed(std::span<const contribution> echo) {
+        return std::any_of(echo.begin(), echo.end(), [&](const contribution& c) {
+            return c.hit.surface != echo.front().hit.surface;
+        });
     }
 
     const C& caster_;

@@ -43,8 +43,8 @@ class nearest_revolved_hit {
     nearest_revolved_hit(const ray& given, double size)
         : shift_(-given.origin.dot(given.direction)),
           near_{given.point_at(shift_), given.direction, given.reach},
-          margin_(1e-12 * (size + std::sqrt(near_.origin.dot(near_.origin)))),
-          least_range_(1e-12 * std::sqrt(given.origin.dot(given.origin))) {}
+          margin_(1e-12 * (size + near_.origin.cwiseAbs().sum())),
+          least_range_(1e-12 * given.origin.cwiseAbs().sum()) {}
 
     /// Surface 0.
     void try_mantle(const revolved_arc& arc) {
