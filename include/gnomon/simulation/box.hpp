@@ -23,7 +23,7 @@ namespace gnomon {
 
 /// Centered on its frame, along the axes. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z. Rays that
 /// pass it by less than a billionth of its size meet it, so that none falls between boxes that
-/// touch.
+/// touch; a ray within the plane of a side is within the box.
 struct box {
     double length;  ///< along x [m]
     double width;   ///< along y [m]
