@@ -8,8 +8,7 @@
 int main() {
     // [simulate_room]
     gnomon::scene world = gnomon::scenes::kitchen();
-    const auto lamp = world.add_part(world.add_object("lamp"), "shade");
-    world.add(lamp, gnomon::cone{0.20, 0.25}, gnomon::at(2.2, -0.2, 1.5));
+    world.add_object("lamp", gnomon::cone{0.20, 0.25}, gnomon::at(2.2, -0.2, 1.5));
 
     const gnomon::true_scan truth =
         gnomon::simulate(world, gnomon::rotational{.mount = world.sensor},

@@ -46,6 +46,14 @@ gnomon::true_scan scan_of(const gnomon::scene& world, const options& o) {
     return along(gnomon::rotational{.mount = world.sensor});
 }
 
+/// A name with '?' for what the picture has no letter for.
+std::string in_ascii(std::string name) {
+    for (char& c : name) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return name;
+}
+
 /// The number of points of each object of the scene.
 std::vector<std::size_t> points_of_objects(const gnomon::scene& world,
                                            const gnomon::true_scan& truth) {
@@ -69,7 +77,8 @@ std::string picture_of(const gnomon::scene& world, const gnomon::true_scan& trut
     for (const std::size_t object : order) {
         if (count[object] == 0) break;
         label_of[object] = static_cast<std::int32_t>(legend.size());
-        legend.push_back(world.objects()[object] + " " + picture::with_commas(count[object]));
+        legend.push_back(in_ascii(world.objects()[object]) + " " +
+                         picture::with_commas(count[object]));
     }
 
     const gnomon::kd_tree tree(truth.scan);
@@ -117,13 +126,17 @@ void simulate_scan(const options& o) {
     const gnomon::true_scan truth = scan_of(world, o);
     const double seconds = watch.seconds();
 
+    // All that could go wrong goes wrong before the first file is written.
+    const auto count = points_of_objects(world, truth);
+    const std::string drawing = picture_of(world, truth, count);
+    const std::string names =
+        names_of(world).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
     std::error_code problem;
     std::filesystem::create_directories(o.out, problem);
     if (problem) throw gnomon::error(o.out, "", problem.message());
-    const auto count = points_of_objects(world, truth);
-    gnomon::io::replace_file(o.out + "/scan.png", picture_of(world, truth, count));
-    gnomon::io::replace_file(o.out + "/names.json", names_of(world).dump(2) + "\n");
     write_points(o.out + "/scan.ply", truth);
+    gnomon::io::replace_file(o.out + "/scan.png", drawing);
+    gnomon::io::replace_file(o.out + "/names.json", names);
 
     const auto mixed = std::count(truth.echoes.begin(), truth.echoes.end(), gnomon::echo::mixed);
     std::printf("%s in %.3f s, %s of several surfaces\n\n",
@@ -145,6 +158,8 @@ int main(int argc, char** argv) {
         } else {
             std::fputs(usage, stdout);
         }
+        if (std::fflush(stdout) != 0)
+            throw gnomon::error("standard output", "", "cannot be written");
         return 0;
     } catch (const usage_error& problem) {
         std::fprintf(stderr, "simulate_scan: %s\n%s", problem.what(), usage);

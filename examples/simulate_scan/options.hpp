@@ -3,6 +3,7 @@
 /// What can one ask simulate_scan for?
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>

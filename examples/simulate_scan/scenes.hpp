@@ -3,7 +3,6 @@
 /// What is there to scan? The scenes by their names, and mesh files where Assimp is at hand.
 #pragma once
 
-#include <cstddef>
 #include <map>
 #include <string>
 
@@ -21,15 +20,9 @@ namespace detail {
 inline gnomon::scene scene_in_file(const std::string& path) {
 #ifdef GNOMON_EXAMPLES_ASSIMP
     gnomon::scene world = gnomon::read_scene(path);
-    Eigen::Vector3d low = world.shapes().front().extent.low;
-    Eigen::Vector3d high = world.shapes().front().extent.high;
-    for (const auto& s : world.shapes()) {
-        low = low.cwiseMin(s.extent.low);
-        high = high.cwiseMax(s.extent.high);
-    }
-    world.sensor =
-        gnomon::at(0.5 * (low.x() + high.x()), 0.5 * (low.y() + high.y()), low.z() + 1.2) *
-        gnomon::pitch(gnomon::degrees(10));
+    const gnomon::bounds extent = world.extent();
+    world.sensor = gnomon::at(extent.middle().x(), extent.middle().y(), extent.low.z() + 1.2) *
+                   gnomon::pitch(gnomon::degrees(10));
     return world;
 #else
     throw usage_error("--scene " + path +

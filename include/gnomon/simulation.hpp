@@ -5,9 +5,11 @@
 #pragma once
 
 #include <gnomon/simulation/beam.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/box_and_cylinder.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/chair.hpp>
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/cylinder.hpp>
 #include <gnomon/simulation/furnished_room.hpp>
@@ -23,6 +25,7 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/sphere.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
+#include <gnomon/simulation/table.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 #include <gnomon/simulation/trajectory.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>

@@ -24,6 +24,14 @@ std::string written(const std::string& name, const std::string& text) {
     return path;
 }
 
+/// Four vertices, and a face.
+std::string ply_of_face(const std::string& face) {
+    return "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+           "property float z\nelement face 2\nproperty list uchar int vertex_indices\nend_header\n"
+           "0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n" +
+           face + "\n";
+}
+
 const std::string two_groups =
     "o seat\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\no leg\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"
     "f 4 5 6 7\n";
@@ -43,6 +51,42 @@ TEST(assimp_scene, keeps_the_names_of_groups) {
     EXPECT_EQ(hit->surface, 1);
 }
 
+/// A group stays one object, of however many materials it is.
+TEST(assimp_scene, keeps_groups_of_several_materials_together) {
+    const std::string path = written(
+        "chair.obj",
+        "o chair\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nusemtl wood\nf 1 2 3\n"
+        "usemtl steel\nf 4 5 6\no floor\nv 0 0 -1\nv 1 0 -1\nv 0 1 -1\nusemtl wood\nf 7 8 9\n");
+    const auto room = gnomon::read_scene(path);
+    EXPECT_EQ(room.objects(), (std::vector<std::string>{"chair", "floor"}));
+    const gnomon::bvh_caster caster(room);
+    for (const double height : {3.0, 0.5, -0.5}) {
+        const auto hit = caster({{0.2, 0.2, height}, {0, 0, -1}});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(room.surface_name(hit->surface),
+                  height > 0.0 ? "chair/body/mesh" : "floor/body/mesh");
+    }
+}
+
+/// COLLADA tells its unit and which axis points up: metres, and the file's own axes.
+TEST(assimp_scene, reads_collada_in_metres_and_its_own_axes) {
+    const std::string path = written("plate.dae", R"(<?xml version="1.0"?>
+<COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
+<asset><unit name="centimeter" meter="0.01"/><up_axis>Z_UP</up_axis></asset>
+<library_geometries><geometry id="g" name="plate"><mesh>
+<source id="p"><float_array id="a" count="9">0 0 5 100 0 5 0 200 5</float_array>
+<technique_common><accessor source="#a" count="3" stride="3"><param name="X" type="float"/>
+<param name="Y" type="float"/><param name="Z" type="float"/></accessor></technique_common></source>
+<vertices id="v"><input semantic="POSITION" source="#p"/></vertices>
+<triangles count="1"><input semantic="VERTEX" source="#v" offset="0"/><p>0 1 2</p></triangles>
+</mesh></geometry></library_geometries>
+<library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
+</visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
+    const auto extent = gnomon::read_scene(path).extent();
+    EXPECT_LT((extent.low - Eigen::Vector3d(0, 0, 0.05)).norm(), 1e-6);
+    EXPECT_LT((extent.high - Eigen::Vector3d(1, 2, 0.05)).norm(), 1e-6);
+}
+
 TEST(assimp_scene, refuses_missing_and_broken_files) {
     EXPECT_THROW((void)gnomon::read_scene("no/such/file.obj"), gnomon::error);
     for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
@@ -50,6 +94,8 @@ TEST(assimp_scene, refuses_missing_and_broken_files) {
              {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
              {"points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\np 1\np 2\np 3\n"},
              {"infinite.obj", "v 0 0 0\nv inf 0 0\nv 0 1 0\nf 1 2 3\n"},
+             {"negative.ply", ply_of_face("3 0 1 -7")},
+             {"beyond.ply", ply_of_face("3 0 1 99")},
              {"cut.stl", std::string(80, ' ') + "\x64"},
              {"noise.obj",
               "\x7f"
@@ -74,7 +120,7 @@ TEST(assimp_scene, every_piece_of_furniture_can_be_scanned) {
             const auto world =
                 gnomon::read_scene(entry.path().string(), gnomon::mesh_groups::parts);
             EXPECT_EQ(world.objects(), std::vector<std::string>{entry.path().stem().string()});
-            const auto extent = laws::extent_of(world);
+            const auto extent = world.extent();
             const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
             const double size = (extent.high - extent.low).norm();
             gnomon::pose mount = gnomon::pitch(gnomon::degrees(20));
@@ -102,7 +148,7 @@ TEST(assimp_scene, rooms_can_be_scanned) {
         const gnomon::bvh_caster exact(world);
         const gnomon::embree_caster embree(world);
         gnomon::random_stream random(1);
-        const auto extent = laws::extent_of(world);
+        const auto extent = world.extent();
         std::size_t hits = 0;
         std::size_t others = 0;
         for (int i = 0; i < 20'000; ++i) {

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdio>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -97,14 +98,43 @@ TEST(embree_caster, scans) {
 TEST(embree_caster, keeps_its_precision_far_from_the_origin) {
     gnomon::scene world;
     const Eigen::Vector3d utm(6e5, 4.8e6, 100);
-    world.add(world.add_part(world.add_object("box"), "body"), gnomon::box{1, 1, 1},
-              gnomon::at(utm.x() + 3, utm.y(), utm.z()));
-    world.add(world.add_part(world.add_object("ball"), "body"), gnomon::sphere{0.5},
-              gnomon::at(utm.x(), utm.y() + 3, utm.z()));
+    world.add_object("box", gnomon::box{1, 1, 1}, gnomon::at(utm.x() + 3, utm.y(), utm.z()));
+    world.add_object("ball", gnomon::sphere{0.5}, gnomon::at(utm.x(), utm.y() + 3, utm.z()));
     const gnomon::embree_caster caster(world);
     EXPECT_NEAR(caster({utm, {1, 0, 0}})->range, 2.5, 1e-6);
     EXPECT_NEAR(caster({utm, {0, 1, 0}})->range, 2.5, 1e-6);
     EXPECT_EQ(caster({utm, {0, 1, 0}})->surface, 6);
+}
+
+/// A reach that ends just behind the hit does not hide it, and no hit lies beyond the reach.
+TEST(embree_caster, keeps_to_the_reach) {
+    const auto world = gnomon::scenes::living_room();
+    const gnomon::bvh_caster exact(world);
+    const gnomon::embree_caster embree(world);
+    gnomon::random_stream random(1);
+    const auto extent = world.extent();
+    std::size_t rays = 0;
+    std::size_t lost = 0;
+    for (int i = 0; i < 20'000; ++i) {
+        gnomon::ray r = laws::ray_within(extent, random);
+        const auto hit = exact(r);
+        if (!hit || hit->range < 0.1) continue;
+        ++rays;
+        r.reach = hit->range + (i % 2 ? 1e-9 : 0.0);
+        const auto found = embree(r);
+        lost += !found;
+        if (found) {
+            EXPECT_LE(found->range, r.reach);
+        }
+        r.reach = hit->range * (1.0 - 1e-4);
+        const auto nearer = embree(r);
+        if (nearer) {
+            EXPECT_LE(nearer->range, r.reach);
+        }
+    }
+    EXPECT_GT(rays, 10'000u);
+    EXPECT_LE(lost, rays / 1000);  // at edges
+    std::printf("%zu of %zu hits at the reach lost\n", lost, rays);
 }
 
 TEST(embree_caster, survives_bad_input) {

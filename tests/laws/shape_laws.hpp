@@ -7,8 +7,10 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
+#include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include <gnomon/core/random.hpp>
@@ -43,12 +45,11 @@ inline std::vector<gnomon::ray> rays_at(const gnomon::bounds& extent, std::size_
     return rays;
 }
 
-/// @return how many of the rays hit
+/// The laws, for rays at the shape; see obeys_shape_laws.
 template <gnomon::shape S>
-std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
+void expect_shape_laws(const S& s, std::uint64_t seed, std::size_t& hits) {
     const gnomon::bounds extent = s.extent();
     const double slack = 1e-9 * (1.0 + extent.low.norm() + extent.high.norm());
-    std::size_t hits = 0;
     for (const gnomon::ray& r : rays_at(extent, 3000, seed)) {
         const auto hit = s.first_hit(r);
         if (!hit) continue;
@@ -73,8 +74,23 @@ std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
 
         const double step = hit->range * (1 + 1e-9) + 1e-9;
         const auto next = s.first_hit({r.point_at(step), r.direction});
-        if (next) {
-            EXPECT_GT(next->range, 0.0);
+        if (next && next->range > 1e-6) {
+            const double half = 0.5 * next->range;
+            const auto from_half_way = s.first_hit({r.point_at(step + half), r.direction});
+            ASSERT_TRUE(from_half_way);
+            EXPECT_NEAR(from_half_way->range, half, 1e-9 * (1.0 + half));
+            EXPECT_EQ(from_half_way->surface, next->surface);
+        }
+        // Who looks back from far behind the shape sees the last of it, which is the hit itself or
+        // lies behind, where the ray that goes on has met it, or something nearer.
+        const double behind = hit->range + 2.0 * (extent.high - extent.low).norm() + 1.0;
+        const auto last = s.first_hit({r.point_at(behind), -r.direction});
+        ASSERT_TRUE(last);
+        const double until = behind - last->range;
+        EXPECT_GE(until, hit->range - 1e-9 * (1.0 + behind));
+        if (until > step + 1e-6) {
+            ASSERT_TRUE(next);
+            EXPECT_LE(step + next->range, until + 1e-9 * (1.0 + behind));
         }
     }
 
@@ -87,6 +103,13 @@ std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
           gnomon::ray{inside, {1, 0, 0}, -1.0}}) {
         EXPECT_FALSE(s.first_hit(broken));
     }
+}
+
+/// @return how many of the rays hit
+template <gnomon::shape S>
+std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
+    std::size_t hits = 0;
+    expect_shape_laws(s, seed, hits);
     return hits;
 }
 

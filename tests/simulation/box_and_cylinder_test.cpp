@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <stdexcept>
 
@@ -16,6 +17,18 @@ TEST(box_and_cylinder, returns_14200_points_within_one_percent_at_every_scale) {
     for (const double scale : {0.5, 0.85, 1.0, 1.15, 1.5}) {
         const auto n = gnomon::simulate(box_and_cylinder{.scale = scale}).scan.size();
         EXPECT_NEAR(static_cast<double>(n), 14'200.0, 142.0) << scale;
+    }
+}
+
+/// Small objects have ragged outlines: among few points a ray more or less counts.
+TEST(box_and_cylinder, returns_few_points_within_three_percent) {
+    for (const double scale : {0.1, 0.3, 0.7, 1.0, 1.5}) {
+        for (const std::size_t points : {1000u, 1500u, 3000u}) {
+            const auto n =
+                gnomon::simulate(box_and_cylinder{.scale = scale, .points = points}).scan.size();
+            const auto wanted = static_cast<double>(points);
+            EXPECT_NEAR(static_cast<double>(n), wanted, 0.03 * wanted) << scale;
+        }
     }
 }
 
@@ -70,7 +83,7 @@ TEST(box_and_cylinder, refuses_impossible_scenes) {
     for (const auto& bad :
          {box_and_cylinder{.sigma = -1}, box_and_cylinder{.sigma = clouds::nan},
           box_and_cylinder{.scale = 0.01}, box_and_cylinder{.scale = clouds::infinity},
-          box_and_cylinder{.points = 0}}) {
+          box_and_cylinder{.points = 0}, box_and_cylinder{.scale = 0.1, .points = 10'000'000}}) {
         EXPECT_THROW((void)gnomon::simulate(bad), std::invalid_argument);
     }
 }

@@ -5,7 +5,11 @@
 #include <gtest/gtest.h>
 
 #include "laws/shape_laws.hpp"
+#include <gnomon/core/random.hpp>
 #include <gnomon/simulation/box.hpp>
+#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/pose.hpp>
+#include <gnomon/simulation/scene.hpp>
 
 namespace {
 
@@ -45,6 +49,32 @@ TEST(box, may_be_flat) {
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->range, 2.0);
     EXPECT_FALSE(plate.first_hit({{-3, 0, 0.1}, {1, 0, 0}}));
+}
+
+/// Boxes in a row that touch: no ray falls between them, wherever they stand.
+TEST(box, leaves_no_seam_to_a_box_that_touches_it) {
+    for (const double yaw : {0.0, 17.3}) {
+        for (const double offset : {0.0, 1.7, 5e6}) {
+            gnomon::scene row;
+            const auto part = row.add_part(row.add_object("row"), "row");
+            const gnomon::pose base =
+                gnomon::at(offset, 1.1 * offset, 0.3) * gnomon::yaw(gnomon::degrees(yaw));
+            for (int i = 0; i < 10; ++i)
+                row.add(part, gnomon::box{0.1, 0.5, 0.5}, base * gnomon::at(0.1 * i, 0, 0));
+            const gnomon::bvh_caster caster(row);
+            gnomon::random_stream random(3);
+            for (int i = 0; i < 2000; ++i) {
+                const double seam = 0.05 + 0.1 * static_cast<double>(random.bits() % 9);
+                const Eigen::Vector3d to(seam, random.uniform(-0.2, 0.2), 0.25);
+                const double aside = i % 2 ? 0.0 : random.uniform(-0.5, 0.5);
+                const Eigen::Vector3d from(seam, to.y() + aside, 2.25);
+                const Eigen::Vector3d u = base.point_out(to) - base.point_out(from);
+                const auto hit = caster({base.point_out(from), u.normalized()});
+                ASSERT_TRUE(hit) << "yaw " << yaw << ", offset " << offset;
+                EXPECT_NEAR(hit->range, u.norm(), 1e-8);
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -22,6 +22,17 @@ TEST(cone, agrees_with_its_equation) {
     EXPECT_GT(laws::agrees_with_equation(marker, 2, equation), 1000u);
 }
 
+TEST(cone, of_no_height_is_a_disc) {
+    const gnomon::cone disc{0.3, 0.0};
+    for (const double side : {-1.0, 1.0}) {
+        const auto hit = disc.first_hit({{0.1, 0.2, 2.0 * side}, {0, 0, -side}});
+        ASSERT_TRUE(hit);
+        EXPECT_EQ(hit->range, 2.0);
+        EXPECT_EQ(hit->normal.z(), side);
+        EXPECT_FALSE(disc.first_hit({{0.3, 0.2, 2.0 * side}, {0, 0, -side}}));
+    }
+}
+
 /// The equation has a second nappe above the apex, which is not there.
 TEST(cone, ends_at_its_apex) {
     EXPECT_FALSE(marker.first_hit({{2, 0, 0.9}, {-1, 0, 0}}));

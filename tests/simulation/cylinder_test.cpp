@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <gtest/gtest.h>
 
 #include "laws/shape_laws.hpp"
+#include <gnomon/core/random.hpp>
 #include <gnomon/simulation/cylinder.hpp>
 
 namespace {
@@ -27,6 +29,22 @@ TEST(cylinder, numbers_mantle_bottom_and_top) {
     EXPECT_EQ(bin.first_hit({{2, 0, 0.5}, {-1, 0, 0}})->surface, 0);
     EXPECT_EQ(bin.first_hit({{0.1, 0, -1}, {0, 0, 1}})->surface, 1);
     EXPECT_EQ(bin.first_hit({{0.1, 0, 3}, {0, 0, -1}})->surface, 2);
+}
+
+/// A ray that leaves the surface does not meet it in the same place, whatever rounding says.
+TEST(cylinder, does_not_shadow_what_stands_on_it) {
+    const gnomon::cylinder c{0.5, 0.3};
+    gnomon::random_stream random(4);
+    for (const auto& [on, out] :
+         {std::pair{Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0, 0, 1)},
+          {Eigen::Vector3d(0.3, 0.4, 0.1), Eigen::Vector3d(0.6, 0.8, 0)}}) {
+        for (int i = 0; i < 5000; ++i) {
+            const Eigen::Vector3d u = laws::random_direction(random);
+            if (u.dot(out) > 0.05) {
+                EXPECT_FALSE(c.first_hit({on, u}));
+            }
+        }
+    }
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cstdint>
+
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/pose.hpp>
 
@@ -23,6 +26,25 @@ TEST(pose, out_and_in_are_inverse) {
         EXPECT_LT((a.direction_out(a.direction_in(p)) - p).norm(), 1e-14);
         EXPECT_LT((a.rotation.transpose() * a.rotation - Eigen::Matrix3d::Identity()).norm(),
                   1e-14);
+    }
+}
+
+TEST(pose, knows_whether_it_is_a_rigid_motion) {
+    for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_TRUE(gnomon::is_rigid(any_pose(seed)));
+    gnomon::pose doubled;
+    doubled.rotation *= 2.0;
+    gnomon::pose flat;
+    flat.rotation.setZero();
+    gnomon::pose mirrored;
+    mirrored.rotation(0, 0) = -1.0;
+    gnomon::pose skewed;
+    skewed.rotation(0, 1) = 1e-8;
+    gnomon::pose unknown;
+    unknown.rotation(2, 1) = clouds::nan;
+    for (const gnomon::pose& bad :
+         {doubled, flat, mirrored, skewed, unknown, gnomon::at(0, clouds::nan, 0),
+          gnomon::at(0, 0, clouds::infinity)}) {
+        EXPECT_FALSE(gnomon::is_rigid(bad));
     }
 }
 

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <utility>
 
@@ -39,6 +41,23 @@ TEST(scanner, cuts_its_field_of_view_into_equal_parts) {
     }
 }
 
+/// Also where the resolution is no part of the field of view, as that of the URG-04LX.
+TEST(scanner, looks_as_far_to_the_left_as_to_the_right) {
+    for (const auto& finder :
+         {gnomon::scanner(),
+          gnomon::scanner{.field_of_view = degrees(10), .resolution = degrees(9)},
+          gnomon::scanner{.field_of_view = degrees(10), .resolution = degrees(4)},
+          gnomon::densities::low(), gnomon::densities::medium(), gnomon::scanners::sick_lms_200(),
+          gnomon::scanners::sick_lms_400(), gnomon::scanners::hokuyo_urg_04lx(),
+          gnomon::scanners::hokuyo_utm_30lx()}) {
+        const std::size_t n = finder.beams();
+        for (std::size_t j = 0; j < n; ++j) {
+            const auto left = finder.direction(n - 1 - j);
+            EXPECT_EQ(finder.direction(j), Eigen::Vector3d(left.x(), -left.y(), 0.0));
+        }
+    }
+}
+
 TEST(scanner, presets_are_valid) {
     for (const auto& finder :
          {gnomon::scanner(), gnomon::scanners::sick_lms_200(), gnomon::scanners::sick_lms_400(),
@@ -56,7 +75,9 @@ TEST(scanner, refuses_what_cannot_be) {
          {gnomon::scanner{.field_of_view = degrees(361)}, gnomon::scanner{.resolution = degrees(0)},
           gnomon::scanner{.resolution = degrees(200)},
           gnomon::scanner{.field_of_view = degrees(clouds::nan)},
-          gnomon::scanner{.resolution = degrees(clouds::nan)}, gnomon::scanner{.frequency = 0},
+          gnomon::scanner{.resolution = degrees(clouds::nan)},
+          gnomon::scanner{.resolution = degrees(1e-300)},
+          gnomon::scanner{.resolution = degrees(1e-18)}, gnomon::scanner{.frequency = 0},
           gnomon::scanner{.frequency = clouds::infinity}, gnomon::scanner{.min_range = -1},
           gnomon::scanner{.min_range = 40}, gnomon::scanner{.max_range = clouds::infinity}}) {
         EXPECT_THROW(bad.require_valid(), std::invalid_argument);

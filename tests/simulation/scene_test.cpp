@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -25,10 +27,21 @@ TEST(scene, knows_its_surfaces_by_number_and_name) {
     EXPECT_EQ(world.parts()[static_cast<std::size_t>(world.surfaces()[7].part)].name, "leg");
 }
 
+TEST(scene, takes_an_object_of_one_shape_at_once) {
+    gnomon::scene world;
+    EXPECT_GT(world.extent().low.x(), world.extent().high.x());
+    EXPECT_EQ(world.add_object("table", gnomon::box{1, 1, 1}, gnomon::at(3, 0, 0.5)), 0);
+    EXPECT_EQ(world.add_object("lamp", gnomon::cylinder{0.5, 2}), 6);
+    EXPECT_EQ(world.objects(), (std::vector<std::string>{"table", "lamp"}));
+    EXPECT_EQ(world.surface_name(6), "lamp/body/mantle");
+    EXPECT_LT((world.extent().low - Eigen::Vector3d(-0.5, -0.5, 0)).norm(), 1e-9);
+    EXPECT_LT((world.extent().high - Eigen::Vector3d(3.5, 0.5, 2)).norm(), 1e-9);
+}
+
 TEST(scene, turns_and_moves_shapes) {
     gnomon::scene world;
-    world.add(world.add_part(world.add_object("box"), "body"), gnomon::box{2, 0.2, 0.2},
-              gnomon::at(3, 0, 0) * gnomon::yaw(gnomon::degrees(90)));
+    world.add_object("box", gnomon::box{2, 0.2, 0.2},
+                     gnomon::at(3, 0, 0) * gnomon::yaw(gnomon::degrees(90)));
     const auto hit = world.shapes().front().first_hit({{0, 0.9, 0}, {1, 0, 0}});
     ASSERT_TRUE(hit);
     EXPECT_NEAR(hit->range, 2.9, 1e-12);
@@ -50,6 +63,9 @@ TEST(scene, refuses_what_cannot_be) {
     gnomon::pose skewed;
     skewed.rotation(0, 1) = 0.5;
     EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, skewed), std::invalid_argument);
+    gnomon::pose mirrored;
+    mirrored.rotation(0, 0) = -1.0;
+    EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, mirrored), std::invalid_argument);
     EXPECT_THROW(world.add(part, gnomon::box{1, 1, 1}, gnomon::at(clouds::nan, 0, 0)),
                  std::invalid_argument);
     EXPECT_TRUE(world.shapes().empty());

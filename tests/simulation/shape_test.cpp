@@ -3,11 +3,13 @@
 #include <optional>
 #include <string>
 
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include "laws/shape_laws.hpp"
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/shape.hpp>
+#include <gnomon/simulation/sphere.hpp>
 
 namespace {
 
@@ -34,8 +36,30 @@ static_assert(!gnomon::shape<gnomon::ray>);
 TEST(shape, may_be_the_users_own) {
     EXPECT_GT(laws::obeys_shape_laws(disc{0.4}, 1), 100u);
     gnomon::scene world;
-    const auto surface = world.add(world.add_part(world.add_object("table"), "top"), disc{0.4});
-    EXPECT_EQ(world.surface_name(surface), "table/top/disc");
+    const auto surface = world.add_object("table", disc{0.4});
+    EXPECT_EQ(world.surface_name(surface), "table/body/disc");
+}
+
+/// The laws have teeth: a ball that is blind from within breaks them.
+struct blind_ball {
+    gnomon::sphere ball;
+
+    [[nodiscard]] gnomon::bounds extent() const { return ball.extent(); }
+    [[nodiscard]] static std::array<std::string, 1> surface_names() { return {"ball"}; }
+    [[nodiscard]] std::optional<gnomon::ray_hit> first_hit(const gnomon::ray& r) const {
+        if (r.origin.norm() < ball.radius) return std::nullopt;
+        return ball.first_hit(r);
+    }
+};
+
+TEST(shape, must_be_seen_from_within) {
+    testing::TestPartResultArray failures;
+    {
+        const testing::ScopedFakeTestPartResultReporter reporter(
+            testing::ScopedFakeTestPartResultReporter::INTERCEPT_ALL_THREADS, &failures);
+        (void)laws::obeys_shape_laws(blind_ball{{0.5}}, 1);
+    }
+    EXPECT_GT(failures.size(), 0);
 }
 
 }  // namespace

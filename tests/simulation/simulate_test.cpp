@@ -49,6 +49,24 @@ TEST(simulate, tells_the_truth_about_each_point) {
     }
 }
 
+/// Also of a wide beam that meets the floor at a grazing angle.
+TEST(simulate, tells_the_truth_of_wide_beams) {
+    gnomon::scene world;
+    world.add_object("floor", gnomon::plane_patch{60, 60});
+    const gnomon::vertical scan{.mount = gnomon::at(0, 0, 1)};
+    gnomon::scanner finder = gnomon::densities::low();
+    finder.max_range = 15.0;  // farther away the floor is more than one echo
+    const auto truth = gnomon::simulate(
+        world, scan, finder, {.footprint = {.waist = 0.002, .divergence = gnomon::radians(0.004)}});
+    ASSERT_GT(truth.scan.size(), 1000u);
+    for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+        const Eigen::Vector3d p = truth.scan.viewpoints[i] + truth.ranges[i] * truth.directions[i];
+        if (truth.ranges[i] < 12.0) {
+            EXPECT_NEAR(p.z(), 0.0, 1e-9);
+        }
+    }
+}
+
 TEST(simulate, scatters_along_the_rays_only) {
     for (const double sigma : {0.015, 0.030}) {
         const auto noisy = gnomon::simulate(kitchen, around, {}, {.sigma = sigma, .seed = 7});
@@ -129,8 +147,7 @@ TEST(simulate, counts_what_went_wrong) {
 /// A drive past a wall: every scan line has a view point of its own.
 TEST(simulate, moves_the_view_point_with_the_sensor) {
     gnomon::scene world;
-    world.add(world.add_part(world.add_object("wall"), "wall"), gnomon::box{0.1, 20, 4},
-              gnomon::at(3, 0, 0));
+    world.add_object("wall", gnomon::box{0.1, 20, 4}, gnomon::at(3, 0, 0));
     const gnomon::along drive(
         2.0, [](double t) { return gnomon::at(0, t - 1, 0) * gnomon::roll(degrees(90)); });
     const auto truth = gnomon::simulate(world, drive, gnomon::densities::low());
@@ -181,6 +198,53 @@ TEST(simulate, refuses_what_cannot_be) {
     EXPECT_THROW((void)scanning(1e7, {}, {}), std::invalid_argument);
     EXPECT_THROW((void)scanning(1, {.frequency = -1}, {}), std::invalid_argument);
     EXPECT_THROW((void)scanning(1, {}, {.sigma = -1}), std::invalid_argument);
+    EXPECT_THROW((void)scanning(1, {.resolution = gnomon::radians(1e-300)}, {}),
+                 std::invalid_argument);
+}
+
+/// A sensor that is no rigid motion would give NaN, or ranges of another unit.
+TEST(simulate, refuses_poses_that_are_none) {
+    gnomon::pose doubled;
+    doubled.rotation *= 2.0;
+    gnomon::pose mirrored;
+    mirrored.rotation(1, 1) = -1.0;
+    const gnomon::scanner finder = gnomon::densities::low();
+    for (const gnomon::pose& bad : {doubled, mirrored, gnomon::at(clouds::nan, 0, 0)}) {
+        EXPECT_THROW((void)gnomon::simulate(kitchen, gnomon::fixed{.mount = bad}, finder),
+                     std::invalid_argument);
+    }
+    EXPECT_THROW(
+        (void)gnomon::simulate(kitchen, gnomon::horizontal{.sweep = degrees(clouds::nan)}, finder),
+        std::invalid_argument);
+}
+
+TEST(simulate, refuses_the_caster_of_another_scene) {
+    const gnomon::bvh_caster caster(kitchen);
+    EXPECT_THROW((void)gnomon::simulate(gnomon::scene(), caster, around, gnomon::densities::low()),
+                 std::invalid_argument);
+}
+
+/// What meets nothing costs nothing: a sky full of rays, and a few that hit.
+TEST(simulate, keeps_what_became_a_point_only) {
+    const gnomon::scene world = gnomon::scenes::plate(5);
+    const gnomon::bvh_caster caster(world);
+    const gnomon::scanner finder = gnomon::densities::low();
+    const gnomon::horizontal scan;
+    const auto ray_of = [&](std::size_t i) {
+        const auto sensor = scan((static_cast<double>(i / 180) + 0.5) / 10.0);
+        return gnomon::ray{sensor.position, sensor.direction_out(finder.direction(i % 180))};
+    };
+    const gnomon::detail::instrument<gnomon::bvh_caster> read(caster, {}, 0.1, 30.0);
+    std::size_t kept = 0;
+    std::size_t room = 0;
+    for (const auto& chunk :
+         gnomon::detail::read_rays(read, {}, 7'200, ray_of, gnomon::sequential{})) {
+        kept += chunk.size();
+        room += chunk.capacity();
+    }
+    EXPECT_EQ(kept, gnomon::simulate(world, scan, finder).scan.size());
+    EXPECT_GT(kept, 20u);
+    EXPECT_LE(room, 2 * kept);
 }
 
 }  // namespace

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <cstddef>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "laws/shape_laws.hpp"
+#include <gnomon/core/random.hpp>
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
 
@@ -90,6 +92,46 @@ TEST(surface_of_revolution, is_round) {
         ++hits;
     }
     EXPECT_GT(hits, 500u);
+}
+
+/// The same vase wherever its profile begins, but for the rounding of the heights.
+TEST(surface_of_revolution, may_begin_at_any_height) {
+    for (const double begin : {1.0, 1e3, 5e6}) {
+        std::vector<profile_point> profile = vase_profile;
+        for (profile_point& p : profile) p.height += begin;
+        for (const bool smooth : {true, false}) {
+            const surface_of_revolution at_zero(vase_profile, {.smooth = smooth});
+            const surface_of_revolution vase(profile, {.smooth = smooth});
+            EXPECT_NEAR(vase.extent().low.z(), begin, 1e-15 * begin);
+            for (double z = 0.005; z < 0.68; z += 0.01) {
+                EXPECT_NEAR(radius_at(vase, begin + z), radius_at(at_zero, z),
+                            1e-13 + 1e-14 * begin);
+            }
+        }
+    }
+}
+
+/// Rays from within at the joints of arcs, where two of them could each leave the hit to the other.
+TEST(surface_of_revolution, leaves_no_gap_between_arcs) {
+    for (const double begin : {0.0, 1.0, 10.0, 1000.0}) {
+        std::vector<profile_point> profile;
+        for (int i = 0; i < 1000; ++i)
+            profile.push_back({1.0 + 0.05 * std::sin(0.007 * i), begin + 0.001 * i});
+        for (const bool smooth : {true, false}) {
+            const surface_of_revolution pipe(profile, {.smooth = smooth, .top = true});
+            gnomon::random_stream random(2);
+            for (int i = 0; i < 2000; ++i) {
+                const auto [radius, height] = profile[1 + random.bits() % 998];
+                const double a = random.uniform(0.0, 6.28);
+                const Eigen::Vector3d joint(radius * std::cos(a), radius * std::sin(a), height);
+                const Eigen::Vector3d from(random.uniform(-0.3, 0.3), random.uniform(-0.3, 0.3),
+                                           begin + random.uniform(0.2, 0.8));
+                const auto hit = pipe.first_hit({from, (joint - from).normalized()});
+                ASSERT_TRUE(hit) << "from " << begin;
+                EXPECT_NEAR(hit->range, (joint - from).norm(), 1e-9);
+            }
+        }
+    }
 }
 
 TEST(surface_of_revolution, refuses_what_is_no_profile) {

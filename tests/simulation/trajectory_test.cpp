@@ -47,6 +47,24 @@ TEST(trajectory, goes_on_from_its_mount) {
     EXPECT_LT((gnomon::rotational{.mount = mount}(2.0).rotation - mount.rotation).norm(), 1e-15);
 }
 
+/// The law of the concept: at every time a rigid motion, always the same.
+TEST(trajectory, is_a_rigid_motion_at_every_time) {
+    const gnomon::pose mount = gnomon::at(1, 2, 3) * gnomon::yaw(degrees(20));
+    const auto check = [](const auto& trajectory) {
+        for (int k = 0; k <= 100; ++k) {
+            const double t = trajectory.duration * k / 100.0;
+            EXPECT_TRUE(gnomon::is_rigid(trajectory(t)));
+            EXPECT_EQ(trajectory(t).rotation, trajectory(t).rotation);
+            EXPECT_EQ(trajectory(t).position, trajectory(t).position);
+        }
+    };
+    check(gnomon::horizontal{.mount = mount});
+    check(gnomon::vertical{.mount = mount});
+    check(gnomon::rotational{.mount = mount});
+    check(gnomon::fixed{.mount = mount});
+    check(gnomon::along(2.0, [](double t) { return gnomon::at(t, 0, 0); }));
+}
+
 TEST(trajectory, may_be_any_function_of_time) {
     const gnomon::along drive(2.0, [](double t) { return gnomon::at(t, 0, 0); });
     static_assert(gnomon::sensor_trajectory<decltype(drive)>);

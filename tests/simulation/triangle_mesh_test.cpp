@@ -13,6 +13,7 @@
 #include "simulation/meshes.hpp"
 #include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/cylinder.hpp>
+#include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
 
 namespace {
@@ -105,6 +106,52 @@ TEST(triangle_mesh, passes_over_degenerate_triangles) {
     EXPECT_FALSE(needles.first_hit({{1, 0, 3}, {0, 0, -1}}));
     const triangle_mesh one_good({vertices, {{0, 1, 2}, {0, 1, 3}, {2, 2, 2}}, {}});
     EXPECT_TRUE(one_good.first_hit({{0.2, 0.2, 3}, {0, 0, -1}}));
+}
+
+/// Vertices on a line, but for rounding: whoever met such a triangle would say any range.
+TEST(triangle_mesh, passes_over_triangles_as_thin_as_rounding) {
+    gnomon::random_stream random(7);
+    const auto anywhere = [&](double size) {
+        return Eigen::Vector3d(size * random.gaussian(), size * random.gaussian(),
+                               size * random.gaussian());
+    };
+    for (int k = 0; k < 200; ++k) {
+        const Eigen::Vector3d o = anywhere(1.0);
+        const Eigen::Vector3d d = anywhere(1.0);
+        for (const double share : {0.0, 0.1, 1.0}) {
+            const triangle_mesh line({{o, o + share * d, o + d}, {{0, 1, 2}}, {}});
+            for (int i = 0; i < 200; ++i) {
+                const Eigen::Vector3d to = o + random.uniform() * d;
+                const Eigen::Vector3d from = anywhere(4.0);
+                EXPECT_FALSE(line.first_hit({from, (to - from).normalized()}));
+            }
+        }
+    }
+}
+
+/// A closed mesh from within, at its edges: also where the compiler fuses products with sums.
+TEST(triangle_mesh, is_watertight_from_within) {
+    const gnomon::box room{4, 4, 2};
+    const gnomon::polyhedron faces = room.triangles();
+    for (const auto& place :
+         {gnomon::pose{}, gnomon::at(3.3, 6.6, -3.3) * gnomon::yaw(gnomon::degrees(31)) *
+                              gnomon::pitch(gnomon::degrees(15))}) {
+        gnomon::polyhedron placed = faces;
+        for (Eigen::Vector3d& v : placed.vertices) v = place.point_out(v);
+        const triangle_mesh mesh(placed, {"+x", "-x", "+y", "-y", "+z", "-z"});
+        gnomon::random_stream random(5);
+        for (int i = 0; i < 20'000; ++i) {
+            const auto& t = placed.triangles[random.bits() % placed.triangles.size()];
+            const Eigen::Vector3d& a = placed.vertices[t[0]];
+            const Eigen::Vector3d& b = placed.vertices[t[1 + random.bits() % 2]];
+            const Eigen::Vector3d to = a + (i % 4 ? random.uniform() : 0.0) * (b - a);
+            const Eigen::Vector3d from = place.point_out(
+                {random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4), random.uniform(-0.4, 0.4)});
+            const auto hit = mesh.first_hit({from, (to - from).normalized()});
+            ASSERT_TRUE(hit);
+            EXPECT_NEAR(hit->range, (to - from).norm(), 1e-12);
+        }
+    }
 }
 
 TEST(triangle_mesh, refuses_what_is_no_mesh) {

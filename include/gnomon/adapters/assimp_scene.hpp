@@ -9,11 +9,9 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
-
-#include <Eigen/Core>
 
 #include <assimp/Importer.hpp>
+#include <assimp/config.h>
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 #include <gnomon/core/error.hpp>
@@ -43,27 +41,33 @@ class assimp_reader {
     /// The meshes of a node and of the nodes below it. `outer` moves the node's parent.
     void add(const aiScene& file, const aiNode& node, const aiMatrix4x4& outer) {
         const aiMatrix4x4 place = outer * node.mTransformation;
+        polyhedron faces;  // of all materials
         for (unsigned i = 0; i < node.mNumMeshes; ++i)
-            add(*file.mMeshes[node.mMeshes[i]], node.mName.C_Str(), place);
+            append(*file.mMeshes[node.mMeshes[i]], place, faces);
+        if (!faces.triangles.empty()) {
+            std::string name = node.mName.C_Str();
+            if (node.mNumMeshes == 1 && file.mMeshes[node.mMeshes[0]]->mName.length > 0)
+                name = file.mMeshes[node.mMeshes[0]]->mName.C_Str();
+            if (name.empty()) name = file_;
+            triangle_mesh mesh(std::move(faces));
+            world_.add(part(std::move(name)), std::move(mesh));
+        }
         for (unsigned i = 0; i < node.mNumChildren; ++i) add(file, *node.mChildren[i], place);
     }
 
   private:
-    void add(const aiMesh& mesh, const std::string& node, const aiMatrix4x4& place) {
-        polyhedron faces;
+    static void append(const aiMesh& mesh, const aiMatrix4x4& place, polyhedron& faces) {
+        const auto first = static_cast<std::uint32_t>(faces.vertices.size());
         for (unsigned t = 0; t < mesh.mNumFaces; ++t) {
             const aiFace& face = mesh.mFaces[t];
             if (face.mNumIndices != 3) continue;  // points and lines
-            faces.triangles.push_back({face.mIndices[0], face.mIndices[1], face.mIndices[2]});
+            faces.triangles.push_back(
+                {first + face.mIndices[0], first + face.mIndices[1], first + face.mIndices[2]});
         }
-        if (faces.triangles.empty()) return;
         for (unsigned v = 0; v < mesh.mNumVertices; ++v) {
             const aiVector3D p = place * mesh.mVertices[v];
             faces.vertices.push_back({p.x, p.y, p.z});
         }
-        std::string name = mesh.mName.length > 0 ? mesh.mName.C_Str() : node;
-        if (name.empty()) name = file_;
-        world_.add(part(std::move(name)), triangle_mesh(std::move(faces)));
     }
 
     std::int32_t part(std::string name) {
@@ -81,14 +85,19 @@ class assimp_reader {
 
 }  // namespace detail
 
-/// The scene in a mesh file, in the file's units and axes. The sensor is left at the origin.
-/// @throws gnomon::error  if the file cannot be read, is damaged, or holds no triangle
-/// Complexity: O(n log n).
+/// The scene in a mesh file, in the file's axes and units (COLLADA, which tells its unit, in
+/// metres), each named group a mesh of one surface, of whatever materials. Coordinates pass through
+/// single precision, as Assimp keeps them: move what stands far from the origin before. The sensor
+/// is left at the origin. Complexity: O(n log n).
+/// @throws gnomon::error  if the file cannot be read, holds no triangle, or is seen to be damaged;
+///                        of a text file cut at the end of a line nobody can tell
 [[nodiscard]] inline scene read_scene(const std::string& path,
                                       mesh_groups groups = mesh_groups::objects) {
     Assimp::Importer importer;
+    importer.SetPropertyBool(AI_CONFIG_IMPORT_COLLADA_IGNORE_UP_DIRECTION, true);
     const aiScene* const file =
-        importer.ReadFile(path, aiProcess_Triangulate | aiProcess_JoinIdenticalVertices);
+        importer.ReadFile(path, aiProcess_ValidateDataStructure | aiProcess_Triangulate |
+                                    aiProcess_JoinIdenticalVertices);
     if (file == nullptr || file->mRootNode == nullptr)
         throw error(path, "", importer.GetErrorString());
     scene world;

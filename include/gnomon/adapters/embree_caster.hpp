@@ -4,13 +4,13 @@
 /// many triangles. Link with gnomon::embree.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <memory>
 #include <optional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -22,16 +22,18 @@
 #endif
 
 #include <gnomon/core/error.hpp>
-#include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/scene.hpp>
-#include <gnomon/simulation/shape.hpp>
 
 namespace gnomon {
 
-/// Models `ray_caster`. Flat shapes are triangles to Embree; round ones are asked themselves, in
-/// double precision.
+/// Models `ray_caster`, in single precision: places, ranges and reaches are right to some 1e-6 of
+/// the size of the scene, about whose middle Embree counts. One shape far away costs all of them
+/// their precision, and beyond 1e15 m Embree sees nothing. Flat shapes are triangles to Embree;
+/// curved ones are asked themselves, for rays that passed through single precision.
 class embree_caster {
   public:
     /// Keeps the shapes of `world`, not the scene.
@@ -46,20 +48,21 @@ class embree_caster {
             if (const auto flat = content_->shapes[i].shape->triangles()) {
                 add_triangles(i, *flat);
             } else {
-                add_round(i);
+                add_curved(i);
             }
         }
         rtcCommitScene(scene_.get());
         check();
     }
 
+    /// The nearest hit within the ray's reach, as far as single precision can tell. O(log n).
     [[nodiscard]] std::optional<ray_hit> operator()(const ray& r) const {
         const Eigen::Vector3d from = r.origin - content_->center;
-        const double length = r.direction.dot(r.direction);
-        // What Embree asserts, and what is no direction.
+        const double squared_length = r.direction.dot(r.direction);
+        // Embree asserts finite origins within 1e15 m; a direction of 0 or NaN meets nothing.
         constexpr double farthest = 1e15;
-        const bool is_ray =
-            r.reach > 0.0 && length > 0.5 && length < 2.0 && from.dot(from) < farthest * farthest;
+        const bool is_ray = r.reach > 0.0 && squared_length > 0.5 && squared_length < 2.0 &&
+                            from.dot(from) < farthest * farthest;
         if (!is_ray) return std::nullopt;
 
         RTCRayHit query{};
@@ -70,7 +73,8 @@ class embree_caster {
         query.ray.dir_y = static_cast<float>(r.direction.y());
         query.ray.dir_z = static_cast<float>(r.direction.z());
         query.ray.tnear = 0.0f;
-        query.ray.tfar = static_cast<float>(r.reach);
+        // A hit at the reach must not be lost to rounding; it is told at the reach.
+        query.ray.tfar = static_cast<float>(r.reach + 1e-6 * (r.reach + content_->size));
         query.ray.mask = ~0u;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
 #if RTC_VERSION_MAJOR >= 4
@@ -89,33 +93,37 @@ class embree_caster {
         const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
         const std::int32_t own = surfaces.empty() ? static_cast<std::int32_t>(query.hit.primID)
                                                   : surfaces[query.hit.primID];
-        return ray_hit{query.ray.tfar, n * (sign / std::sqrt(n.dot(n))), s.first_surface + own};
+        const double range = std::min<double>(query.ray.tfar, r.reach);
+        return ray_hit{range, n * (sign / std::sqrt(n.dot(n))), s.first_surface + own};
     }
 
   private:
     struct release {
         void operator()(RTCDevice device) const { rtcReleaseDevice(device); }
         void operator()(RTCScene scene) const { rtcReleaseScene(scene); }
+        void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
     };
 
     /// What Embree's callbacks are given, so it must not move.
     struct content {
         std::vector<placed_shape> shapes;
         Eigen::Vector3d center;  ///< of the scene: single precision is best about the origin
-        /// Of each shape and triangle; empty for round shapes, whose callback puts the number of
+        double size = 0.0;       ///< of the scene, from end to end [m]
+        /// Of each shape and triangle; empty for curved shapes, whose callback puts the number of
         /// the surface where Embree has that of the primitive.
         std::vector<std::vector<std::int32_t>> surface_of_primitive;
 
         explicit content(const scene& world)
             : shapes(world.shapes()), center(0.0, 0.0, 0.0), surface_of_primitive(shapes.size()) {
-            bounds all = detail::no_bounds();
-            for (const placed_shape& s : shapes) detail::extend(all, s.extent.low, s.extent.high);
-            if (!shapes.empty()) center = (all.low + all.high) * 0.5;
+            if (shapes.empty()) return;
+            const bounds all = world.extent();
+            center = all.middle();
+            size = std::sqrt(squared_distance(all.low, all.high));
         }
     };
 
     /// A shape as its callbacks know it.
-    struct round {
+    struct curved {
         const content* all;
         std::size_t index;
     };
@@ -127,19 +135,21 @@ class embree_caster {
                     problem == RTC_ERROR_OUT_OF_MEMORY ? "out of memory" : "cannot make a scene");
     }
 
-    void attach(RTCGeometry geometry, std::size_t i) {
-        rtcCommitGeometry(geometry);
-        rtcAttachGeometryByID(scene_.get(), geometry, static_cast<unsigned>(i));
-        rtcReleaseGeometry(geometry);
+    using geometry_pointer = std::unique_ptr<RTCGeometryTy, release>;
+
+    /// The scene holds what is attached.
+    void attach(const geometry_pointer& geometry, std::size_t i) {
+        rtcCommitGeometry(geometry.get());
+        rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(i));
     }
 
     void add_triangles(std::size_t i, const polyhedron& faces) {
-        const auto geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE);
+        const geometry_pointer geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_TRIANGLE));
         auto* const vertices = static_cast<float*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+            rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
                                     3 * sizeof(float), faces.vertices.size()));
         auto* const indices = static_cast<std::uint32_t*>(
-            rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+            rtcSetNewGeometryBuffer(geometry.get(), RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
                                     3 * sizeof(std::uint32_t), faces.triangles.size()));
         check();
         for (std::size_t v = 0; v < faces.vertices.size(); ++v) {
@@ -157,31 +167,31 @@ class embree_caster {
         attach(geometry, i);
     }
 
-    void add_round(std::size_t i) {
-        round_.push_back(std::make_unique<round>(round{content_.get(), i}));
-        const auto geometry = rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER);
-        rtcSetGeometryUserPrimitiveCount(geometry, 1);
-        rtcSetGeometryUserData(geometry, round_.back().get());
-        rtcSetGeometryBoundsFunction(geometry, bounds_of_round, nullptr);
-        rtcSetGeometryIntersectFunction(geometry, intersect_round);
+    void add_curved(std::size_t i) {
+        curved_.push_back(std::make_unique<curved>(curved{content_.get(), i}));
+        const geometry_pointer geometry(rtcNewGeometry(device_.get(), RTC_GEOMETRY_TYPE_USER));
+        rtcSetGeometryUserPrimitiveCount(geometry.get(), 1);
+        rtcSetGeometryUserData(geometry.get(), curved_.back().get());
+        rtcSetGeometryBoundsFunction(geometry.get(), bounds_of_curved, nullptr);
+        rtcSetGeometryIntersectFunction(geometry.get(), intersect_curved);
         attach(geometry, i);
     }
 
-    static void bounds_of_round(const RTCBoundsFunctionArguments* a) {
-        const auto& self = *static_cast<const round*>(a->geometryUserPtr);
+    static void bounds_of_curved(const RTCBoundsFunctionArguments* a) {
+        const auto& self = *static_cast<const curved*>(a->geometryUserPtr);
         const bounds& b = self.all->shapes[self.index].extent;
         const Eigen::Vector3d low = b.low - self.all->center;
         const Eigen::Vector3d high = b.high - self.all->center;
         constexpr float infinity = std::numeric_limits<float>::infinity();
-        const auto down = [&](double x) { return std::nextafter(float(x), -infinity); };
-        const auto up = [&](double x) { return std::nextafter(float(x), infinity); };
+        const auto down = [](double x) { return std::nextafter(float(x), -infinity); };
+        const auto up = [](double x) { return std::nextafter(float(x), infinity); };
         *a->bounds_o = {down(low.x()), down(low.y()), down(low.z()), 0.0f,
                         up(high.x()),  up(high.y()),  up(high.z()),  0.0f};
     }
 
-    static void intersect_round(const RTCIntersectFunctionNArguments* a) {
+    static void intersect_curved(const RTCIntersectFunctionNArguments* a) {
         if (a->N != 1 || a->valid[0] == 0) return;
-        const auto& self = *static_cast<const round*>(a->geometryUserPtr);
+        const auto& self = *static_cast<const curved*>(a->geometryUserPtr);
         auto& query = *reinterpret_cast<RTCRayHit*>(a->rayhit);
         const ray r{
             Eigen::Vector3d(query.ray.org_x, query.ray.org_y, query.ray.org_z) + self.all->center,
@@ -200,7 +210,7 @@ class embree_caster {
 
     std::unique_ptr<RTCDeviceTy, release> device_;
     std::unique_ptr<content> content_;
-    std::vector<std::unique_ptr<round>> round_;
+    std::vector<std::unique_ptr<curved>> curved_;
     std::unique_ptr<RTCSceneTy, release> scene_;
 };
 

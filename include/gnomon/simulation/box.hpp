@@ -21,7 +21,9 @@
 
 namespace gnomon {
 
-/// Centered on its frame, along the axes. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z.
+/// Centered on its frame, along the axes. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z. Rays that
+/// pass it by less than a billionth of its size meet it, so that none falls between boxes that
+/// touch; a ray within the plane of a side is within the box.
 struct box {
     double length;  ///< along x [m]
     double width;   ///< along y [m]
@@ -56,19 +58,43 @@ struct box {
         return result;
     }
 
-    /// The slab method (Kay and Kajiya 1986): the ray is inside between the last entry into a pair
-    /// of parallel planes and the first exit from one.
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        auto inner = overlap(r, 0.0);
+        const bool passes = !inner;
+        if (passes) inner = overlap(r, 1e-9 * (length + width + height));
+        if (!inner) return std::nullopt;
+        const auto [enter, leave, entered, left] = *inner;
+        const bool inside = enter <= 0.0;
+        if (inside && passes) return std::nullopt;
+        const double range = inside ? leave : enter;
+        if (!(range > 0.0 && range <= r.reach && range < std::numeric_limits<double>::infinity()))
+            return std::nullopt;
+
+        const int axis = inside ? left : entered;
+        const bool towards_positive = r.direction[axis] > 0.0;
+        Eigen::Vector3d normal(0.0, 0.0, 0.0);
+        normal[axis] = towards_positive ? -1.0 : 1.0;
+        return ray_hit{range, normal, 2 * axis + (towards_positive == inside ? 0 : 1)};
+    }
+
+  private:
+    /// Where a ray is within all three pairs of parallel planes.
+    struct interval {
+        double enter;
+        double leave;
+        int entered;  ///< axis of the planes entered last
+        int left;     ///< axis of the planes left first
+    };
+
+    /// The slab method (Kay and Kajiya 1986).
+    [[nodiscard]] std::optional<interval> overlap(const ray& r, double margin) const {
         constexpr double infinity = std::numeric_limits<double>::infinity();
         const std::array<double, 3> size{length, width, height};
-        double enter = -infinity;
-        double leave = infinity;
-        int entered = 0;
-        int left = 0;
+        interval result{-infinity, infinity, 0, 0};
         for (int axis = 0; axis < 3; ++axis) {
             const double o = r.origin[axis];
             const double u = r.direction[axis];
-            const double half = 0.5 * size[static_cast<std::size_t>(axis)];
+            const double half = 0.5 * size[static_cast<std::size_t>(axis)] + margin;
             if (u == 0.0) {
                 if (!(std::abs(o) <= half)) return std::nullopt;
                 continue;
@@ -76,25 +102,17 @@ struct box {
             double in = (-half - o) / u;
             double out = (half - o) / u;
             if (in > out) std::swap(in, out);
-            if (!(in <= leave && out >= enter)) return std::nullopt;
-            if (in > enter) {
-                enter = in;
-                entered = axis;
+            if (!(in <= result.leave && out >= result.enter)) return std::nullopt;
+            if (in > result.enter) {
+                result.enter = in;
+                result.entered = axis;
             }
-            if (out < leave) {
-                leave = out;
-                left = axis;
+            if (out < result.leave) {
+                result.leave = out;
+                result.left = axis;
             }
         }
-        const bool inside = enter <= 0.0;
-        const double range = inside ? leave : enter;
-        if (!(range > 0.0 && range <= r.reach && range < infinity)) return std::nullopt;
-
-        const int axis = inside ? left : entered;
-        const bool towards_positive = r.direction[axis] > 0.0;
-        Eigen::Vector3d normal(0.0, 0.0, 0.0);
-        normal[axis] = towards_positive ? -1.0 : 1.0;
-        return ray_hit{range, normal, 2 * axis + (towards_positive == inside ? 0 : 1)};
+        return result;
     }
 };
 

@@ -15,7 +15,7 @@
 namespace gnomon {
 
 /// Stands on z = 0 about the z axis with its apex on top, closed. Surfaces: 0 the mantle, 1 the
-/// bottom.
+/// bottom. Of height 0 it is a disc.
 struct cone {
     double radius;  ///< at the bottom [m]
     double height;  ///< of the apex [m]
@@ -33,7 +33,7 @@ struct cone {
         // radius(z) = s (height - z)
         const double s = radius / height;
         const detail::revolved_arc mantle{0.0, height, s * s, -2.0 * s * radius, radius * radius};
-        return detail::first_hit_of({&mantle, 1}, {.bottom = true, .top = false}, r);
+        return detail::first_hit_of({&mantle, 1}, {.bottom = radius * radius, .top = {}}, r);
     }
 };
 

@@ -30,7 +30,8 @@ struct cylinder {
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
         const detail::revolved_arc mantle{0.0, height, 0.0, 0.0, radius * radius};
-        return detail::first_hit_of({&mantle, 1}, {.bottom = true, .top = true}, r);
+        return detail::first_hit_of({&mantle, 1},
+                                    {.bottom = radius * radius, .top = radius * radius}, r);
     }
 };
 

@@ -9,15 +9,14 @@
 #include <span>
 #include <string_view>
 
-#include <Eigen/Core>
-
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
 namespace gnomon {
 
-/// A rectangle in z = 0, centered on its frame, seen from both sides.
+/// A rectangle in z = 0, centered on its frame, seen from both sides. Rays that pass it by less
+/// than a billionth of its size meet it, so that none slips out between the walls of a room.
 struct plane_patch {
     double length;  ///< along x [m]
     double width;   ///< along y [m]
@@ -42,8 +41,10 @@ struct plane_patch {
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
         const double range = -r.origin.z() / r.direction.z();
         if (!(range > 0.0 && range <= r.reach)) return std::nullopt;
-        const bool hit = std::abs(r.origin.x() + range * r.direction.x()) <= 0.5 * length &&
-                         std::abs(r.origin.y() + range * r.direction.y()) <= 0.5 * width;
+        const double margin = 1e-9 * (length + width);
+        const bool hit =
+            std::abs(r.origin.x() + range * r.direction.x()) <= 0.5 * length + margin &&
+            std::abs(r.origin.y() + range * r.direction.y()) <= 0.5 * width + margin;
         if (!hit) return std::nullopt;
         return ray_hit{range, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
     }

@@ -8,6 +8,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/point.hpp>
 
 namespace gnomon {
 
@@ -50,11 +51,29 @@ struct pose {
     }
 };
 
-/// At p [m], not turned.
+/// At (x, y, z) [m], not turned.
 [[nodiscard]] inline pose at(double x, double y, double z) {
     pose result;
     result.position = Eigen::Vector3d(x, y, z);
     return result;
+}
+
+/// Whether a pose is a rigid motion: finite, its axes of unit length, at right angles and
+/// right-handed, all to 1e-9.
+[[nodiscard]] inline bool is_rigid(const pose& p) {
+    constexpr double tolerance = 1e-9;
+    const auto& m = p.rotation;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const double product = m(i, 0) * m(j, 0) + m(i, 1) * m(j, 1) + m(i, 2) * m(j, 2);
+            if (!(std::abs(product - (i == j ? 1.0 : 0.0)) < tolerance)) return false;
+        }
+    }
+    // Of orthonormal axes the determinant is 1, or -1 if they are mirrored.
+    const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) +
+                               m(0, 1) * (m(1, 2) * m(2, 0) - m(1, 0) * m(2, 2)) +
+                               m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+    return determinant > 0.0 && is_finite(p.position);
 }
 
 namespace detail {

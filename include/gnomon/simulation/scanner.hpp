@@ -24,30 +24,34 @@ struct scanner {
     double min_range = 0.1;              ///< nothing nearer is seen [m]
     double max_range = 30.0;             ///< nothing farther is seen [m]
 
-    /// Beams of a scan line.
+    /// Beams of a scan line. Precondition: the scanner is valid.
     [[nodiscard]] std::size_t beams() const {
         return whole(field_of_view.radians() / resolution.radians());
     }
 
-    /// Scan lines in `seconds`.
+    /// Scan lines in `seconds`. Precondition: fewer than 2^53.
     [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
 
-    /// The direction of beam j in the sensor's frame: from right to left, the field of view being
-    /// cut into equal parts with a beam in the middle of each.
+    /// The direction of beam j in the sensor's frame: from right to left, as far to one side of the
+    /// axis of sight as to the other. The field of view is cut into parts of the resolution with a
+    /// beam in the middle of each; what does not make a whole part is left to both ends.
     [[nodiscard]] Eigen::Vector3d direction(std::size_t j) const {
-        const angle a = radians((static_cast<double>(j) + 0.5) * resolution.radians() -
-                                0.5 * field_of_view.radians());
+        const double from_middle =
+            static_cast<double>(j) + 0.5 - 0.5 * static_cast<double>(beams());
+        const angle a = radians(from_middle * resolution.radians());
         return {cos(a), sin(a), 0.0};
     }
 
-    /// @throws std::invalid_argument  unless 0 < resolution <= field of view <= 360 degrees, the
-    ///                                frequency is positive and finite, and 0 <= min_range <
-    ///                                max_range, which is finite
+    /// @throws std::invalid_argument  unless 0 < resolution <= field of view <= 360 degrees, which
+    ///                                make 10,000,000 beams at most, the frequency is positive and
+    ///                                finite, and 0 <= min_range < max_range, which is finite
     void require_valid() const {
         using detail::require;
         require(
             resolution > radians(0) && resolution <= field_of_view && field_of_view <= degrees(360),
             "scanner: needs 0 < resolution <= field of view <= 360 degrees");
+        require(field_of_view.radians() / resolution.radians() < 1e7,
+                "scanner: the resolution must leave 10,000,000 beams at most");
         require(frequency > 0.0 && std::isfinite(frequency),
                 "scanner: the frequency must be positive and finite");
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),

@@ -5,7 +5,6 @@
 /// ground truth of a scan speaks of, and names.
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -20,6 +19,7 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
@@ -100,11 +100,22 @@ struct placed_shape {
 /// Objects of parts of shapes. Copies share the shapes.
 class scene {
   public:
+    /// Where a sensor should stand to see the scene: in the origin, level, unless it is told.
+    pose sensor;
+
     /// A new object.
     /// @return its number
     std::int32_t add_object(std::string name) {
         objects_.push_back(std::move(name));
         return static_cast<std::int32_t>(objects_.size() - 1);
+    }
+
+    /// A new object of one part, "body", of one shape.
+    /// @return the number of its first surface
+    /// @throws std::invalid_argument  as add() does
+    template <shape S>
+    std::int32_t add_object(std::string name, S shape, const pose& at = {}) {
+        return add(add_part(add_object(std::move(name)), "body"), std::move(shape), at);
     }
 
     /// A new part of an object.
@@ -125,6 +136,7 @@ class scene {
     std::int32_t add(std::int32_t part, S shape, const pose& at = {}) {
         detail::require(part >= 0 && static_cast<std::size_t>(part) < parts_.size(),
                         "scene: a shape of a missing part");
+        detail::require(is_rigid(at), "scene: a pose must be a rigid motion");
         const bounds extent = placed(shape.extent(), at);
         const auto first = static_cast<std::int32_t>(surfaces_.size());
         for (const auto& name : shape.surface_names())
@@ -139,6 +151,13 @@ class scene {
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
     [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
 
+    /// Bounds about all shapes [m]; empty without any. O(shapes).
+    [[nodiscard]] bounds extent() const {
+        bounds all;
+        for (const placed_shape& s : shapes_) all.extend(s.extent);
+        return all;
+    }
+
     /// The whole name of a surface, "chair 2/seat/+z".
     /// Precondition: there is one of this number.
     [[nodiscard]] std::string surface_name(std::int32_t surface) const {
@@ -147,7 +166,7 @@ class scene {
         return objects_[static_cast<std::size_t>(p.object)] + "/" + p.name + "/" + s.name;
     }
 
-    /// The number of the surface of this whole name; `nothing` if there is none. O(surfaces).
+    /// The number of the first surface of this whole name; `nothing` if there is none. O(surfaces).
     [[nodiscard]] std::int32_t find_surface(std::string_view whole_name) const {
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const auto number = static_cast<std::int32_t>(i);
@@ -155,9 +174,6 @@ class scene {
         }
         return nothing;
     }
-
-    /// Where a sensor should stand to see the scene.
-    pose sensor;
 
   private:
     /// Bounds about turned and moved ones.
@@ -172,10 +188,6 @@ class scene {
             for (int j = 0; j < 3; ++j) {
                 middle += at.rotation(i, j) * 0.5 * (own.low[j] + own.high[j]);
                 reach += std::abs(at.rotation(i, j)) * 0.5 * (own.high[j] - own.low[j]);
-                double product = 0.0;
-                for (int k = 0; k < 3; ++k) product += at.rotation(i, k) * at.rotation(j, k);
-                require(std::abs(product - (i == j ? 1.0 : 0.0)) < 1e-9,
-                        "scene: a pose must be a rigid motion");
             }
             // What rounding may have cut off.
             reach += 1e-12 * (std::abs(middle) + reach);

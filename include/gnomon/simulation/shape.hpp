@@ -9,8 +9,9 @@
 /// Laws, checked in tests/laws/shape_laws.hpp for every model: the hit lies on the ray within its
 /// reach and in the bounds; the normal has unit length and faces the ray's origin; the number of
 /// the surface is below the number of names; a shorter reach changes nothing but to hide hits
-/// beyond it; a ray that starts behind the hit sees what follows; a ray of no direction, or with
-/// NaN, meets nothing.
+/// beyond it; a ray that starts behind the hit sees what follows, from wherever it starts on the
+/// way there, and nothing is seen from the other end that is not seen from within; a ray of no
+/// direction, or with NaN, meets nothing.
 ///
 /// Models: `box`, `plane_patch`, `cylinder`, `cone`, `sphere`, `surface_of_revolution`,
 /// `triangle_mesh`.
@@ -21,19 +22,15 @@
 #include <optional>
 #include <string_view>
 
-#include <Eigen/Core>
-
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/ray.hpp>
 
 namespace gnomon {
 
-/// A box along the axes that holds a shape; empty if a low coordinate exceeds the high one.
-struct bounds {
-    Eigen::Vector3d low;   ///< [m]
-    Eigen::Vector3d high;  ///< [m]
-};
-
-/// Whatever rays can hit. Const calls, thread-safe.
+/// A surface, or several, that rays meet. In the shape's own frame, [m]: extent() are bounds about
+/// it; first_hit(r) is the nearest hit of the ray within its reach, r.direction being of unit
+/// length; surface_names() has one name for each number that hits tell. Calls are const and
+/// thread-safe.
 template <class S>
 concept shape = requires(const S& s, const ray& r) {
     { s.extent() } -> std::same_as<bounds>;

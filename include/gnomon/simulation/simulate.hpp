@@ -4,11 +4,9 @@
 /// reading, each reading a point (Klasing 2010, Sec. 2.4.3).
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -21,6 +19,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/detail/instrument.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
@@ -33,56 +32,72 @@ namespace gnomon {
 
 namespace detail {
 
-/// A reading that became a point.
-struct returned {
-    Eigen::Vector3d point;
-    Eigen::Vector3d direction;
-    std::optional<ray_hit> hit;
-    echo kind;
+/// A reading that becomes a point, and the number of its ray.
+template <ray_caster C>
+struct numbered_reading {
+    std::size_t ray;
+    typename instrument<C>::reading reading;
 };
 
-/// The readings of `rays` rays that are kept, in order of the rays: ray_of(i) is number i.
+/// The readings of `rays` rays that are kept, chunk by chunk in order of the rays: ray_of(i) is
+/// number i. Memory grows with the readings kept, not with the rays.
 template <ray_caster C, execution X>
-[[nodiscard]] std::vector<std::optional<returned>> read_rays(const instrument<C>& read,
-                                                             const beam& b, std::size_t rays,
-                                                             auto&& ray_of, const X& run) {
-    std::vector<std::optional<returned>> readings(rays);
+[[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(const instrument<C>& read,
+                                                                      const beam& b,
+                                                                      std::size_t rays,
+                                                                      auto&& ray_of, const X& run) {
+    std::vector<std::vector<numbered_reading<C>>> chunks(chunk_count(rays));
     for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
+        auto& kept = chunks[begin / chunk_size];
         for (std::size_t i = begin; i < end; ++i) {
-            const ray r = ray_of(i);
-            const auto reading = read(r, random_stream(b.seed, i));
-            if (reading.kind == echo::none && !b.keep_failed) continue;
-            readings[i] = {r.point_at(reading.range), r.direction, reading.hit, reading.kind};
+            auto reading = read(ray_of(i), random_stream(b.seed, i));
+            if (reading.kind != echo::none || b.keep_failed) kept.push_back({i, reading});
         }
+        kept.shrink_to_fit();
     });
-    return readings;
+    return chunks;
 }
 
-/// The points of the readings that became one, and the truth about them.
-[[nodiscard]] true_scan points_of(const auto& readings, const scene& world) {
+/// The points of the readings, and the truth about them.
+/// @throws std::invalid_argument  for a hit on a surface that `world` does not have
+[[nodiscard]] true_scan points_of(const auto& chunks, const scene& world, auto&& ray_of) {
+    std::size_t n = 0;
+    for (const auto& kept : chunks) n += kept.size();
     true_scan result;
-    for (const auto& r : readings) {
-        if (!r) continue;
-        result.scan.points.push_back(r->point);
-        result.directions.push_back(r->direction);
-        result.echoes.push_back(r->kind);
-        Eigen::Vector3d normal(0.0, 0.0, 0.0);
-        double range = std::numeric_limits<double>::quiet_NaN();
-        std::int32_t surface = nothing;
-        std::int32_t part = nothing;
-        std::int32_t object = nothing;
-        if (r->hit) {
-            normal = r->hit->normal;
-            range = r->hit->range;
-            surface = r->hit->surface;
-            part = world.surfaces()[static_cast<std::size_t>(surface)].part;
-            object = world.parts()[static_cast<std::size_t>(part)].object;
+    result.scan.points.reserve(n);
+    result.normals.reserve(n);
+    result.surfaces.reserve(n);
+    result.parts.reserve(n);
+    result.objects.reserve(n);
+    result.ranges.reserve(n);
+    result.directions.reserve(n);
+    result.echoes.reserve(n);
+    for (const auto& kept : chunks) {
+        for (const auto& [number, reading] : kept) {
+            const ray r = ray_of(number);
+            result.scan.points.push_back(r.point_at(reading.range));
+            result.directions.push_back(r.direction);
+            result.echoes.push_back(reading.kind);
+            Eigen::Vector3d normal(0.0, 0.0, 0.0);
+            double range = std::numeric_limits<double>::quiet_NaN();
+            std::int32_t surface = nothing;
+            std::int32_t part = nothing;
+            std::int32_t object = nothing;
+            if (reading.hit) {
+                normal = reading.hit->normal;
+                range = reading.hit->range;
+                surface = reading.hit->surface;
+                require(surface >= 0 && static_cast<std::size_t>(surface) < world.surfaces().size(),
+                        "simulate: the caster is of another scene");
+                part = world.surfaces()[static_cast<std::size_t>(surface)].part;
+                object = world.parts()[static_cast<std::size_t>(part)].object;
+            }
+            result.normals.push_back(normal);
+            result.ranges.push_back(range);
+            result.surfaces.push_back(surface);
+            result.parts.push_back(part);
+            result.objects.push_back(object);
         }
-        result.normals.push_back(normal);
-        result.ranges.push_back(range);
-        result.surfaces.push_back(surface);
-        result.parts.push_back(part);
-        result.objects.push_back(object);
     }
     return result;
 }
@@ -91,14 +106,18 @@ template <ray_caster C, execution X>
 
 /// A scan of a scene, scan line by scan line, by a caster of your choice.
 ///
-/// @param world   what `caster` was made of; names the truth
-/// @param finder  gives n = lines(duration) * beams() rays
-/// @return the points of all readings that did not fail; view points one for all, or one per scan
-///         line if the sensor moves
-/// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
-///                                finite, or there are more rays than a point range may hold
 /// The same seed gives the same bytes for every execution.
-/// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint.
+/// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint; memory
+/// for the points, not for rays that meet nothing.
+///
+/// @param world   names the truth. Precondition: it is what `caster` was made of
+/// @param finder  gives n = lines(duration) * beams() rays
+/// @return the points of all readings that did not fail, and of those that did if the beam says
+///         keep_failed; view points one for all, or one per scan line if the sensor moves
+/// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
+///                                finite, there are more rays than a point range may hold, a pose
+///                                of the trajectory is no rigid motion, or the caster tells of a
+///                                surface that `world` does not have
 template <ray_caster C, sensor_trajectory T, execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
                                  const scanner& finder = {}, const beam& b = {},
@@ -118,6 +137,8 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
     bool moves = false;
     for (std::size_t line = 0; line < lines; ++line) {
         poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
+        detail::require(is_rigid(poses.back()),
+                        "simulate: a pose of the trajectory is no rigid motion");
         viewpoints.push_back(poses.back().position);
         moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
     }
@@ -129,11 +150,13 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
     };
 
     const auto readings = detail::read_rays(read, b, lines * beams, ray_of, run);
-    true_scan result = detail::points_of(readings, world);
+    true_scan result = detail::points_of(readings, world, ray_of);
     if (moves) {
         std::vector<point_index> line_of_point;
-        for (std::size_t i = 0; i < readings.size(); ++i) {
-            if (readings[i]) line_of_point.push_back(static_cast<point_index>(i / beams));
+        line_of_point.reserve(result.scan.size());
+        for (const auto& kept : readings) {
+            for (const auto& one : kept)
+                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
         }
         result.scan.viewpoints = viewpoint_table(std::move(viewpoints), std::move(line_of_point));
     } else if (!viewpoints.empty()) {

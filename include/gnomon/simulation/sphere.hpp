@@ -31,7 +31,7 @@ struct sphere {
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
         const detail::revolved_arc all{-radius, radius, -1.0, 0.0, radius * radius};
-        return detail::first_hit_of({&all, 1}, {.bottom = false, .top = false}, r);
+        return detail::first_hit_of({&all, 1}, {}, r);
     }
 };
 

@@ -3,8 +3,9 @@
 /// What a potter's wheel makes: a profile turned about the z axis, smooth or with straight pieces.
 ///
 /// The squared radius of the smooth profile is a quadratic spline of the height that keeps the rise
-/// and fall of its points (Schumaker 1983, with the slopes of Fritsch and Butland 1984). So its
-/// pieces are quadrics, and rays meet them as exactly as they meet a sphere.
+/// and fall of its points (Schumaker 1983, with the slopes of Butland 1980: the harmonic means of
+/// the neighboring secants, at most twice the smaller one). So its pieces are quadrics, and rays
+/// meet them as exactly as they meet a sphere.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,6 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <gnomon/core/error.hpp>
@@ -40,12 +40,10 @@ struct revolution_options {
 /// Surfaces: 0 the mantle, 1 the bottom, 2 the top.
 class surface_of_revolution {
   public:
-    /// @throws std::invalid_argument  unless there are two points or more, radii that are finite
-    /// and
-    ///                                not negative, and heights that are finite and grow
+    /// @throws std::invalid_argument  unless there are two points or more, all finite, with radii
+    ///                                that are not negative and heights that grow
     explicit surface_of_revolution(const std::vector<profile_point>& profile,
-                                   const revolution_options& options = {})
-        : discs_{.bottom = options.bottom, .top = options.top} {
+                                   const revolution_options& options = {}) {
         detail::require(profile.size() >= 2, "surface_of_revolution: needs two points or more");
         for (std::size_t i = 0; i < profile.size(); ++i) {
             detail::require(profile[i].radius >= 0.0 && std::isfinite(profile[i].radius),
@@ -55,6 +53,9 @@ class surface_of_revolution {
                             "surface_of_revolution: heights must be finite and grow");
             widest_ = std::max(widest_, profile[i].radius);
         }
+        if (options.bottom) discs_.bottom = profile.front().radius * profile.front().radius;
+        if (options.top) discs_.top = profile.back().radius * profile.back().radius;
+        base_ = profile.front().height;
         if (options.smooth)
             join_smoothly(profile);
         else
@@ -62,7 +63,8 @@ class surface_of_revolution {
     }
 
     [[nodiscard]] bounds extent() const {
-        return {{-widest_, -widest_, arcs_.front().low}, {widest_, widest_, arcs_.back().high}};
+        return {{-widest_, -widest_, base_ + arcs_.front().low},
+                {widest_, widest_, base_ + arcs_.back().high}};
     }
 
     [[nodiscard]] static std::span<const std::string_view> surface_names() {
@@ -71,13 +73,17 @@ class surface_of_revolution {
     }
 
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
-        return detail::first_hit_of(arcs_, discs_, r);
+        ray from_base = r;
+        from_base.origin.z() -= base_;
+        return detail::first_hit_of(arcs_, discs_, from_base);
     }
 
   private:
     /// From `low` to `high` a squared radius that begins with `value` and `slope` and ends with
-    /// `last_slope`. Returns its last value.
-    double append(double low, double high, double value, double slope, double last_slope) {
+    /// `last_slope`, heights being the profile's. Returns its last value.
+    double append(double from, double to, double value, double slope, double last_slope) {
+        const double low = from - base_;
+        const double high = to - base_;
         // value + slope (z - low) + curvature (z - low)^2, written out in powers of z
         const double curvature = (last_slope - slope) / (2.0 * (high - low));
         arcs_.push_back({low, high, curvature, slope - 2.0 * curvature * low,
@@ -121,6 +127,9 @@ class surface_of_revolution {
         }
     }
 
+    /// Of the profile's first point. The arcs count their heights from here: in powers of a height
+    /// far from 0 they would cancel.
+    double base_ = 0.0;
     std::vector<detail::revolved_arc> arcs_;  // lowest first
     detail::end_discs discs_;
     double widest_ = 0.0;

@@ -7,10 +7,8 @@
 /// Klasing 2010: Figs. 3.3, 3.4, 3.9, 4.8 and 4.11.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -18,6 +16,7 @@
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/cylinder.hpp>
+#include <gnomon/simulation/detail/room.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
 #include <gnomon/simulation/pose.hpp>
@@ -26,63 +25,13 @@
 
 namespace gnomon::scenes {
 
-namespace detail {
-
-/// From the low to the high end along each axis [m].
-struct block_span {
-    double x0;
-    double x1;
-    double y0;
-    double y1;
-    double z0;
-    double z1;
-
-    [[nodiscard]] pose middle() const {
-        return at(0.5 * (x0 + x1), 0.5 * (y0 + y1), 0.5 * (z0 + z1));
-    }
-};
-
-/// Adds an object of one part.
-template <shape S>
-void add_object(scene& world, const char* name, const S& s, const pose& place) {
-    world.add(world.add_part(world.add_object(name), "body"), s, place);
-}
-
-/// Adds a block along the axes.
-inline void add_block(scene& world, const char* name, const block_span& b) {
-    add_object(world, name, box{b.x1 - b.x0, b.y1 - b.y0, b.z1 - b.z0}, b.middle());
-}
-
-/// Adds floor, ceiling and four walls as parts of one object "room".
-inline void add_room(scene& world, const block_span& b) {
-    const std::int32_t room = world.add_object("room");
-    const auto add = [&](const char* name, double length, double width, const pose& place) {
-        world.add(world.add_part(room, name), plane_patch{length, width}, place);
-    };
-    const double length = b.x1 - b.x0;
-    const double width = b.y1 - b.y0;
-    const double height = b.z1 - b.z0;
-    const pose middle = b.middle();
-    const pose facing_y = roll(degrees(90));
-    const pose facing_x = yaw(degrees(90)) * facing_y;
-    add("floor", length, width, middle * at(0.0, 0.0, -0.5 * height));
-    add("ceiling", length, width, middle * at(0.0, 0.0, 0.5 * height));
-    add("wall -y", length, height, middle * at(0.0, -0.5 * width, 0.0) * facing_y);
-    add("wall +y", length, height, middle * at(0.0, 0.5 * width, 0.0) * facing_y);
-    add("wall -x", width, height, middle * at(-0.5 * length, 0.0, 0.0) * facing_x);
-    add("wall +x", width, height, middle * at(0.5 * length, 0.0, 0.0) * facing_x);
-}
-
-}  // namespace detail
-
 /// Fig. 3.3: a box and a cylinder, scaled about their places on the floor, and nothing else.
 [[nodiscard]] inline scene box_and_cylinder(double scale = 1.0) {
     scene world;
     world.sensor = at(0.0, 0.0, 0.8);
     const double edge = 0.60 * scale;
-    detail::add_object(world, "box", box{edge, edge, edge},
-                       at(2.2, -0.55, 0.5 * edge) * yaw(degrees(30)));
-    detail::add_object(world, "cylinder", cylinder{0.30 * scale, 0.90 * scale}, at(2.4, 0.55, 0.0));
+    world.add_object("box", box{edge, edge, edge}, at(2.2, -0.55, 0.5 * edge) * yaw(degrees(30)));
+    world.add_object("cylinder", cylinder{0.30 * scale, 0.90 * scale}, at(2.4, 0.55, 0.0));
     return world;
 }
 
@@ -91,16 +40,14 @@ inline void add_room(scene& world, const block_span& b) {
 [[nodiscard]] inline scene boxes_and_bin() {
     scene world;
     world.sensor = at(0.0, 0.0, 1.0) * pitch(degrees(45));
-    detail::add_object(world, "box 1", box{0.40, 0.30, 0.25},
-                       at(0.9, 0.35, 0.125) * yaw(degrees(20)));
-    detail::add_object(world, "box 2", box{0.30, 0.30, 0.40},
-                       at(1.1, -0.30, 0.20) * yaw(degrees(-35)));
-    detail::add_object(world, "bin", cylinder{0.15, 0.35}, at(1.2, 0.05, 0.0));
+    world.add_object("box 1", box{0.40, 0.30, 0.25}, at(0.9, 0.35, 0.125) * yaw(degrees(20)));
+    world.add_object("box 2", box{0.30, 0.30, 0.40}, at(1.1, -0.30, 0.20) * yaw(degrees(-35)));
+    world.add_object("bin", cylinder{0.15, 0.35}, at(1.2, 0.05, 0.0));
     return world;
 }
 
 /// Fig. 3.9: a plate of 30 x 30 cm, anywhere in a space of 2 x 2 x 1 m before the sensor and turned
-/// in any way that shows it its face by 5 degrees at least.
+/// by any yaw and pitch, of equal chance each, that show it its face by 5 degrees at least.
 [[nodiscard]] inline scene plate(std::uint64_t seed) {
     random_stream random(seed);
     while (true) {
@@ -112,7 +59,7 @@ inline void add_room(scene& world, const block_span& b) {
         const double cosine = normal.dot(place.position) / place.position.norm();
         if (std::abs(cosine) < sin(degrees(5))) continue;
         scene world;
-        detail::add_object(world, "plate", plane_patch{0.30, 0.30}, place);
+        world.add_object("plate", plane_patch{0.30, 0.30}, place);
         return world;
     }
 }
@@ -123,26 +70,19 @@ inline void add_room(scene& world, const block_span& b) {
 [[nodiscard]] inline scene kitchen(double scale = 1.0) {
     scene world;
     world.sensor = at(0.3, 0.0, 1.2) * pitch(degrees(10));
-    detail::add_room(world, {0.0, 4.2, -2.2, 2.2, 0.0, 2.5});
+    detail::add_room(world, {{0.0, -2.2, 0.0}, {4.2, 2.2, 2.5}});
     // Along the wall: from it inwards, about the middle, from the floor up.
     const auto cabinet = [&](const char* name, double y, double depth, double width,
                              double height) {
         detail::add_block(world, name,
-                          {4.2 - scale * depth, 4.2, y - 0.5 * scale * width,
-                           y + 0.5 * scale * width, 0.0, scale * height});
+                          {{4.2 - scale * depth, y - 0.5 * scale * width, 0.0},
+                           {4.2, y + 0.5 * scale * width, scale * height}});
     };
     cabinet("cupboard", 1.7, 0.6, 0.8, 2.1);
     cabinet("sink cabinet", -0.7, 0.6, 1.8, 0.9);
 
-    table dining{.length = 0.8, .width = 1.2, .height = 0.74};
-    chair plain;
-    for (double* measure :
-         {&dining.length, &dining.width, &dining.height, &dining.thickness, &dining.leg,
-          &dining.inset, &plain.width, &plain.depth, &plain.seat_height, &plain.seat_thickness,
-          &plain.leg, &plain.back_height, &plain.back_thickness, &plain.slat_width,
-          &plain.rail_height}) {
-        *measure *= scale;
-    }
+    const table dining = scaled(table{.length = 0.8, .width = 1.2, .height = 0.74}, scale);
+    const chair plain = scaled(chair{}, scale);
     chair lattice = plain;
     lattice.back = chair_back::lattice;
     add(world, "table", dining, at(2.2, -0.2, 0.0));
@@ -158,41 +98,48 @@ inline void add_room(scene& world, const block_span& b) {
 [[nodiscard]] inline scene living_room() {
     scene world;
     world.sensor = at(0.3, 0.0, 1.3) * pitch(degrees(10));
-    detail::add_room(world, {0.0, 5.0, -2.5, 2.5, 0.0, 2.5});
-    detail::add_block(world, "step 1", {1.75, 2.00, -2.5, 2.5, 0.0, 0.15});
-    detail::add_block(world, "step 2", {2.00, 2.25, -2.5, 2.5, 0.0, 0.30});
-    detail::add_block(world, "platform", {2.25, 5.00, -2.5, 2.5, 0.0, 0.45});
+    detail::add_room(world, {{0.0, -2.5, 0.0}, {5.0, 2.5, 2.5}});
+    detail::add_block(world, "step 1", {{1.75, -2.5, 0.0}, {2.00, 2.5, 0.15}});
+    detail::add_block(world, "step 2", {{2.00, -2.5, 0.0}, {2.25, 2.5, 0.30}});
+    detail::add_block(world, "platform", {{2.25, -2.5, 0.0}, {5.00, 2.5, 0.45}});
 
-    const chair armchair{.width = 0.51,
-                         .depth = 0.75,
-                         .seat_height = 0.42,
-                         .back_height = 0.85,
-                         .back_thickness = 0.15,
-                         .arm_height = 0.60,
-                         .arm_width = 0.12,
-                         .massive = true};
+    const chair armchair = detail::armchair(0.42);
     const pose platform = at(0.0, 0.0, 0.45);
     add(world, "armchair 1", armchair, platform * at(3.1, 1.1, 0.0) * yaw(degrees(-90)));
     add(world, "armchair 2", armchair, platform * at(3.1, -1.1, 0.0) * yaw(degrees(90)));
     add(world, "small table",
         table{.length = 0.60, .width = 0.60, .height = 0.45, .thickness = 0.04, .inset = 0.0},
         platform * at(3.3, 0.0, 0.0));
-    detail::add_block(world, "sideboard", {4.6, 5.0, -0.8, 0.8, 0.45, 1.25});
-    detail::add_object(
-        world, "vase",
+    detail::add_block(world, "sideboard", {{4.6, -0.8, 0.45}, {5.0, 0.8, 1.25}});
+    world.add_object(
+        "vase",
         surface_of_revolution(
             {{0.10, 0.00}, {0.18, 0.15}, {0.20, 0.35}, {0.09, 0.50}, {0.07, 0.60}, {0.11, 0.68}}),
         platform * at(2.9, 2.0, 0.0));
     return world;
 }
 
-/// A surrogate of Fig. 4.11 (a): two chairs in a room, a column before the far wall. The sensor
-/// hangs from the ceiling, as in the experiments.
-[[nodiscard]] inline scene two_chairs() {
+}  // namespace gnomon::scenes
+
+namespace gnomon::detail {
+
+/// The room of Fig. 4.11, a column before its far wall. The sensor hangs from the ceiling, as in
+/// the experiments.
+[[nodiscard]] inline scene column_room() {
     scene world;
     world.sensor = at(0.4, 0.0, 1.6) * pitch(degrees(20));
-    detail::add_room(world, {-0.5, 4.5, -2.0, 2.0, 0.0, 2.8});
-    detail::add_block(world, "column", {3.6, 3.9, -0.2, 0.2, 0.0, 2.8});
+    detail::add_room(world, {{-0.5, -2.0, 0.0}, {4.5, 2.0, 2.8}});
+    detail::add_block(world, "column", {{3.6, -0.2, 0.0}, {3.9, 0.2, 2.8}});
+    return world;
+}
+
+}  // namespace gnomon::detail
+
+namespace gnomon::scenes {
+
+/// A surrogate of Fig. 4.11 (a): two chairs in a room with a column.
+[[nodiscard]] inline scene two_chairs() {
+    scene world = detail::column_room();
     add(world, "chair 1", chair{}, at(2.3, 0.75, 0.0) * yaw(degrees(-160)));
     add(world, "chair 2", chair{.back = chair_back::ladder, .back_height = 0.98, .slats = 3},
         at(2.5, -0.70, 0.0) * yaw(degrees(130)));
@@ -201,10 +148,7 @@ inline void add_room(scene& world, const block_span& b) {
 
 /// A surrogate of Fig. 4.11 (b), "Seat, Armchair, Table": the same room.
 [[nodiscard]] inline scene seat_armchair_table() {
-    scene world;
-    world.sensor = at(0.4, 0.0, 1.6) * pitch(degrees(20));
-    detail::add_room(world, {-0.5, 4.5, -2.0, 2.0, 0.0, 2.8});
-    detail::add_block(world, "column", {3.6, 3.9, -0.2, 0.2, 0.0, 2.8});
+    scene world = detail::column_room();
     add(world, "seat",
         chair{.width = 0.50,
               .depth = 0.50,
@@ -212,16 +156,7 @@ inline void add_room(scene& world, const block_span& b) {
               .back = chair_back::none,
               .massive = true},
         at(1.9, 0.85, 0.0) * yaw(degrees(15)));
-    add(world, "armchair",
-        chair{.width = 0.51,
-              .depth = 0.75,
-              .seat_height = 0.42,
-              .back_height = 0.85,
-              .back_thickness = 0.15,
-              .arm_height = 0.60,
-              .arm_width = 0.12,
-              .massive = true},
-        at(2.9, -0.95, 0.0) * yaw(degrees(150)));
+    add(world, "armchair", detail::armchair(0.42), at(2.9, -0.95, 0.0) * yaw(degrees(150)));
     add(world, "table", table{.length = 0.90, .width = 0.55, .height = 0.45, .inset = 0.0},
         at(2.4, 0.05, 0.0) * yaw(degrees(-10)));
     return world;

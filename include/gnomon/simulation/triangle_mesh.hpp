@@ -18,6 +18,7 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/detail/bvh.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
@@ -50,14 +51,24 @@ class triangle_probe {
         const Eigen::Vector3d p = sheared(a);
         const Eigen::Vector3d q = sheared(b);
         const Eigen::Vector3d s = sheared(c);
-        const double u = s.x() * q.y() - s.y() * q.x();
-        const double v = p.x() * s.y() - p.y() * s.x();
-        const double w = q.x() * p.y() - q.y() * p.x();
+        const double u = turn(s, q);
+        const double v = turn(p, s);
+        const double w = turn(q, p);
         if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
         return (u * p.z() + v * q.z() + w * s.z()) / (u + v + w);
     }
 
   private:
+    /// Which way, seen along the ray, lies the edge from p to q? Exactly -turn(q, p): compilers may
+    /// fuse either product with the difference, but not if they are told which.
+    [[nodiscard]] static double turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+#if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+        return std::fma(p.x(), q.y(), -(p.y() * q.x())) - std::fma(q.x(), p.y(), -(q.y() * p.x()));
+#else
+        return p.x() * q.y() - p.y() * q.x();
+#endif
+    }
+
     /// `vertex` in the frame in which the ray is the third axis, and z its range.
     [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
         const Eigen::Vector3d d = vertex - origin_;
@@ -78,8 +89,9 @@ class triangle_probe {
 /// A mesh of one or more surfaces. Copies share the triangles.
 class triangle_mesh {
   public:
+    /// Triangles may be there that are as thin as rounding, or thinner; no ray meets them.
+    /// O(n log n).
     /// @param surface_names  one for each number of a surface
-    /// Degenerate triangles may be there; no ray meets them. O(n log n).
     /// @throws std::invalid_argument  without triangles; for a vertex that is not finite; for a
     ///                                triangle of a missing vertex; if the numbers of surfaces do
     ///                                not fit triangles and names
@@ -104,7 +116,12 @@ class triangle_mesh {
             if (!(range > 0.0 && range <= r.reach)) return;
             const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
             const double length = std::sqrt(n.dot(n));
-            if (!(length > 0.0)) return;
+            // Twice its area is the longest side times the width, whose rounding grows with the
+            // range: the range of a hit on a thinner triangle would be anything.
+            const double longest =
+                std::sqrt(std::max({squared_distance(v[a], v[b]), squared_distance(v[b], v[c]),
+                                    squared_distance(v[c], v[a])}));
+            if (!(length > 1e-15 * longest * (longest + range))) return;
             const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
             hit = ray_hit{range, n * (sign / length), content_->surface_of(t)};
             r.reach = range;
@@ -116,7 +133,7 @@ class triangle_mesh {
     struct content {
         polyhedron faces;
         std::vector<std::string> surface_names;
-        bounds extent = detail::no_bounds();
+        bounds extent;
         detail::bvh tree;
 
         content(polyhedron given, std::vector<std::string> names)
@@ -136,12 +153,12 @@ class triangle_mesh {
             std::vector<bounds> boxes;
             boxes.reserve(triangles.size());
             for (const triangle& t : triangles) {
-                bounds box = detail::no_bounds();
+                bounds box;
                 for (const std::uint32_t i : t) {
                     require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
-                    detail::extend(box, vertices[i], vertices[i]);
+                    box.extend(vertices[i]);
                 }
-                detail::extend(extent, box.low, box.high);
+                extent.extend(box);
                 boxes.push_back(box);
             }
             // The range of a hit carries rounding, so a flat box may be entered behind it.

@@ -15,24 +15,10 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/ray.hpp>
-#include <gnomon/simulation/shape.hpp>
 
 namespace gnomon::detail {
-
-/// Bounds that hold nothing.
-[[nodiscard]] inline bounds no_bounds() {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    return {{infinity, infinity, infinity}, {-infinity, -infinity, -infinity}};
-}
-
-/// Widens `b` to hold `low` and `high`.
-inline void extend(bounds& b, const Eigen::Vector3d& low, const Eigen::Vector3d& high) {
-    for (int a = 0; a < 3; ++a) {
-        b.low[a] = std::min(b.low[a], low[a]);
-        b.high[a] = std::max(b.high[a], high[a]);
-    }
-}
 
 /// Half the surface of bounds that are not empty [m^2]: proportional to the rays that meet them.
 [[nodiscard]] inline double half_area(const bounds& b) {
@@ -47,7 +33,7 @@ class bvh {
   public:
     bvh() = default;
 
-    /// O(n log n). Precondition: all boxes are finite.
+    /// O(n log n). Precondition: all boxes are finite, and fewer than 2^31.
     explicit bvh(const std::vector<bounds>& boxes) : items_(boxes.size()) {
         std::iota(items_.begin(), items_.end(), std::uint32_t{0});
         if (boxes.empty()) return;
@@ -71,11 +57,11 @@ class bvh {
                 if (n.items > 0) {
                     for (std::uint32_t i = 0; i < n.items; ++i) visit(items_[n.first + i]);
                 } else {
-                    pending near{s.entry(nodes_[n.first].box, r.reach), n.first};
-                    pending far{s.entry(nodes_[n.first + 1].box, r.reach), n.first + 1};
-                    if (far.entry < near.entry) std::swap(near, far);
-                    if (far.entry <= r.reach) stack[height++] = far;
-                    next = near;
+                    pending nearer{s.entry(nodes_[n.first].box, r.reach), n.first};
+                    pending farther{s.entry(nodes_[n.first + 1].box, r.reach), n.first + 1};
+                    if (farther.entry < nearer.entry) std::swap(nearer, farther);
+                    if (farther.entry <= r.reach) stack[height++] = farther;
+                    next = nearer;
                     continue;
                 }
             }
@@ -86,7 +72,7 @@ class bvh {
 
   private:
     struct node {
-        bounds box = no_bounds();
+        bounds box;
         std::uint32_t first = 0;  // of its items; of its two children if it has no items itself
         std::uint32_t items = 0;
     };
@@ -140,12 +126,11 @@ class bvh {
     /// Splits the items [first, last) below node `at`.
     void build(const std::vector<bounds>& boxes, std::uint32_t at, std::uint32_t first,
                std::uint32_t last, std::size_t depth) {
-        bounds centers = no_bounds();
+        bounds centers;
         for (std::uint32_t i = first; i < last; ++i) {
             const bounds& b = boxes[items_[i]];
-            extend(nodes_[at].box, b.low, b.high);
-            const Eigen::Vector3d c = center(b);
-            extend(centers, c, c);
+            nodes_[at].box.extend(b);
+            centers.extend(b.middle());
         }
         if (last - first <= most_items) {
             nodes_[at].first = first;
@@ -161,11 +146,6 @@ class bvh {
         build(boxes, children + 1, middle, last, depth + 1);
     }
 
-    [[nodiscard]] static Eigen::Vector3d center(const bounds& b) {
-        return {0.5 * (b.low.x() + b.high.x()), 0.5 * (b.low.y() + b.high.y()),
-                0.5 * (b.low.z() + b.high.z())};
-    }
-
     /// Reorders the items and tells where the second part begins.
     std::uint32_t split(const std::vector<bounds>& boxes, const bounds& centers,
                         std::uint32_t first, std::uint32_t last, std::size_t depth) {
@@ -179,26 +159,25 @@ class bvh {
             if (!(centers.high[axis] > centers.low[axis])) continue;
             std::array<bounds, bins> box;
             std::array<std::uint32_t, bins> count{};
-            box.fill(no_bounds());
             for (std::uint32_t i = first; i < last; ++i) {
                 const bounds& b = boxes[items_[i]];
                 const std::size_t bin = bin_of(b, centers, axis);
-                extend(box[bin], b.low, b.high);
+                box[bin].extend(b);
                 ++count[bin];
             }
             // Cost of the parts above each cut, then of those below it.
             std::array<double, bins> above{};
-            bounds swept = no_bounds();
+            bounds swept;
             std::uint32_t n = 0;
             for (std::size_t bin = bins - 1; bin > 0; --bin) {
-                extend(swept, box[bin].low, box[bin].high);
+                swept.extend(box[bin]);
                 n += count[bin];
                 above[bin] = n == 0 ? 0.0 : n * half_area(swept);
             }
-            swept = no_bounds();
+            swept = bounds{};
             n = 0;
             for (std::size_t bin = 1; bin < bins; ++bin) {
-                extend(swept, box[bin - 1].low, box[bin - 1].high);
+                swept.extend(box[bin - 1]);
                 n += count[bin - 1];
                 if (n == 0 || n == last - first) continue;
                 const double cost = n * half_area(swept) + above[bin];
@@ -218,7 +197,7 @@ class bvh {
 
     [[nodiscard]] static std::size_t bin_of(const bounds& b, const bounds& centers, int axis) {
         const double share =
-            (center(b)[axis] - centers.low[axis]) / (centers.high[axis] - centers.low[axis]);
+            (b.middle()[axis] - centers.low[axis]) / (centers.high[axis] - centers.low[axis]);
         return std::min(bins - 1, static_cast<std::size_t>(share * bins));
     }
 

@@ -5,8 +5,9 @@
 /// such a band where a quadratic equation says so.
 #pragma once
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <span>
 
@@ -27,10 +28,10 @@ struct revolved_arc {
     [[nodiscard]] double squared_radius(double z) const { return (a * z + b) * z + c; }
 };
 
-/// Which ends of a row of arcs a disc closes.
+/// The squared radii of the discs that close a row of arcs [m^2]; none where it is open.
 struct end_discs {
-    bool bottom;
-    bool top;
+    std::optional<double> bottom;
+    std::optional<double> top;
 };
 
 /// Gathers the nearest of candidate hits.
@@ -38,9 +39,12 @@ class nearest_revolved_hit {
   public:
     /// `given` is first moved near the origin, about which the shape lies: far from it the
     /// coefficients of the quadratic equations would cancel.
-    explicit nearest_revolved_hit(const ray& given)
+    /// @param size  the largest coordinate of the arcs [m]
+    nearest_revolved_hit(const ray& given, double size)
         : shift_(-given.origin.dot(given.direction)),
-          near_{given.point_at(shift_), given.direction, given.reach} {}
+          near_{given.point_at(shift_), given.direction, given.reach},
+          margin_(1e-12 * (size + near_.origin.cwiseAbs().sum())),
+          least_range_(1e-12 * given.origin.cwiseAbs().sum()) {}
 
     /// Surface 0.
     void try_mantle(const revolved_arc& arc) {
@@ -55,10 +59,9 @@ class nearest_revolved_hit {
         if (!(discriminant >= 0.0)) return;
         // The sum that does not cancel gives one root, the product of the roots the other.
         const double q = -(b + std::copysign(std::sqrt(discriminant), b));
-        const double margin = 1e-12 * (arc.high - arc.low);  // neighboring arcs leave no gap
         for (const double t : {q / a, c / q}) {
             const double z = o.z() + t * u.z();
-            if (!(z >= arc.low - margin && z <= arc.high + margin)) continue;
+            if (!(z >= arc.low - margin_ && z <= arc.high + margin_)) continue;
             const Eigen::Vector3d gradient(o.x() + t * u.x(), o.y() + t * u.y(),
                                            -(arc.a * z + 0.5 * arc.b));
             keep(t, gradient, 0);
@@ -78,7 +81,7 @@ class nearest_revolved_hit {
   private:
     void keep(double t, const Eigen::Vector3d& gradient, std::int32_t surface) {
         const double range = shift_ + t;
-        if (!(range > 0.0 && range <= near_.reach)) return;
+        if (!(range > least_range_ && range <= near_.reach)) return;
         const double length = std::sqrt(gradient.dot(gradient));
         const double sign = gradient.dot(near_.direction) > 0.0 ? -1.0 : 1.0;
         // The apex of a cone has no normal of its own: any that faces the ray will do.
@@ -88,7 +91,9 @@ class nearest_revolved_hit {
     }
 
     double shift_;
-    ray near_;  // its reach counts from the origin of the given ray
+    ray near_;            // its reach counts from the origin of the given ray
+    double margin_;       // of heights, so that neighboring arcs leave no gap
+    double least_range_;  // what rounding makes of 0: a ray from the surface does not meet it there
     std::optional<ray_hit> hit_;
 };
 
@@ -96,12 +101,12 @@ class nearest_revolved_hit {
 /// mantle, 1 the bottom, 2 the top.
 [[nodiscard]] inline std::optional<ray_hit> first_hit_of(std::span<const revolved_arc> arcs,
                                                          end_discs discs, const ray& r) {
-    nearest_revolved_hit nearest(r);
+    const double low = arcs.front().low;
+    const double high = arcs.back().high;
+    nearest_revolved_hit nearest(r, std::max(std::abs(low), std::abs(high)));
     for (const revolved_arc& arc : arcs) nearest.try_mantle(arc);
-    const revolved_arc& first = arcs.front();
-    const revolved_arc& last = arcs.back();
-    if (discs.bottom) nearest.try_disc(first.low, first.squared_radius(first.low), 1);
-    if (discs.top) nearest.try_disc(last.high, last.squared_radius(last.high), 2);
+    if (discs.bottom) nearest.try_disc(low, *discs.bottom, 1);
+    if (discs.top) nearest.try_disc(high, *discs.top, 2);
     return nearest.hit();
 }
 
