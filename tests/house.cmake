@@ -33,7 +33,9 @@ add_custom_command(
     COMMENT "Generating the single header")
 foreach(header IN LISTS headers)
     cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
-    if(NOT header STREQUAL "gnomon/gnomon.hpp")
+    if(header STREQUAL "gnomon/normals/registry.hpp")  # outside: it needs Boost
+        file(COPY ${PROJECT_SOURCE_DIR}/include/${header} DESTINATION ${single_dir}/gnomon/normals)
+    elseif(NOT header STREQUAL "gnomon/gnomon.hpp")
         file(CONFIGURE OUTPUT ${single_dir}/${header}
              CONTENT "#pragma once\n#include <gnomon/gnomon.hpp>\n")
     endif()
@@ -54,7 +56,7 @@ foreach(floor IN LISTS floors)
     file(GLOB sources CONFIGURE_DEPENDS ${floor}/*_test.cpp)
     if(sources)
         add_executable(${floor}_tests_single ${sources})
-        target_link_libraries(${floor}_tests_single PRIVATE single_settings)
+        target_link_libraries(${floor}_tests_single PRIVATE single_settings ${oracles_of_${floor}})
         target_precompile_headers(${floor}_tests_single REUSE_FROM single_headers)
         set_target_properties(${floor}_tests_single PROPERTIES
             UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 0)

@@ -45,7 +45,7 @@ set_up() {
     fi
 }
 
-# What every build needs, and what the examples need beside it (zlib, because Assimp links it and its
-# package does not say so).
-build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev"
+# What every build needs (Boost for Hana, which the registry of estimators unfolds), and what the
+# examples need beside it (zlib, because Assimp links it and its package does not say so).
+build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev libboost-dev"
 example_packages="libstb-dev nlohmann-json3-dev libassimp-dev zlib1g-dev"

@@ -77,19 +77,14 @@ TEST(adaptive_knn, takes_fewer_neighbors_near_an_edge) {
 TEST(adaptive_knn, is_a_beginning_of_knn) {
     const auto points = clouds::sheet(500, 4);
     const auto all = gnomon::knn{.k = 60}(points);
-    const auto graph =
-        gnomon::adaptive_knn<gnomon::prefer_low_entropy>{.min_k = 7, .max_k = 60, .growth = 1.5}(
-            points);
+    const auto graph = gnomon::adaptive_knn<gnomon::prefer_low_entropy>{
+        .min_k = 7, .max_k = 60, .growth = 1.5}(points);
     for (std::size_t i = 0; i < points.size(); ++i) {
         ASSERT_GE(graph[i].size(), 7u);
         for (std::size_t j = 0; j < graph[i].size(); ++j) ASSERT_EQ(graph[i][j], all[i][j]);
     }
-    const auto first = [](const gnomon::neighborhood_shape& s) {
-        return static_cast<double>(s.k);
-    };
-    const auto last = [](const gnomon::neighborhood_shape& s) {
-        return -static_cast<double>(s.k);
-    };
+    const auto first = [](const gnomon::neighborhood_shape& s) { return static_cast<double>(s.k); };
+    const auto last = [](const gnomon::neighborhood_shape& s) { return -static_cast<double>(s.k); };
     const auto fewest = gnomon::adaptive_knn<decltype(first)>{.min_k = 7, .max_k = 60}(points);
     const auto most = gnomon::adaptive_knn<decltype(last)>{.min_k = 7, .max_k = 60}(points);
     for (std::size_t i = 0; i < points.size(); ++i) {

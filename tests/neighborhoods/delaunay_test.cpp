@@ -8,12 +8,12 @@
 #include <utility>
 #include <vector>
 
-#include <CGAL/Delaunay_triangulation_2.h>
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include <CGAL/Delaunay_triangulation_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <gnomon/core/random.hpp>
 #include <gnomon/neighborhoods/delaunay.hpp>
 #include <gnomon/neighborhoods/detail/delaunay_star.hpp>
@@ -78,8 +78,8 @@ class full_triangulation {
     std::map<std::pair<double, double>, gnomon::point_index> place_of_;
 };
 
-/// Whether some circle through the origin and b has no point strictly within: b' = b / |b|^2 lies on
-/// the hull of the inverted points, decided exactly over all pairs (a, c).
+/// Whether some circle through the origin and b has no point strictly within: b' = b / |b|^2 lies
+/// on the hull of the inverted points, decided exactly over all pairs (a, c).
 bool passes_the_empty_circle_test(const star& points, const planar_point& b) {
     // The circle's center moves along the bisector of the edge; each point bounds it from one side.
     // A point to the left of the ray to b and one to the right exclude each other's circles where b
@@ -117,9 +117,9 @@ star random_neighborhood(std::uint64_t seed) {
                 break;
             case 2:  // Pythagorean triples: 12 points on one exact circle about (5, 0), through 0
             {
-                constexpr double on_circle[12][2] = {{5, 0},  {-5, 0}, {0, 5},   {0, -5},
-                                                     {3, 4},  {3, -4}, {-3, 4},  {-3, -4},
-                                                     {4, 3},  {4, -3}, {-4, 3},  {-4, -3}};
+                constexpr double on_circle[12][2] = {{5, 0}, {-5, 0}, {0, 5},  {0, -5},
+                                                     {3, 4}, {3, -4}, {-3, 4}, {-3, -4},
+                                                     {4, 3}, {4, -3}, {-4, 3}, {-4, -3}};
                 const auto& c = on_circle[random.bits() % 12];
                 q.x = c[0] + 5.0;
                 q.y = c[1];
@@ -164,8 +164,8 @@ TEST(delaunay, star_has_every_strict_edge_of_the_full_triangulation_and_only_emp
         edges += static_cast<int>(kept.size());
         strict_edges += static_cast<int>(strict.size());
         open_stars += open;
-        // Counterclockwise, by less than half a turn each but for the gap of an open star. Points on
-        // a line with the origin have one neighbor on each side.
+        // Counterclockwise, by less than half a turn each but for the gap of an open star. Points
+        // on a line with the origin have one neighbor on each side.
         const bool line = reduced.size() == 2 && gnomon::detail::turn(reduced[0], reduced[1]) == 0;
         for (std::size_t j = 0; !line && j + open < reduced.size(); ++j)
             ASSERT_EQ(gnomon::detail::turn(reduced[j], reduced[(j + 1) % reduced.size()]), 1);

@@ -51,10 +51,11 @@ TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
             laws::neighborhood_laws(gnomon::knn{k, gnomon::tie_rule::all}, points);
         }
         for (const double r : {0.0, 0.03, 0.25}) laws::neighborhood_laws(gnomon::radius{r}, points);
-        for (const double r : {0.0, 0.1, 1e9}) laws::neighborhood_laws(gnomon::hybrid{9, r}, points);
+        for (const double r : {0.0, 0.1, 1e9})
+            laws::neighborhood_laws(gnomon::hybrid{9, r}, points);
         laws::neighborhood_laws(gnomon::adaptive_knn<>{.min_k = 5, .max_k = 40}, points);
-        laws::neighborhood_laws(
-            gnomon::adaptive_knn<gnomon::prefer_low_entropy>{.growth = 1.2}, points);
+        laws::neighborhood_laws(gnomon::adaptive_knn<gnomon::prefer_low_entropy>{.growth = 1.2},
+                                points);
         laws::neighborhood_laws(gnomon::adaptive_knn<gnomon::prefer_small_error>{}, points);
         for (const std::size_t k : {3u, 20u}) laws::neighborhood_laws(gnomon::delaunay{k}, points);
         laws::neighborhood_laws(gnomon::sorted_around{gnomon::knn{9}}, points);

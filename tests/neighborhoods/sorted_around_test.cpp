@@ -73,13 +73,15 @@ TEST(sorted_around, goes_round_once_with_the_same_neighbors) {
 TEST(sorted_around, sorts_a_stored_graph_alike) {
     const auto points = clouds::sheet(500, 2);
     const auto graph = gnomon::knn{.k = 9}(points);
-    EXPECT_EQ(gnomon::sort_around(points, graph), gnomon::sorted_around{gnomon::knn{.k = 9}}(points));
+    EXPECT_EQ(gnomon::sort_around(points, graph),
+              gnomon::sorted_around{gnomon::knn{.k = 9}}(points));
     EXPECT_THROW((void)gnomon::sort_around(clouds::sheet(499, 2), graph), std::invalid_argument);
 }
 
 /// A neighbor right above the point has no direction, but is not lost.
 TEST(sorted_around, keeps_what_has_no_direction) {
-    const clouds::cloud points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {-1, 0, 0}, {0, -1, 0}, {0, 0, 0.1}};
+    const clouds::cloud points{{0, 0, 0},  {1, 0, 0},  {0, 1, 0},
+                               {-1, 0, 0}, {0, -1, 0}, {0, 0, 0.1}};
     const auto graph = gnomon::sorted_around{gnomon::knn{.k = 5}}(points);
     ASSERT_EQ(graph[0].size(), 5u);
     EXPECT_EQ(graph[0][0], 5u);

@@ -52,9 +52,8 @@ TEST(averaging, agrees_with_the_formulas) {
     expect_agrees(gnomon::equal_weight{}, [](const v&, const v&) { return 1.0L; });
     expect_agrees(gnomon::area_weight{},
                   [](const v& a, const v& b) { return 0.5L * a.cross(b).norm(); });
-    expect_agrees(gnomon::angle_weight{}, [](const v& a, const v& b) {
-        return std::atan2(a.cross(b).norm(), a.dot(b));
-    });
+    expect_agrees(gnomon::angle_weight{},
+                  [](const v& a, const v& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); });
     expect_agrees(gnomon::centroid_weight{},
                   [](const v& a, const v& b) { return 1.0L / ((a + b) / 3.0L).squaredNorm(); });
     expect_agrees(gnomon::gravitational_weight{}, [](const v& a, const v& b) {
@@ -62,7 +61,8 @@ TEST(averaging, agrees_with_the_formulas) {
     });
 }
 
-/// The weight of Eq. (3.10) cancels the normalization of (3.9): half the mean of the cross products.
+/// The weight of Eq. (3.10) cancels the normalization of (3.9): half the mean of the cross
+/// products.
 TEST(averaging, area_weighted_is_the_mean_of_the_raw_cross_products) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         const auto s = laws::sample_neighborhood(seed);
@@ -110,8 +110,9 @@ TEST(averaging, says_what_is_wrong) {
     // There and back again: the triangles cancel, unless they are turned to the view point.
     const clouds::cloud there_and_back{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(area_weighted{}(p, there_and_back).trust, trust::degenerate);
-    EXPECT_EQ(area_weighted{.sign = triangle_sign::to_viewpoint}(p, there_and_back, {0, 0, 1}).trust,
-              trust::good);
+    EXPECT_EQ(
+        area_weighted{.sign = triangle_sign::to_viewpoint}(p, there_and_back, {0, 0, 1}).trust,
+        trust::good);
 }
 
 TEST(averaging, laws_hold) {

@@ -41,8 +41,8 @@ inline laws::neighborhood_sample random_neighborhood(std::uint64_t seed,
 }
 
 /// The rows that `row` makes of the ring, and of the point before them if `with_point`.
-inline matrix rows_of(const laws::neighborhood_sample& sample, bool with_point, Eigen::Index columns,
-                      auto&& row) {
+inline matrix rows_of(const laws::neighborhood_sample& sample, bool with_point,
+                      Eigen::Index columns, auto&& row) {
     matrix m(static_cast<Eigen::Index>(sample.ring.size()) + with_point, columns);
     if (with_point) m.row(0) = row(sample.p.cast<long double>().eval()).transpose();
     for (std::size_t j = 0; j < sample.ring.size(); ++j) {
@@ -52,8 +52,8 @@ inline matrix rows_of(const laws::neighborhood_sample& sample, bool with_point, 
     return m;
 }
 
-/// A normal and the gap that its accuracy depends on: between the last two eigenvalues of the matrix
-/// of squares, relative to the first.
+/// A normal and the gap that its accuracy depends on: between the last two eigenvalues of the
+/// matrix of squares, relative to the first.
 struct answer {
     Eigen::Vector3d normal;
     double gap;
@@ -83,7 +83,8 @@ void expect_agrees_with(const E& estimate, auto&& oracle, std::size_t min_k = 3,
     int wide_gaps = 0;
     int usable = 0;
     for (const bool in_float : {false, true}) {
-        const Eigen::Vector3d place = in_float ? Eigen::Vector3d(1, 2, 0.5) : Eigen::Vector3d(6e5, 4.8e6, 100);
+        const Eigen::Vector3d place =
+            in_float ? Eigen::Vector3d(1, 2, 0.5) : Eigen::Vector3d(6e5, 4.8e6, 100);
         for (int trial = 0; trial < trials; ++trial) {
             const auto seed = static_cast<std::uint64_t>(trial);
             // Every other one near the origin.

@@ -12,8 +12,8 @@
 
 namespace outliers {
 
-/// The mean gamma of an estimator over 500 planes of 20 cm with 40 neighbors, noise of 5 mm, and the
-/// given share of neighbors anywhere within 10 cm of the plane, on one side.
+/// The mean gamma of an estimator over 500 planes of 20 cm with 40 neighbors, noise of 5 mm, and
+/// the given share of neighbors anywhere within 10 cm of the plane, on one side.
 inline double mean_gamma_with(const auto& estimate, double share) {
     double sum = 0.0;
     constexpr int trials = 500;
@@ -24,8 +24,9 @@ inline double mean_gamma_with(const auto& estimate, double share) {
             const double x = random.uniform(-0.1, 0.1);
             const double y = random.uniform(-0.1, 0.1);
             const bool is_outlier = random.uniform() < share;
-            ring.push_back({x, y, is_outlier ? random.uniform(0.0, 0.1) * (1.0 + 10.0 * x)
-                                             : 0.005 * random.gaussian()});
+            ring.push_back({x, y,
+                            is_outlier ? random.uniform(0.0, 0.1) * (1.0 + 10.0 * x)
+                                       : 0.005 * random.gaussian()});
         }
         const Eigen::Vector3d p(0.0, 0.0, 0.005 * random.gaussian());
         sum += gnomon::gamma(estimate(p, ring).normal, Eigen::Vector3d::UnitZ());

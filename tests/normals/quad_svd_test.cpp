@@ -16,18 +16,17 @@ namespace {
 
 using gnomon::quad_svd, gnomon::trust;
 
-/// [R 1], k x 10, in the sensor's frame, and the gradient at the point. Eq. (3.7), Tab. 3.1. The gap
-/// is that of singular values, as nothing is squared, less what the gradient's length costs.
+/// [R 1], k x 10, in the sensor's frame, and the gradient at the point. Eq. (3.7), Tab. 3.1. The
+/// gap is that of singular values, as nothing is squared, less what the gradient's length costs.
 oracles::answer literal(const laws::neighborhood_sample& sample) {
     const oracles::vector3 origin = sample.viewpoint.cast<long double>();
-    const oracles::matrix m =
-        oracles::rows_of(sample, false, 10, [&](const oracles::vector3& q) {
-            const oracles::vector3 x = q - origin;
-            oracles::vector row(10);
-            row << x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[0] * x[2], x[1] * x[2],
-                x[0], x[1], x[2], 1.0L;
-            return row;
-        });
+    const oracles::matrix m = oracles::rows_of(sample, false, 10, [&](const oracles::vector3& q) {
+        const oracles::vector3 x = q - origin;
+        oracles::vector row(10);
+        row << x[0] * x[0], x[1] * x[1], x[2] * x[2], x[0] * x[1], x[0] * x[2], x[1] * x[2], x[0],
+            x[1], x[2], 1.0L;
+        return row;
+    });
     const Eigen::JacobiSVD<oracles::matrix> svd(m, Eigen::ComputeFullV);
     const oracles::vector c = svd.matrixV().col(9);
     oracles::vector s = oracles::vector::Zero(10);
@@ -60,7 +59,8 @@ TEST(quad_svd, agrees_with_a_dense_svd) {
             continue;
         }
         ++compared;
-        ASSERT_LE(laws::angle_between(found.normal, expected.normal), oracles::allowed(expected.gap))
+        ASSERT_LE(laws::angle_between(found.normal, expected.normal),
+                  oracles::allowed(expected.gap))
             << "seed " << seed << " gap " << expected.gap;
     }
     EXPECT_GT(compared, 7000);
@@ -74,7 +74,8 @@ struct quadric_patch {
 quadric_patch patch(int kind, std::uint64_t seed) {
     gnomon::random_stream random(seed, 11);
     const Eigen::Matrix3d r = clouds::random_rotation(seed);
-    const Eigen::Vector3d center(random.uniform(1, 3), random.uniform(-1, 1), random.uniform(-1, 1));
+    const Eigen::Vector3d center(random.uniform(1, 3), random.uniform(-1, 1),
+                                 random.uniform(-1, 1));
     const Eigen::Vector3d axes(0.5, kind == 1 ? 0.8 : 0.5, kind == 1 ? 0.6 : 0.5);
     const auto surface = [&](double u, double v) -> Eigen::Vector3d {
         switch (kind) {

@@ -21,8 +21,7 @@ TEST(ray_ls, solves_the_weighted_normal_equations_of_inverse_range) {
         Eigen::Matrix<long double, 3, 3> a = Eigen::Matrix<long double, 3, 3>::Zero();
         oracles::vector3 b = oracles::vector3::Zero();
         const auto add = [&](const Eigen::Vector3d& q) {
-            const oracles::vector3 x =
-                q.cast<long double>() - s.viewpoint.cast<long double>();
+            const oracles::vector3 x = q.cast<long double>() - s.viewpoint.cast<long double>();
             a += x.squaredNorm() * x * x.transpose();
             b += x.squaredNorm() * x;
         };
@@ -38,16 +37,15 @@ TEST(ray_ls, solves_the_weighted_normal_equations_of_inverse_range) {
     }
 }
 
-/// With noise along the rays it errs less than the total least squares plane; by how much depends on
-/// the scene, see the examples.
+/// With noise along the rays it errs less than the total least squares plane; by how much depends
+/// on the scene, see the examples.
 TEST(ray_ls, of_a_perfect_plane_is_perfect) {
     const Eigen::Vector3d n = Eigen::Vector3d(1, 2, -3).normalized();
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         gnomon::random_stream random(seed);
         clouds::cloud plane;
         for (int i = 0; i < 20; ++i) {
-            const Eigen::Vector3d u =
-                (n + 0.1 * clouds::gaussian_vector(random)).normalized();
+            const Eigen::Vector3d u = (n + 0.1 * clouds::gaussian_vector(random)).normalized();
             plane.push_back(2.5 / u.dot(n) * u);
         }
         const auto fit = ray_ls{}(plane[0], std::span(plane).subspan(1));
@@ -64,7 +62,8 @@ TEST(ray_ls, says_what_is_wrong) {
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2.1, 1, 0}, {1.9, 2, 0}, {2.2, -1, 0}}).trust,
               trust::degenerate);
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {2, -1, 0}, {2, 0, 1e-3}}).trust, trust::weak);
-    EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {-2, 0, 1}}).trust, trust::degenerate);  // behind
+    EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {-2, 0, 1}}).trust,
+              trust::degenerate);  // behind
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}, p).trust, trust::degenerate);
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {2, clouds::nan, 1}}).trust, trust::not_finite);
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}, {clouds::nan, 0, 0}).trust,

@@ -35,8 +35,7 @@ TEST(vector_pca, does_not_look_at_the_point) {
 
 TEST(vector_pca, says_what_is_wrong) {
     const Eigen::Vector3d p(0, 0, 5);
-    EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}}).trust,
-              trust::too_few_neighbors);
+    EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}, {0, 0, 1}}).trust, trust::good);
     EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {2, 0, 1}, {3, 0, 1}}).trust,
               trust::degenerate);

@@ -31,9 +31,8 @@ TEST(with_covariance, is_the_spread_of_the_normals) {
         clouds::cloud plane;
         for (int i = 0; i < 30; ++i) plane.push_back(flat());
         const Eigen::Vector3d viewpoint(0.6, -0.3, 0.8);
-        const auto expected =
-            with_covariance<plane_pca>{.sigma = sigma}(plane[0], std::span(plane).subspan(1),
-                                                       viewpoint);
+        const auto expected = with_covariance<plane_pca>{.sigma = sigma}(
+            plane[0], std::span(plane).subspan(1), viewpoint);
         Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
         constexpr int draws = 20'000;
         for (int draw = 0; draw < draws; ++draw) {
@@ -60,8 +59,8 @@ TEST(with_covariance, goes_around_any_estimator) {
     EXPECT_EQ(svd.normal, gnomon::plane_svd{}(s.p, s.ring, s.viewpoint).normal);
     EXPECT_GT(svd.trace(), 0.0);
     EXPECT_GT(area.trace(), 0.0);
-    static_assert(gnomon::is_sensitive_to<with_covariance<gnomon::plane_svd>>(
-        gnomon::sensitivity::units));
+    static_assert(
+        gnomon::is_sensitive_to<with_covariance<gnomon::plane_svd>>(gnomon::sensitivity::units));
 }
 
 TEST(with_covariance, says_what_is_wrong) {

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -304,26 +303,6 @@ TEST(instrument, footprint_is_as_wide_as_it_says) {
             static_cast<std::size_t>((1.0 - std::exp(-2.0)) * static_cast<double>(off_axis.size()));
         EXPECT_NEAR(off_axis[within], b.footprint.radius(range), 0.01 * b.footprint.radius(range));
     }
-}
-
-/// A room of many colors: each sub-ray meets a surface of its own. Twice the sub-rays cost about
-/// twice the time; each surface being summed once per sub-ray, they would cost four times it.
-TEST(instrument, costs_what_its_sub_rays_cost) {
-    const auto colors = [](const gnomon::ray& r) -> std::optional<gnomon::ray_hit> {
-        const double y = r.direction.y() / r.direction.x();
-        return gnomon::ray_hit{3.0, {-1, 0, 0}, static_cast<std::int32_t>(1e6 * y)};
-    };
-    const auto seconds = [&](int sub_rays) {
-        double least = 1e9;
-        for (int trial = 0; trial < 3; ++trial) {
-            const auto begin = std::chrono::steady_clock::now();
-            (void)readings(colors, wide(echo_rule::averaged, sub_rays), 4);
-            const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - begin;
-            least = std::min(least, taken.count());
-        }
-        return least;
-    };
-    EXPECT_LT(seconds(10'000), 60.0 * seconds(500));  // 20 times, not 400
 }
 
 /// Noise does not carry a reading beyond what the scanner sees.

@@ -46,9 +46,11 @@ class sorted_search {
         if (!plane.exists()) return {.open = true};
         fan.clear();
         for (const neighbor& q : ring) fan.push_back(plane.project(points_[q.index], q.index));
-        // What is directly above or below the point has no direction, and comes first.
-        const auto directed = std::stable_partition(
-            fan.begin(), fan.end(), [](const planar_point& q) { return q.x == 0 && q.y == 0; });
+        // What is directly above or below the point has no direction, and comes first, by index.
+        const auto directed = std::partition(
+            fan.begin(), fan.end(), [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
+        std::sort(fan.begin(), directed,
+                  [](const planar_point& a, const planar_point& b) { return a.index < b.index; });
         sort_by_direction({directed, fan.end()});
         const bool open = begin_after_gap({directed, fan.end()});
         ring.clear();

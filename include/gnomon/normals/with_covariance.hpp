@@ -65,7 +65,9 @@ struct with_covariance {
         bool seen = false;  // not merely grazed
         const auto add = [&](const Eigen::Vector3d& q) {
             const Eigen::Vector3d ray = q - viewpoint;
-            const double cosine = ray.dot(n) / ray.norm();
+            const double range = ray.norm();
+            // A point at the view point may have come from anywhere: then from straight ahead.
+            const double cosine = range > 0.0 ? ray.dot(n) / range : 1.0;
             const Eigen::Vector3d d = q - p - mean;
             const double t1 = cosine * d.dot(b1);
             const double t2 = cosine * d.dot(b2);
@@ -76,12 +78,6 @@ struct with_covariance {
         };
         add(p);
         for (const Eigen::Vector3d& q : ring) add(q);
-        if (!seen) {
-            constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
-            belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
-            belief.trust = trust::weak;
-            return belief;
-        }
         const double w = sigma * sigma / (count * count);
 
         // P = A^-1 S A^-1
@@ -95,6 +91,11 @@ struct with_covariance {
         const double r22 = i12 * s12 + i22 * s22;
         belief.covariance = frame.in_space(w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
                                            w * (r21 * i12 + r22 * i22));
+        if (!seen || !belief.covariance.allFinite()) {
+            constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
+            belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
+            belief.trust = trust::weak;
+        }
         return belief;
     }
 };
