@@ -4,6 +4,7 @@
 /// differ most go to those that are seen most.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,18 @@ inline constexpr color no_segment{150, 152, 156};
     const auto number = static_cast<std::size_t>(label);
     const double lightness = 0.25 * static_cast<double>((number / colors.size()) % 3);
     return mixed(colors[number % colors.size()], white, lightness);
+}
+
+/// Steps from calm to alarming: 0 is green, 5 is red; the last is also that of all beyond.
+[[nodiscard]] inline color warning_color(std::int32_t step) {
+    static constexpr std::array<color, 6> colors{{{40, 140, 90},
+                                                  {130, 190, 95},
+                                                  {225, 215, 100},
+                                                  {245, 165, 70},
+                                                  {230, 90, 60},
+                                                  {160, 30, 60}}};
+    if (step < 0) return no_segment;
+    return colors[std::min(static_cast<std::size_t>(step), colors.size() - 1)];
 }
 
 }  // namespace picture

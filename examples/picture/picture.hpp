@@ -36,10 +36,12 @@ namespace picture {
 /// @param group      what a group is called
 /// @param viewpoint  where the sensor stood [m]
 /// @param up         against gravity; guessed if not known
+/// @param color_in_legend  of a label
 [[nodiscard]] inline image picture_of(const std::vector<splat>& splats,
                                       const std::vector<std::string>& legend,
                                       const std::string& group, const Eigen::Vector3d& viewpoint,
-                                      const std::optional<Eigen::Vector3d>& up = {}) {
+                                      const std::optional<Eigen::Vector3d>& up = {},
+                                      color (*color_in_legend)(std::int32_t) = color_of) {
     constexpr int margin = 24;
     constexpr int width = 764;
     constexpr int height = 660;
@@ -67,7 +69,7 @@ namespace picture {
     for (std::size_t label = 0; label < legend.size() && label < 8; ++label) {
         const int end = x + 28 + image::width_of(legend[label]) + 24;
         if (end > sheet.width()) break;
-        sheet.fill(x, y - 4, x + 20, y + 18, color_of(static_cast<std::int32_t>(label)));
+        sheet.fill(x, y - 4, x + 20, y + 18, color_in_legend(static_cast<std::int32_t>(label)));
         sheet.write(x + 28, y, legend[label]);
         x = end;
     }

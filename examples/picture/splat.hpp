@@ -26,6 +26,7 @@ struct splat {
     Eigen::Vector3d normal;    ///< unit length towards the sensor, or zero
     double radius;             ///< [m]
     std::int32_t label;        ///< of its segment, -1 for none
+    color tint = color_of(label);
 };
 
 /// What is drawn of surfaces that turn their back to the camera.
@@ -51,7 +52,7 @@ class canvas {
         // In steps, so that surfaces look smooth although their normals are noisy.
         const double facing = std::round(12.0 * std::abs(cosine)) / 12.0;
         const double light = s.normal.isZero() ? 0.8 : 0.55 + 0.45 * facing;
-        const color c = mixed(color{}, color_of(s.label), light);
+        const color c = mixed(color{}, s.tint, light);
 
         const int x1 = std::min(colors_.width() - 1, static_cast<int>(std::floor(q.x() + pixels)));
         const int y1 = std::min(colors_.height() - 1, static_cast<int>(std::floor(q.y() + pixels)));

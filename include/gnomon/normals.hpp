@@ -10,6 +10,7 @@
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/literal_plane_ekf.hpp>
 #include <gnomon/normals/normal_belief.hpp>
+#include <gnomon/normals/normal_quality.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/performance_index.hpp>
 #include <gnomon/normals/plane_eif.hpp>

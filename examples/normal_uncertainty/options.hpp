@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What can one ask normal_uncertainty for?
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "common/command_line.hpp"
+#include <gnomon/gnomon.hpp>
+
+inline constexpr const char* usage =
+    R"(usage: normal_uncertainty [SCAN] --out DIR [options]
+
+Says how far each normal of SCAN (PLY, PCD, VTK or text) may be off; without SCAN, of a simulated
+kitchen, and whether that is true. Writes normals.ply, with the standard deviation of each normal in
+degrees, and uncertainty.png into DIR.
+
+  --k N           neighbors per point (30)
+  --sigma M       standard deviation of the range (0.015)
+  --threads N     0 for all there are (0)
+  --help          this text
+)";
+
+struct options {
+    std::string scan;  ///< path, or empty for the simulated kitchen
+    std::string out;
+    std::size_t k = 30;
+    double sigma = 0.015;
+    gnomon::threads threads;
+};
+
+inline constexpr option<options> known_options[] = {
+    {"--out", true,
+     [](options& o, const std::string&, const std::string& value) { o.out = value; }},
+    {"--k", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.k = number_within<std::size_t>(name, value, 3, 10'000, "from 3 to 10,000");
+     }},
+    {"--sigma", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.sigma = number_within(name, value, 1e-6, 10.0, "from 1e-6 to 10");
+     }},
+    {"--threads", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.threads.n = threads_of(name, value);
+     }},
+};
+
+/// The options that the words say, or nothing if they ask for help.
+/// @throws usage_error  if there is a word that makes no sense
+inline std::optional<options> options_from(const std::vector<std::string>& words) {
+    auto o = options_from<options>(words, known_options, [](options& set, const std::string& word) {
+        if (!set.scan.empty()) throw usage_error("one scan at a time, please: " + word);
+        set.scan = word;
+    });
+    if (o && o->out.empty()) throw usage_error("--out DIR is missing");
+    return o;
+}
