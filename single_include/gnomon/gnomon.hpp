@@ -3572,6 +3572,77 @@ struct literal_plane_ekf {
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/normal_quality.hpp ------------------------------------------------------
+
+/// @file
+/// How good are normals whose truth is known? gamma, as in the thesis, and the errors as angles,
+/// which tell apart what gamma calls 0.999.
+///
+/// Klasing 2010, Sec. 3.2.6, Eq. (3.12); the root mean square of unoriented angles is the measure
+/// of Guerrero et al., PCPNet, 2018.
+
+namespace gnomon {
+
+/// The angle [rad] between two unit normals, whatever their signs, 0 to pi / 2; accurate also where
+/// it is small.
+[[nodiscard]] inline double unoriented_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return std::atan2(detail::length(detail::cross(a, b)), std::abs(detail::dot(a, b)));
+}
+
+/// The quality of normals over all points with a true one. Angles are without regard to sign. A
+/// missing normal counts as gamma 0 and as a right angle: a method gains nothing by giving up.
+struct normal_quality {
+    std::size_t points = 0;                                    ///< that have a true normal
+    double gamma = std::numeric_limits<double>::quiet_NaN();   ///< mean, Eq. (3.12)
+    double usable = std::numeric_limits<double>::quiet_NaN();  ///< the share that has a normal
+    angle rms;                                                 ///< root of the mean squared error
+    angle median;  ///< half of the errors are at most this
+    angle p90;     ///< 90 % of the errors are at most this
+    angle p99;     ///< 99 % of the errors are at most this
+};
+
+/// @param surface  the estimated normals
+/// @param truth    the true unit normals, in the same order; the zero vector where there is none
+/// @throws std::invalid_argument  if the two differ in size
+/// Complexity: O(n).
+template <normal_range Surface, indexed_range Truth>
+[[nodiscard]] normal_quality quality_of(const Surface& surface, const Truth& truth) {
+    detail::require(std::ranges::size(surface) == std::ranges::size(truth),
+                    "quality_of: normals and truth differ in size");
+    std::vector<double> errors;
+    double gammas = 0.0;
+    double squares = 0.0;
+    std::size_t usable = 0;
+    auto t = std::ranges::begin(truth);
+    for (const auto& s : surface) {
+        const Eigen::Vector3d expected = *t++;
+        if (is_missing(expected)) continue;
+        const bool missing = is_missing(s.normal);
+        errors.push_back(missing ? 0.5 * std::numbers::pi : unoriented_angle(s.normal, expected));
+        squares += errors.back() * errors.back();
+        gammas += missing ? 0.0 : gamma(s.normal, expected);
+        usable += !missing;
+    }
+    normal_quality q;
+    q.points = errors.size();
+    if (errors.empty()) return q;
+    const auto n = static_cast<double>(errors.size());
+    const auto percentile = [&](double share) {
+        const auto rank = static_cast<std::ptrdiff_t>(std::ceil(share * n)) - 1;
+        std::nth_element(errors.begin(), errors.begin() + rank, errors.end());
+        return radians(errors[static_cast<std::size_t>(rank)]);
+    };
+    q.gamma = gammas / n;
+    q.usable = static_cast<double>(usable) / n;
+    q.rms = radians(std::sqrt(squares / n));
+    q.median = percentile(0.5);
+    q.p90 = percentile(0.9);
+    q.p99 = percentile(0.99);
+    return q;
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/normals/orient.hpp --------------------------------------------------------------
 
 /// @file

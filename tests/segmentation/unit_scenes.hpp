@@ -16,7 +16,7 @@ namespace unit_scenes {
 /// Points with surface elements made by hand.
 struct scene {
     clouds::cloud points;
-    std::vector<gnomon::surfel<gnomon::bare_estimate>> surface;
+    std::vector<gnomon::surfel<gnomon::normal_fit>> surface;
 
     void add(const Eigen::Vector3d& p, const Eigen::Vector3d& n, double mean_distance = 0.03) {
         points.push_back(p);

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSL-1.0
+// Noise along the rays is what range finders have: an estimator that knows it is ahead of one that
+// does not, on dense scans of the kitchen, whichever way the scanner moves. The whole table is
+// printed by benchmarks/normals/ray_ls_against_plane_pca.
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
+
+namespace {
+
+/// Gains in mean gamma at every eighth point, from the k nearest neighbors, for three k at once.
+void expect_ahead(const auto& trajectory, const gnomon::scene& world, double sigma) {
+    const auto truth =
+        gnomon::simulate(world, trajectory, gnomon::densities::high(), {.sigma = sigma, .seed = 1});
+    const auto& points = truth.scan.points;
+    const auto search = gnomon::knn{.k = 50}.search(points);
+    for (const std::size_t k : {15u, 30u, 50u}) {
+        double ray = 0.0;
+        double pca = 0.0;
+        std::vector<gnomon::neighbor> found;
+        std::vector<Eigen::Vector3d> ring;
+        for (std::size_t i = 0; i < points.size(); i += 8) {
+            search(i, found);
+            ring.clear();
+            for (std::size_t j = 0; j < k; ++j) ring.push_back(points[found[j].index]);
+            const auto& n = truth.normals[i];
+            ray += gnomon::gamma(gnomon::ray_ls{}(points[i], ring, truth.scan.viewpoints[i]).normal,
+                                 n);
+            pca += gnomon::gamma(gnomon::plane_pca{}(points[i], ring).normal, n);
+        }
+        EXPECT_GT(ray, pca) << "k = " << k << " sigma = " << sigma;
+    }
+}
+
+TEST(ray_ls_on_kitchen, is_ahead_of_plane_pca_on_dense_scans_with_noise) {
+    const gnomon::scene world = gnomon::scenes::kitchen();
+    for (const double sigma : {0.015, 0.030}) {
+        expect_ahead(gnomon::horizontal{.mount = world.sensor}, world, sigma);
+        expect_ahead(gnomon::vertical{.mount = world.sensor}, world, sigma);
+        expect_ahead(gnomon::rotational{.mount = world.sensor}, world, sigma);
+    }
+}
+
+}  // namespace

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: BSL-1.0
+// The first scenario of the thesis (Klasing 2010, Sec. 3.2.6, Figs. 3.3 and 3.5): a box and a
+// cylinder, 14,200 points. Do the methods rank as the thesis says? Over five seeds, at every fifth
+// point.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <boost/hana/for_each.hpp>
+#include <gtest/gtest.h>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/normals/registry.hpp>
+#include <gnomon/simulation.hpp>
+
+namespace {
+
+constexpr std::size_t every = 5;
+constexpr int seeds = 5;
+
+/// Mean gamma by method: of the seven of the thesis.
+using ranking = std::map<std::string, double>;
+
+/// Over all seeds, with every fifth point's ring as the policy finds it.
+ranking rank(const auto& policy, double sigma) {
+    ranking gammas;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto truth = gnomon::simulate(
+            gnomon::box_and_cylinder{.sigma = sigma, .seed = static_cast<std::uint64_t>(seed)});
+        const auto search = policy.search(truth.scan);
+        std::vector<std::vector<gnomon::neighbor>> rings(truth.scan.size());
+        std::vector<gnomon::ring_note> notes(truth.scan.size());
+        for (std::size_t i = 0; i < rings.size(); i += every)
+            notes[i] = gnomon::search_noted(search, i, rings[i]);
+        boost::hana::for_each(gnomon::thesis_estimators, [&](const auto& e) {
+            double sum = 0.0;
+            std::size_t n = 0;
+            std::vector<Eigen::Vector3d> ring;
+            for (std::size_t i = 0; i < rings.size(); i += every) {
+                ring.clear();
+                for (const auto& q : rings[i]) ring.push_back(truth.scan.points[q.index]);
+                const gnomon::ring_view view(ring, notes[i].open);
+                const Eigen::Vector3d& p = truth.scan.points[i];
+                Eigen::Vector3d normal;
+                if constexpr (gnomon::ray_estimator<std::remove_cvref_t<decltype(e.policy)>>) {
+                    normal = e.policy(p, view, truth.scan.viewpoints[i]).normal;
+                } else {
+                    normal = e.policy(p, view).normal;
+                }
+                sum += gnomon::gamma(normal, truth.normals[i]);
+                ++n;
+            }
+            gammas[e.name] += sum / static_cast<double>(n) / seeds;
+        });
+    }
+    return gammas;
+}
+
+void print(const std::string& what, const ranking& gammas) {
+    std::printf("%-22s", what.c_str());
+    for (const auto& [name, gamma] : gammas) std::printf("  %s %.4f", name.c_str(), gamma);
+    std::printf("\n");
+}
+
+TEST(scenario_one, methods_rank_as_in_the_thesis_on_nearest_neighbors) {
+    std::map<std::size_t, ranking> at;
+    for (const std::size_t k : {10u, 30u, 50u}) {
+        at[k] = rank(gnomon::knn{.k = k}, 0.015);
+        print("k = " + std::to_string(k), at[k]);
+    }
+    for (const auto& [name, gamma] : at[30]) {  // more neighbors are never worse
+        EXPECT_GE(gamma, at[10][name] - 0.002) << name;
+        EXPECT_GE(at[50][name], gamma - 0.002) << name;
+    }
+    const auto first = {"plane_svd", "plane_pca"};
+    const auto middle = {"quad_trans_svd", "quad_svd", "vector_svd"};
+    const auto last = {"area_weighted", "angle_weighted"};
+    for (const char* a : first) {
+        for (const char* b : middle) EXPECT_GT(at[30][a], at[30][b]) << a << " " << b;
+    }
+    for (const char* a : middle) {
+        for (const char* b : last) EXPECT_GT(at[30][a], at[30][b]) << a << " " << b;
+    }
+}
+
+TEST(scenario_one, all_methods_suffer_from_noise_on_delaunay_stars) {
+    std::map<double, ranking> at;
+    const std::array<double, 4> sigmas{0.001, 0.005, 0.010, 0.015};
+    const auto five = {"plane_svd", "plane_pca", "vector_svd", "area_weighted", "angle_weighted"};
+    for (const double sigma : sigmas) {
+        at[sigma] = rank(gnomon::delaunay{}, sigma);
+        print("Delaunay, " + std::to_string(sigma), at[sigma]);
+    }
+    for (std::size_t i = 1; i < sigmas.size(); ++i) {
+        for (const char* name : five)
+            EXPECT_LT(at[sigmas[i]][name], at[sigmas[i - 1]][name]) << name;
+    }
+    // Six neighbors are few: twenty are better, for what does not need their order.
+    for (const double sigma : {0.005, 0.015}) {
+        ranking nearest = rank(gnomon::knn{.k = 20}, sigma);
+        print("k = 20, " + std::to_string(sigma), nearest);
+        for (const char* name : {"plane_svd", "plane_pca", "vector_svd"})
+            EXPECT_GE(nearest[name], at[sigma][name]) << name;
+    }
+}
+
+}  // namespace
