@@ -18,7 +18,7 @@ namespace {
 using gnomon::curvature, gnomon::shape_operator_curvature, gnomon::thesis_curvature, gnomon::trust;
 using patches::up;
 
-const Eigen::Vector3d zero(0, 0, 0);
+using patches::zero;
 
 struct no_normal {
     curvature operator()(const Eigen::Vector3d&, gnomon::ring_view) const;

@@ -21,7 +21,7 @@ namespace {
 
 using gnomon::curvature, gnomon::knn, gnomon::trust;
 
-const Eigen::Vector3d zero(0, 0, 0);
+using patches::zero;
 
 /// The least that a surface may consist of.
 struct only_normal {
@@ -231,9 +231,9 @@ void survives_every_cloud(const C& estimate) {
             const auto estimated = gnomon::estimate_normals(points, knn{k}, gnomon::plane_pca{});
             std::vector<only_normal> pca;
             for (const auto& s : estimated) pca.push_back({s.normal});
-            const std::vector<only_normal> up(points.size(), {patches::up});
+            const std::vector<only_normal> upright(points.size(), {patches::up});
             const std::vector<only_normal> oblique(points.size(), {{0.6, 0.0, -0.8}});
-            for (const auto& surface : {pca, up, oblique}) {
+            for (const auto& surface : {pca, upright, oblique}) {
                 const auto result = gnomon::estimate_curvature(points, knn{k}, surface, estimate);
                 ASSERT_EQ(result.size(), points.size());
                 for (std::size_t i = 0; i < points.size(); ++i) {

@@ -20,6 +20,7 @@
 namespace patches {
 
 inline const Eigen::Vector3d up(0.0, 0.0, 1.0);
+inline const Eigen::Vector3d zero(0, 0, 0);
 
 /// A surface with what is true of it at the origin.
 struct known_surface {

@@ -18,8 +18,8 @@ using gnomon::angle_weighted, gnomon::area_weighted, gnomon::ring_view, gnomon::
 
 /// Eqs. (3.9)-(3.11) as they stand, in long double.
 template <class Weight>
-oracles::answer literal(const laws::neighborhood_sample& sample, const Weight& weight,
-                        bool to_viewpoint) {
+oracles::answer literal_average(const laws::neighborhood_sample& sample, const Weight& weight,
+                                bool to_viewpoint) {
     const auto wide = [](const Eigen::Vector3d& x) { return x.cast<long double>().eval(); };
     const std::size_t k = sample.ring.size();
     oracles::vector3 sum = oracles::vector3::Zero();
@@ -42,7 +42,7 @@ void expect_agrees(const gnomon::triangle_weight auto& model, const Weight& weig
     for (const auto sign : {triangle_sign::from_order, triangle_sign::to_viewpoint}) {
         const gnomon::averaging<std::remove_cvref_t<decltype(model)>> estimate{.sign = sign};
         oracles::expect_agrees_with(estimate, [&](const auto& sample) {
-            return literal(sample, weight, sign == triangle_sign::to_viewpoint);
+            return literal_average(sample, weight, sign == triangle_sign::to_viewpoint);
         });
     }
 }

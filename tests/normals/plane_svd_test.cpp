@@ -12,7 +12,7 @@ namespace {
 using gnomon::plane_svd, gnomon::trust;
 
 /// [Q+ 1] in the sensor's frame, (k+1) x 4. Eq. (3.1) and Tab. 3.1.
-oracles::answer literal(const laws::neighborhood_sample& sample) {
+oracles::answer literal_plane_svd(const laws::neighborhood_sample& sample) {
     return oracles::last_singular_vector(
         oracles::rows_of(sample, true, 4, [&](const oracles::vector3& q) {
             oracles::vector row(4);
@@ -21,7 +21,9 @@ oracles::answer literal(const laws::neighborhood_sample& sample) {
         }));
 }
 
-TEST(plane_svd, agrees_with_a_dense_svd) { oracles::expect_agrees_with(plane_svd{}, literal); }
+TEST(plane_svd, agrees_with_a_dense_svd) {
+    oracles::expect_agrees_with(plane_svd{}, literal_plane_svd);
+}
 
 TEST(plane_svd, laws_hold) {
     laws::estimator_laws(plane_svd{});

@@ -18,7 +18,7 @@ using gnomon::quad_svd, gnomon::trust;
 
 /// [R 1], k x 10, in the sensor's frame, and the gradient at the point. Eq. (3.7), Tab. 3.1. The
 /// gap is that of singular values, as nothing is squared, less what the gradient's length costs.
-oracles::answer literal(const laws::neighborhood_sample& sample) {
+oracles::answer literal_quad_svd(const laws::neighborhood_sample& sample) {
     const oracles::vector3 origin = sample.viewpoint.cast<long double>();
     const oracles::matrix m = oracles::rows_of(sample, false, 10, [&](const oracles::vector3& q) {
         const oracles::vector3 x = q - origin;
@@ -53,7 +53,7 @@ TEST(quad_svd, agrees_with_a_dense_svd) {
             ASSERT_EQ(found.trust, trust::too_few_neighbors);
             continue;
         }
-        const auto expected = literal(sample);
+        const auto expected = literal_quad_svd(sample);
         if (found.trust != trust::good) {
             ASSERT_LT(expected.gap, 2e-12) << "seed " << seed;
             continue;

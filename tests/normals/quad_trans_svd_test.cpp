@@ -16,7 +16,7 @@ namespace {
 using gnomon::quad_trans_svd, gnomon::trust;
 
 /// [R' 1] of k x 6 in the frame of VectorSVD, and c by its truncated pseudo-inverse. Eq. (3.8).
-oracles::answer literal(const laws::neighborhood_sample& sample, int rank) {
+oracles::answer literal_quad_trans_svd(const laws::neighborhood_sample& sample, int rank) {
     const oracles::vector3 p = sample.p.cast<long double>();
     const oracles::matrix vectors = oracles::rows_of(
         sample, false, 3, [&](const oracles::vector3& q) -> oracles::vector { return q - p; });
@@ -55,7 +55,7 @@ TEST(quad_trans_svd, agrees_with_a_dense_svd) {
             const auto sample = oracles::random_neighborhood(seed, place, in_float);
             if (sample.ring.size() < 6) continue;
             const auto found = laws::estimate_one(quad_trans_svd{.rank = rank}, sample);
-            const auto expected = literal(sample, rank);
+            const auto expected = literal_quad_trans_svd(sample, rank);
             if (!gnomon::usable(found.trust)) {
                 ASSERT_LT(expected.gap, 2e-12) << "seed " << seed;
                 continue;
