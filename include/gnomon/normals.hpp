@@ -9,3 +9,4 @@
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/propagate_orientation.hpp>
