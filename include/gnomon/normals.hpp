@@ -18,6 +18,7 @@
 #include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/plane_svd.hpp>
+#include <gnomon/normals/propagate_orientation.hpp>
 #include <gnomon/normals/quad_svd.hpp>
 #include <gnomon/normals/quad_trans_svd.hpp>
 #include <gnomon/normals/ray_ls.hpp>

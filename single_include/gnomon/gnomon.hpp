@@ -1384,6 +1384,16 @@ namespace gnomon::detail {
     return r;
 }
 
+/// The diagonal matrix of a, b and c.
+[[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
+    Eigen::Matrix3d m;
+    m.setZero();
+    m(0, 0) = a;
+    m(1, 1) = b;
+    m(2, 2) = c;
+    return m;
+}
+
 /// Column j of M.
 [[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
     return {m(0, j), m(1, j), m(2, j)};
@@ -2266,9 +2276,13 @@ struct planar_point {
                .sign() < 0;
 }
 
+/// The vectors and spans of planar points are template parameters below for one reason: only those
+/// who search stars shall compile the sorting of them.
+///
 /// Sorts by direction, counterclockwise from the x axis; of those in one direction the nearest
 /// first, then the smallest index. Points at the origin have no direction: there must be none.
-inline void sort_by_direction(std::span<planar_point> points) {
+template <class Points>
+void sort_by_direction(Points&& points) {
     std::sort(points.begin(), points.end(), [](const planar_point& a, const planar_point& b) {
         const int ha = half_plane(a);
         const int hb = half_plane(b);
@@ -2284,7 +2298,8 @@ inline void sort_by_direction(std::span<planar_point> points) {
 /// Turns points sorted by direction round until the widest gap, if half of the plane or more, lies
 /// between the last and the first.
 /// @return whether there is such a gap
-inline bool begin_after_gap(std::span<planar_point> points) {
+template <class Points>
+bool begin_after_gap(Points&& points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::size_t next = (i + 1) % points.size();
         const int t = turn(points[i], points[next]);
@@ -2300,11 +2315,11 @@ inline bool begin_after_gap(std::span<planar_point> points) {
 
 /// Of points sorted by direction keeps those on the hull of the inverted ones: Graham's scan. The
 /// first must be a corner, and be the next after the last, or the last be a corner, too.
-inline void keep_hull(std::vector<planar_point>& points, bool closed) {
+template <class Points>
+void keep_hull(Points& points, bool closed) {
     std::size_t kept = 0;
     const auto drop_inner = [&](const planar_point& next) {
-        while (kept > 1 &&
-               inverted_orientation(points[kept - 2], points[kept - 1], next) < 0) {
+        while (kept > 1 && inverted_orientation(points[kept - 2], points[kept - 1], next) < 0) {
             --kept;
         }
     };
@@ -2318,7 +2333,8 @@ inline void keep_hull(std::vector<planar_point>& points, bool closed) {
 
 /// Points on one empty circle with the origin could all be neighbors. The polygon that they make is
 /// cut into a fan about its smallest index, whichever star looks at it.
-inline void keep_fan(point_index center, std::vector<planar_point>& points, bool closed) {
+template <class Points>
+void keep_fan(point_index center, Points& points, bool closed) {
     const std::size_t n = points.size();
     const auto at = [&](std::size_t i) -> const planar_point& { return points[i < n ? i : 0]; };
     const std::size_t last = closed ? n : n - 1;
@@ -2344,7 +2360,8 @@ inline void keep_fan(point_index center, std::vector<planar_point>& points, bool
 /// the smallest index stays. O(k log k).
 /// @return whether the star is open, the origin being on the border of the points' hull; the first
 ///         neighbor is then the one from which the others lie counterclockwise
-[[nodiscard]] inline bool reduce_to_star(point_index center, std::vector<planar_point>& points) {
+template <class Points>
+[[nodiscard]] bool reduce_to_star(point_index center, Points& points) {
     std::erase_if(points, [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
     sort_by_direction(points);
     const auto hides = [](const planar_point& near, const planar_point& far) {
@@ -2746,8 +2763,9 @@ class sorted_search {
             fan.begin(), fan.end(), [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
         std::sort(fan.begin(), directed,
                   [](const planar_point& a, const planar_point& b) { return a.index < b.index; });
-        sort_by_direction({directed, fan.end()});
-        const bool open = begin_after_gap({directed, fan.end()});
+        const std::span<planar_point> around(directed, fan.end());
+        sort_by_direction(around);
+        const bool open = begin_after_gap(around);
         ring.clear();
         for (const planar_point& q : fan)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});
@@ -3534,9 +3552,7 @@ struct literal_plane_ekf {
         Eigen::Vector3d x;  // line 1
         for (int a = 0; a < 3; ++a) x[a] = random.gaussian();
         x = scaled(1.0 / length(x), x);
-        Eigen::Matrix3d covariance;
-        covariance.setZero();
-        for (int a = 0; a < 3; ++a) covariance(a, a) = prior_variance;
+        Eigen::Matrix3d covariance = diagonal(prior_variance, prior_variance, prior_variance);
         const moments m = moments_about(p, ring);
         const Eigen::Vector3d seen = difference(p, viewpoint);
         const Eigen::Vector3d centroid = combined(1.0, seen, 1.0, m.mean_with_point());  // line 2
@@ -4140,24 +4156,24 @@ struct plane_filter {
         if (!usable(belief.trust)) return belief;
 
         // Everything as seen from the view point.
-        const Eigen::Vector3d x = p - viewpoint;
-        const Eigen::Vector3d anchor = x + m.mean_with_point();
+        const Eigen::Vector3d x = detail::difference(p, viewpoint);
+        const Eigen::Vector3d anchor = detail::combined(1.0, x, 1.0, m.mean_with_point());
         const plane_state prior{detail::tangent_basis(belief.normal)};
         plane_state state = prior;
         // No covariance yet: sigma points this near to each other give the derivative.
-        state.covariance.diagonal() << 1e-8, 1e-8, 1e-4 * sigma * sigma;
+        state.covariance = detail::diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
         bool settled = false;
         for (int i = 0; i < max_iterations && !settled; ++i) {
             // The prior's mean and covariance, as seen from the state.
             Eigen::Vector3d delta = state.frame.towards(prior.frame.normal);
             delta[2] = prior.distance - state.distance;
-            Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-            covariance.diagonal() << prior_angle * prior_angle, prior_angle * prior_angle,
-                prior_distance * prior_distance;
+            Eigen::Matrix3d covariance =
+                detail::diagonal(prior_angle * prior_angle, prior_angle * prior_angle,
+                                 prior_distance * prior_distance);
             const Linearization linearize(state, anchor);
             update(state, linearize, x, delta, covariance);
             for (const Eigen::Vector3d& q : ring)
-                update(state, linearize, q - viewpoint, delta, covariance);
+                update(state, linearize, detail::difference(q, viewpoint), delta, covariance);
             if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
@@ -4175,16 +4191,16 @@ struct plane_filter {
     /// Takes in the range of one measured point: a Kalman update of delta and its covariance.
     void update(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
                 Eigen::Vector3d& delta, Eigen::Matrix3d& covariance) const {
-        const double range = x.norm();
-        const Eigen::Vector3d u = x / range;
-        if (!(std::abs(u.dot(state.frame.normal)) > detail::grazing_cosine)) return;
+        const double range = detail::length(x);
+        const Eigen::Vector3d u = detail::scaled(1.0 / range, x);
+        if (!(std::abs(detail::dot(u, state.frame.normal)) > detail::grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const Eigen::Vector3d ps = covariance * z.slope;
-        const double innovation = range - z.value - z.slope.dot(delta);
-        const double variance = z.slope.dot(ps) + z.variance + sigma * sigma;
+        const Eigen::Vector3d ps = detail::product(covariance, z.slope);
+        const double innovation = range - z.value - detail::dot(z.slope, delta);
+        const double variance = detail::dot(z.slope, ps) + z.variance + sigma * sigma;
         if (!std::isfinite(variance)) return;
-        delta += (innovation / variance) * ps;
-        covariance -= (ps / variance) * ps.transpose();
+        delta = detail::combined(1.0, delta, innovation / variance, ps);
+        detail::add_outer(covariance, -1.0 / variance, ps, ps);
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {
@@ -4260,6 +4276,324 @@ struct plane_svd {
         return fit;
     }
 };
+
+}  // namespace gnomon
+
+// -------- gnomon/normals/detail/component_facing.hpp ---------------------------------------------
+
+/// @file
+/// Which side the components of a cloud face as a whole: that of their view points, or outwards.
+
+namespace gnomon::detail {
+
+/// For each component, a number that is negative if the component should be turned as a whole.
+/// component[i] is below `components`, or negative; normal_of(i) is consistent in a component.
+template <class Points>
+[[nodiscard]] std::vector<double> component_facing(const Points& p,
+                                                   const viewpoint_table& viewpoints,
+                                                   auto&& normal_of,
+                                                   const std::vector<std::int32_t>& component,
+                                                   std::size_t components) {
+    std::vector<double> vote(components, 0.0);
+    const auto for_each_point = [&](auto&& work) {
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (component[i] >= 0) work(static_cast<std::size_t>(component[i]), i);
+        }
+    };
+    if (!viewpoints.empty()) {
+        for_each_point([&](std::size_t c, std::size_t i) {
+            const Eigen::Vector3d view = viewpoints[i];
+            require(is_finite(view), "propagate_orientation: a view point is not finite");
+            const double range = std::sqrt(squared_distance(view, p[i]));
+            if (range > 0.0) vote[c] += dot(normal_of(i), difference(view, p[i])) / range;
+        });
+        return vote;
+    }
+    std::vector<double> count(components, 0.0);
+    std::vector<double> radius(components, 0.0);
+    std::vector<Eigen::Vector3d> center(components, Eigen::Vector3d(0.0, 0.0, 0.0));
+    for_each_point([&](std::size_t c, std::size_t) { ++count[c]; });
+    for_each_point([&](std::size_t c, std::size_t i) {
+        center[c] = combined(1.0, center[c], 1.0 / count[c], p[i]);
+    });
+    for_each_point([&](std::size_t c, std::size_t i) {
+        radius[c] = std::max(radius[c], std::sqrt(squared_distance(p[i], center[c])));
+    });
+    // By the divergence theorem, the integral of <n, d> |d|^2 over a closed surface is five times
+    // that of |d|^2 over what it encloses, so positive if n looks outwards, whatever d = p - center
+    // is counted from. The square lets the outermost points speak loudest: they look outwards even
+    // where the sampling is not even. What is open and flat has no outside: it faces up.
+    const Eigen::Vector3d faintly_up(1e-12, 1e-10, 1e-8);
+    for_each_point([&](std::size_t c, std::size_t i) {
+        const double scale = radius[c] > 0.0 ? 1.0 / radius[c] : 0.0;
+        const Eigen::Vector3d d = scaled(scale, difference(p[i], center[c]));
+        vote[c] += dot(normal_of(i), combined(dot(d, d), d, 1.0, faintly_up));
+    });
+    return vote;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/signed_forest.hpp ------------------------------------------------
+
+/// @file
+/// The maximum spanning forest of a graph whose links tell whether their ends have the same sign,
+/// by the method of Kruskal 1956, in a form that remembers the sign of each point relative to the
+/// core of its tree and the weakest link on the way there.
+
+namespace gnomon::detail {
+
+/// A link between the points a < b.
+struct sign_link {
+    double relation = 0.0;  ///< > 0 for the same sign, < 0 for opposite ones; how surely
+    point_index a = 0;
+    point_index b = 0;
+
+    [[nodiscard]] double strength() const { return std::abs(relation); }
+};
+
+/// The smaller of two joined trees is hung below the root of the larger one, as a hop that stands
+/// for the link between them: no path has more than log2(n) hops. Links are joined from the
+/// strongest to the weakest, so the weakest hop to the root of all, the core, is the weakest link
+/// of the strongest path there.
+class signed_forest {
+  public:
+    /// Of n points. O(m log m) for m links, `Links` being a vector of them. (As a template, it
+    /// costs only those who use it the compilation of a sort.)
+    template <class Links>
+    signed_forest(std::size_t n, Links links) : nodes_(n) {
+        for (std::size_t i = 0; i < n; ++i) nodes_[i].parent = static_cast<point_index>(i);
+        std::sort(links.begin(), links.end(), [](const sign_link& x, const sign_link& y) {
+            if (x.strength() != y.strength()) return x.strength() > y.strength();
+            return x.a != y.a ? x.a < y.a : x.b < y.b;
+        });
+        for (const sign_link& l : links) join(l);
+    }
+
+    /// The way from a point to the core of its tree.
+    struct way_to_core {
+        point_index core;
+        double sign;  ///< 1 or -1, relative to the core
+        double
+            weakest;  ///< strength of the weakest link; at the core, of its strongest; 0: of none
+    };
+
+    /// That of point i. O(log n).
+    [[nodiscard]] way_to_core way(std::size_t i) const {
+        way_to_core w{static_cast<point_index>(i), 1.0, nodes_[i].strongest};
+        while (nodes_[w.core].parent != w.core) {
+            const node& hop = nodes_[w.core];
+            w.sign *= hop.relation < 0.0 ? -1.0 : 1.0;
+            w.weakest = std::abs(hop.relation);  // no hop is stronger than the one before
+            w.core = hop.parent;
+        }
+        return w;
+    }
+
+    /// Writes to number[i] the number of its tree, for each point that counts(i) accepts: from 0
+    /// on, the largest tree first, equal ones by their smallest point. Returns how many trees there
+    /// are.
+    std::size_t number_trees(auto&& counts, std::vector<std::int32_t>& number) const {
+        std::vector<point_index> roots;
+        std::vector<std::int32_t> number_of(nodes_.size(), -1);
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            if (!counts(i)) continue;
+            const point_index root = way(i).core;
+            if (number_of[root] < 0) roots.push_back(root);
+            number_of[root] = 0;
+        }
+        std::stable_sort(roots.begin(), roots.end(), [this](point_index a, point_index b) {
+            return nodes_[a].size > nodes_[b].size;
+        });
+        for (std::size_t c = 0; c < roots.size(); ++c) {
+            number_of[roots[c]] = static_cast<std::int32_t>(c);
+        }
+        for (std::size_t i = 0; i < nodes_.size(); ++i) {
+            if (counts(i)) number[i] = number_of[way(i).core];
+        }
+        return roots.size();
+    }
+
+  private:
+    struct node {
+        point_index parent = 0;
+        point_index size = 1;    // of the tree, if this is a root
+        double relation = 1.0;   // to the parent
+        double strongest = 0.0;  // of all links of this point: the first that came
+    };
+
+    void join(const sign_link& l) {
+        way_to_core a = way(l.a);
+        way_to_core b = way(l.b);
+        if (a.core == b.core) return;
+        for (const point_index i : {l.a, l.b}) {
+            if (nodes_[i].strongest == 0.0) nodes_[i].strongest = l.strength();
+        }
+        const double relation = l.relation * a.sign * b.sign;
+        // Of equally large trees that whose core has the stronger link, for the order of the points
+        // must not matter.
+        const node& x = nodes_[a.core];
+        const node& y = nodes_[b.core];
+        if (x.size != y.size ? x.size < y.size : x.strongest < y.strongest) std::swap(a, b);
+        nodes_[b.core].parent = a.core;
+        nodes_[b.core].relation = relation;
+        nodes_[a.core].size += nodes_[b.core].size;
+    }
+
+    std::vector<node> nodes_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/propagate_orientation.hpp -----------------------------------------------
+
+/// @file
+/// Consistent signs for the normals of a cloud whose view points are unknown: the sign goes from
+/// neighbor to neighbor, over the most reliable links first, so that every point gets it along the
+/// strongest chain of links there is (Klasing 2010, Sec. 3.2.10, "voting and propagation schemes").
+///
+/// Hoppe et al. 1992 follow the spanning tree of least 1 - |<n_i, n_j>|; it mistakes the sign where
+/// two sides of a board, with parallel normals, come close. Xie et al. reflect n_j through the
+/// plane that halves the link before they compare, which is right across sharp edges but not for
+/// noise (both reviewed by Koenig and Gumhold 2009). What the two dispute are the parts of the
+/// normals along the link; here only what both accept is compared: the shadows of the normals on
+/// that plane. A link that leaves the tangent planes, such as one through a board, is then weak.
+/// The tree decides alone: a vote of all links between growing clusters, after Jakob et al. 2019,
+/// was tried and helps with much noise, but links through thin boards then outvote the few around
+/// their rims.
+
+namespace gnomon {
+
+/// How far signs are carried.
+struct orientation_propagation {
+    /// Links of this strength |c| or less, from 0 to 1, carry no sign: larger values give more
+    /// components with fewer wrong signs in each, good where view points decide for each component.
+    double min_link = 0.0;
+};
+
+/// How the signs of a cloud came about, point by point.
+struct orientation {
+    /// The strength of the weakest link between the point and the core of its component, along the
+    /// strongest path: 1 if the surface is smooth all the way, about 1/2 beyond a sharp right
+    /// angle, 0 if the sign is a guess, as for points without links or normals. For the core, where
+    /// all paths end, that of its own strongest link. It speaks of the sign relative to the core;
+    /// which side the component faces as a whole is for view points to tell.
+    std::vector<double> confidence;
+    /// Points of one component are oriented alike: numbers from 0, the largest component first, and
+    /// -1 for points without normal. `segments(component)` lists the points of each.
+    std::vector<std::int32_t> component;
+    std::size_t components = 0;  ///< how many there are
+};
+
+namespace detail {
+
+/// c = <n_i, n_j> - <n_i, e> <n_j, e> for the unit vector e from p_i to p_j, from -1 to 1: the
+/// inner product of the shadows on the plane across the link, and the mean of what Hoppe et al. and
+/// Xie et al. compare. Its sign tells whether the normals agree, its absolute value how strongly.
+/// The same bytes for (j, i).
+[[nodiscard]] inline double sign_relation(const Eigen::Vector3d& p_i, const Eigen::Vector3d& n_i,
+                                          const Eigen::Vector3d& p_j, const Eigen::Vector3d& n_j) {
+    Eigen::Vector3d e = difference(p_j, p_i);
+    const double scale = std::max({std::abs(e.x()), std::abs(e.y()), std::abs(e.z())});
+    double along = 0.0;  // there is no direction between duplicates
+    if (scale > 0.0) {
+        for (int a = 0; a < 3; ++a) e[a] /= scale;  // squares of tiny numbers would be zero
+        along = dot(n_i, e) * dot(n_j, e) / dot(e, e);
+    }
+    return std::clamp(dot(n_i, n_j) - along, -1.0, 1.0);
+}
+
+}  // namespace detail
+
+/// Gives the normals of each connected component of a neighbor graph consistent signs.
+///
+/// A component as a whole faces its view points by majority (weighted by the cosine of incidence)
+/// if the points know them; else outwards: the sum of <n, d> |d|^2, for the way d from its centroid
+/// to a point, is positive. That is the outside of a closed surface; for an open one it is a
+/// convention, and upwards for a plane. Pass `scan.points` to have a scan face outwards.
+///
+/// Two sides of a board stay apart as long as the neighbors of most points are on their own side:
+/// choose k such that rings are narrower than the board; where they are not, signs are a lottery
+/// and the confidence gives no warning. Surfaces that touch are one component.
+///
+/// @param points   any point range of n points [m]
+/// @param graph    the neighbors of each point; i and j are linked if either lists the other
+/// @param surface  n normals; those that should look the other way are negated in place
+/// @param run      `sequential{}` or `threads{n}`; the result is the same bytes
+/// @return confidence and component of each point. A normal that is zero or not finite, and that of
+///         a point that is not finite, stays as it is, with confidence 0 and component -1.
+/// @throws std::invalid_argument  if points, graph and surface differ in size, the graph lists a
+///                                neighbor of no point, min_link is not from 0 to 1, or a view
+///                                point is not finite; `surface` then is as it was
+/// Neither the signs that the normals had nor the order of the points matter, but for ties.
+/// Complexity: O(n k log(n k)) for k neighbors per point; 16 bytes per neighbor.
+template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj> && (!std::is_const_v<Surface>)
+orientation propagate_orientation(const R& points, const G& graph, Surface& surface,
+                                  const orientation_propagation& options = {}, const X& run = {},
+                                  Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const std::size_t n = p.size();
+    detail::require(graph.size() == n, "propagate_orientation: the graph is of other points");
+    detail::require(std::ranges::size(surface) == n,
+                    "propagate_orientation: the surface is of other points");
+    detail::require(options.min_link >= 0.0 && options.min_link <= 1.0,
+                    "propagate_orientation: min_link must be from 0 to 1");
+    const auto usable = [&](std::size_t i) {
+        const Eigen::Vector3d& normal = surface[i].normal;
+        return is_finite(normal) && !is_missing(normal) && is_finite(p[i]);
+    };
+
+    std::vector<std::size_t> first(n + 1, 0);
+    for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + std::ranges::size(graph[i]);
+    std::vector<detail::sign_link> links(first[n]);
+    for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            detail::sign_link* link = links.data() + first[i];
+            for (const point_index j : graph[i]) {
+                detail::require(j < n, "propagate_orientation: a neighbor of no point");
+                if (usable(i) && usable(j)) {  // a link to itself joins nothing
+                    link->relation =
+                        detail::sign_relation(p[i], surface[i].normal, p[j], surface[j].normal);
+                }
+                link->a = std::min(static_cast<point_index>(i), j);
+                link->b = std::max(static_cast<point_index>(i), j);
+                ++link;
+            }
+        }
+    });
+    std::erase_if(links, [&](const auto& l) { return !(l.strength() > options.min_link); });
+    detail::signed_forest forest(n, std::move(links));
+
+    orientation result{std::vector<double>(n, 0.0), std::vector<std::int32_t>(n, -1), 0};
+    result.components = forest.number_trees(usable, result.component);
+    const auto normal_of = [&](std::size_t i) -> Eigen::Vector3d {
+        return detail::scaled(forest.way(i).sign, surface[i].normal);
+    };
+    const auto vote = detail::component_facing(p, viewpoints_of(points), normal_of,
+                                               result.component, result.components);
+    for (std::size_t i = 0; i < n; ++i) {
+        if (result.component[i] < 0) continue;
+        const auto way = forest.way(i);
+        const bool turned = vote[static_cast<std::size_t>(result.component[i])] < 0.0;
+        if ((way.sign < 0.0) != turned) surface[i].normal = -surface[i].normal;
+        result.confidence[i] = way.weakest;
+    }
+    return result;
+}
+
+/// The same from a neighborhood policy, e.g. knn{.k = 12}.
+/// @throws std::invalid_argument  also if the policy's parameters are out of range, e.g. k = 0
+template <class R, class N, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires neighborhood<N, R, Proj> && (!std::is_const_v<Surface>)
+orientation propagate_orientation(const R& points, const N& policy, Surface& surface,
+                                  const orientation_propagation& options = {}, const X& run = {},
+                                  Proj projection = {}) {
+    return propagate_orientation(points, policy(points, run, projection), surface, options, run,
+                                 projection);
+}
 
 }  // namespace gnomon
 
@@ -4707,10 +5041,10 @@ struct with_covariance {
         const auto& [n, b1, b2] = frame;
         const moments m = moments_about(p, ring);
         const Eigen::Matrix3d spread = m.covariance_with_point();
-        const double across = n.dot(spread * n);
-        const double a11 = b1.dot(spread * b1) - across;
-        const double a12 = b1.dot(spread * b2);
-        const double a22 = b2.dot(spread * b2) - across;
+        const double across = detail::dot(n, detail::product(spread, n));
+        const double a11 = detail::dot(b1, detail::product(spread, b1)) - across;
+        const double a12 = detail::dot(b1, detail::product(spread, b2));
+        const double a22 = detail::dot(b2, detail::product(spread, b2)) - across;
 
         // The covariance of mean(t_j e_j), in which e_j = (u_j . n) times the error of the range.
         const double count = static_cast<double>(m.count + 1);
@@ -4720,13 +5054,13 @@ struct with_covariance {
         double s22 = 0.0;
         bool seen = false;  // not merely grazed
         const auto add = [&](const Eigen::Vector3d& q) {
-            const Eigen::Vector3d ray = q - viewpoint;
-            const double range = ray.norm();
+            const Eigen::Vector3d ray = detail::difference(q, viewpoint);
+            const double range = detail::length(ray);
             // A point at the view point may have come from anywhere: then from straight ahead.
-            const double cosine = range > 0.0 ? ray.dot(n) / range : 1.0;
-            const Eigen::Vector3d d = q - p - mean;
-            const double t1 = cosine * d.dot(b1);
-            const double t2 = cosine * d.dot(b2);
+            const double cosine = range > 0.0 ? detail::dot(ray, n) / range : 1.0;
+            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
+            const double t1 = cosine * detail::dot(d, b1);
+            const double t2 = cosine * detail::dot(d, b2);
             s11 += t1 * t1;
             s12 += t1 * t2;
             s22 += t2 * t2;

@@ -24,7 +24,7 @@ namespace {
 
 using gnomon::besl_jain, gnomon::surface_type;
 
-const gnomon::scene kitchen = gnomon::scenes::kitchen();
+const gnomon::scene furnished = gnomon::scenes::kitchen();
 
 /// How often each type was given.
 class shares {
@@ -82,7 +82,7 @@ struct labeled_scan {
 class prepared_scan {
   public:
     prepared_scan(double sigma, std::size_t k)
-        : truth_(gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor}, {},
+        : truth_(gnomon::simulate(furnished, gnomon::rotational{.mount = furnished.sensor}, {},
                                   {.sigma = sigma})),
           graph_(gnomon::knn{.k = k}(truth_.scan)),
           surface_(gnomon::estimate_normals(truth_.scan, graph_, gnomon::plane_pca{})) {

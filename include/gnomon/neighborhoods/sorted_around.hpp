@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -51,8 +52,9 @@ class sorted_search {
             fan.begin(), fan.end(), [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
         std::sort(fan.begin(), directed,
                   [](const planar_point& a, const planar_point& b) { return a.index < b.index; });
-        sort_by_direction({directed, fan.end()});
-        const bool open = begin_after_gap({directed, fan.end()});
+        const std::span<planar_point> around(directed, fan.end());
+        sort_by_direction(around);
+        const bool open = begin_after_gap(around);
         ring.clear();
         for (const planar_point& q : fan)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});

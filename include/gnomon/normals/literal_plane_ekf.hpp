@@ -62,9 +62,7 @@ struct literal_plane_ekf {
         Eigen::Vector3d x;  // line 1
         for (int a = 0; a < 3; ++a) x[a] = random.gaussian();
         x = scaled(1.0 / length(x), x);
-        Eigen::Matrix3d covariance;
-        covariance.setZero();
-        for (int a = 0; a < 3; ++a) covariance(a, a) = prior_variance;
+        Eigen::Matrix3d covariance = diagonal(prior_variance, prior_variance, prior_variance);
         const moments m = moments_about(p, ring);
         const Eigen::Vector3d seen = difference(p, viewpoint);
         const Eigen::Vector3d centroid = combined(1.0, seen, 1.0, m.mean_with_point());  // line 2

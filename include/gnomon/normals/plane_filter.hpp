@@ -144,24 +144,24 @@ struct plane_filter {
         if (!usable(belief.trust)) return belief;
 
         // Everything as seen from the view point.
-        const Eigen::Vector3d x = p - viewpoint;
-        const Eigen::Vector3d anchor = x + m.mean_with_point();
+        const Eigen::Vector3d x = detail::difference(p, viewpoint);
+        const Eigen::Vector3d anchor = detail::combined(1.0, x, 1.0, m.mean_with_point());
         const plane_state prior{detail::tangent_basis(belief.normal)};
         plane_state state = prior;
         // No covariance yet: sigma points this near to each other give the derivative.
-        state.covariance.diagonal() << 1e-8, 1e-8, 1e-4 * sigma * sigma;
+        state.covariance = detail::diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
         bool settled = false;
         for (int i = 0; i < max_iterations && !settled; ++i) {
             // The prior's mean and covariance, as seen from the state.
             Eigen::Vector3d delta = state.frame.towards(prior.frame.normal);
             delta[2] = prior.distance - state.distance;
-            Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-            covariance.diagonal() << prior_angle * prior_angle, prior_angle * prior_angle,
-                prior_distance * prior_distance;
+            Eigen::Matrix3d covariance =
+                detail::diagonal(prior_angle * prior_angle, prior_angle * prior_angle,
+                                 prior_distance * prior_distance);
             const Linearization linearize(state, anchor);
             update(state, linearize, x, delta, covariance);
             for (const Eigen::Vector3d& q : ring)
-                update(state, linearize, q - viewpoint, delta, covariance);
+                update(state, linearize, detail::difference(q, viewpoint), delta, covariance);
             if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
@@ -179,16 +179,16 @@ struct plane_filter {
     /// Takes in the range of one measured point: a Kalman update of delta and its covariance.
     void update(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
                 Eigen::Vector3d& delta, Eigen::Matrix3d& covariance) const {
-        const double range = x.norm();
-        const Eigen::Vector3d u = x / range;
-        if (!(std::abs(u.dot(state.frame.normal)) > detail::grazing_cosine)) return;
+        const double range = detail::length(x);
+        const Eigen::Vector3d u = detail::scaled(1.0 / range, x);
+        if (!(std::abs(detail::dot(u, state.frame.normal)) > detail::grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const Eigen::Vector3d ps = covariance * z.slope;
-        const double innovation = range - z.value - z.slope.dot(delta);
-        const double variance = z.slope.dot(ps) + z.variance + sigma * sigma;
+        const Eigen::Vector3d ps = detail::product(covariance, z.slope);
+        const double innovation = range - z.value - detail::dot(z.slope, delta);
+        const double variance = detail::dot(z.slope, ps) + z.variance + sigma * sigma;
         if (!std::isfinite(variance)) return;
-        delta += (innovation / variance) * ps;
-        covariance -= (ps / variance) * ps.transpose();
+        delta = detail::combined(1.0, delta, innovation / variance, ps);
+        detail::add_outer(covariance, -1.0 / variance, ps, ps);
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {

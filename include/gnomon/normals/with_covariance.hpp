@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/require_sigma.hpp>
@@ -51,10 +52,10 @@ struct with_covariance {
         const auto& [n, b1, b2] = frame;
         const moments m = moments_about(p, ring);
         const Eigen::Matrix3d spread = m.covariance_with_point();
-        const double across = n.dot(spread * n);
-        const double a11 = b1.dot(spread * b1) - across;
-        const double a12 = b1.dot(spread * b2);
-        const double a22 = b2.dot(spread * b2) - across;
+        const double across = detail::dot(n, detail::product(spread, n));
+        const double a11 = detail::dot(b1, detail::product(spread, b1)) - across;
+        const double a12 = detail::dot(b1, detail::product(spread, b2));
+        const double a22 = detail::dot(b2, detail::product(spread, b2)) - across;
 
         // The covariance of mean(t_j e_j), in which e_j = (u_j . n) times the error of the range.
         const double count = static_cast<double>(m.count + 1);
@@ -64,13 +65,13 @@ struct with_covariance {
         double s22 = 0.0;
         bool seen = false;  // not merely grazed
         const auto add = [&](const Eigen::Vector3d& q) {
-            const Eigen::Vector3d ray = q - viewpoint;
-            const double range = ray.norm();
+            const Eigen::Vector3d ray = detail::difference(q, viewpoint);
+            const double range = detail::length(ray);
             // A point at the view point may have come from anywhere: then from straight ahead.
-            const double cosine = range > 0.0 ? ray.dot(n) / range : 1.0;
-            const Eigen::Vector3d d = q - p - mean;
-            const double t1 = cosine * d.dot(b1);
-            const double t2 = cosine * d.dot(b2);
+            const double cosine = range > 0.0 ? detail::dot(ray, n) / range : 1.0;
+            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
+            const double t1 = cosine * detail::dot(d, b1);
+            const double t2 = cosine * detail::dot(d, b2);
             s11 += t1 * t1;
             s12 += t1 * t2;
             s22 += t2 * t2;

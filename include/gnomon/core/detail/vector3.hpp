@@ -50,6 +50,16 @@ namespace gnomon::detail {
     return r;
 }
 
+/// The diagonal matrix of a, b and c.
+[[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
+    Eigen::Matrix3d m;
+    m.setZero();
+    m(0, 0) = a;
+    m(1, 1) = b;
+    m(2, 2) = c;
+    return m;
+}
+
 /// Column j of M.
 [[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
     return {m(0, j), m(1, j), m(2, j)};

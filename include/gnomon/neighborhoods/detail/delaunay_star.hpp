@@ -78,9 +78,13 @@ struct planar_point {
                .sign() < 0;
 }
 
+/// The vectors and spans of planar points are template parameters below for one reason: only those
+/// who search stars shall compile the sorting of them.
+///
 /// Sorts by direction, counterclockwise from the x axis; of those in one direction the nearest
 /// first, then the smallest index. Points at the origin have no direction: there must be none.
-inline void sort_by_direction(std::span<planar_point> points) {
+template <class Points>
+void sort_by_direction(Points&& points) {
     std::sort(points.begin(), points.end(), [](const planar_point& a, const planar_point& b) {
         const int ha = half_plane(a);
         const int hb = half_plane(b);
@@ -96,7 +100,8 @@ inline void sort_by_direction(std::span<planar_point> points) {
 /// Turns points sorted by direction round until the widest gap, if half of the plane or more, lies
 /// between the last and the first.
 /// @return whether there is such a gap
-inline bool begin_after_gap(std::span<planar_point> points) {
+template <class Points>
+bool begin_after_gap(Points&& points) {
     for (std::size_t i = 0; i < points.size(); ++i) {
         const std::size_t next = (i + 1) % points.size();
         const int t = turn(points[i], points[next]);
@@ -112,11 +117,11 @@ inline bool begin_after_gap(std::span<planar_point> points) {
 
 /// Of points sorted by direction keeps those on the hull of the inverted ones: Graham's scan. The
 /// first must be a corner, and be the next after the last, or the last be a corner, too.
-inline void keep_hull(std::vector<planar_point>& points, bool closed) {
+template <class Points>
+void keep_hull(Points& points, bool closed) {
     std::size_t kept = 0;
     const auto drop_inner = [&](const planar_point& next) {
-        while (kept > 1 &&
-               inverted_orientation(points[kept - 2], points[kept - 1], next) < 0) {
+        while (kept > 1 && inverted_orientation(points[kept - 2], points[kept - 1], next) < 0) {
             --kept;
         }
     };
@@ -130,7 +135,8 @@ inline void keep_hull(std::vector<planar_point>& points, bool closed) {
 
 /// Points on one empty circle with the origin could all be neighbors. The polygon that they make is
 /// cut into a fan about its smallest index, whichever star looks at it.
-inline void keep_fan(point_index center, std::vector<planar_point>& points, bool closed) {
+template <class Points>
+void keep_fan(point_index center, Points& points, bool closed) {
     const std::size_t n = points.size();
     const auto at = [&](std::size_t i) -> const planar_point& { return points[i < n ? i : 0]; };
     const std::size_t last = closed ? n : n - 1;
@@ -156,7 +162,8 @@ inline void keep_fan(point_index center, std::vector<planar_point>& points, bool
 /// the smallest index stays. O(k log k).
 /// @return whether the star is open, the origin being on the border of the points' hull; the first
 ///         neighbor is then the one from which the others lie counterclockwise
-[[nodiscard]] inline bool reduce_to_star(point_index center, std::vector<planar_point>& points) {
+template <class Points>
+[[nodiscard]] bool reduce_to_star(point_index center, Points& points) {
     std::erase_if(points, [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
     sort_by_direction(points);
     const auto hides = [](const planar_point& near, const planar_point& far) {
