@@ -774,8 +774,8 @@ class row_triangle {
     /// Takes in a row.
     void add(std::array<double, N> row) {
         for (std::size_t j = 0; j < N; ++j) {
-            if (row[j] == 0.0) continue;
             const double length = std::sqrt(r_[j][j] * r_[j][j] + row[j] * row[j]);
+            if (length == 0.0) continue;  // also where squares underflow
             const double c = r_[j][j] / length;
             const double s = row[j] / length;
             for (std::size_t i = j; i < N; ++i) {
@@ -1392,6 +1392,21 @@ namespace gnomon::detail {
     m(1, 1) = b;
     m(2, 2) = c;
     return m;
+}
+
+/// The inverse of a symmetric matrix, by its cofactors; not finite if there is none.
+[[nodiscard]] inline Eigen::Matrix3d inverse_of_symmetric(const Eigen::Matrix3d& m) {
+    Eigen::Matrix3d inverse;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+            inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+        }
+    }
+    const double determinant =
+        m(0, 0) * inverse(0, 0) + m(0, 1) * inverse(0, 1) + m(0, 2) * inverse(0, 2);
+    for (int i = 0; i < 9; ++i) inverse.data()[i] /= determinant;
+    return inverse;
 }
 
 /// Column j of M.
@@ -2072,6 +2087,7 @@ class adaptive_search {
         double least = std::numeric_limits<double>::infinity();
         double wanted = static_cast<double>(policy_.min_k);
         while (m.count < ring.size()) {
+            wanted = std::min(wanted, static_cast<double>(ring.size()));
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
             while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
@@ -2128,9 +2144,7 @@ struct expansion {
     void append(double term) {
         if (term != 0.0) terms[size++] = term;
     }
-    [[nodiscard]] int sign() const {
-        return size == 0 ? 0 : (terms[size - 1] > 0.0 ? 1 : -1);
-    }
+    [[nodiscard]] int sign() const { return size == 0 ? 0 : (terms[size - 1] > 0.0 ? 1 : -1); }
 };
 
 /// The rounding error of sum = a + b. Knuth's two-sum.
@@ -2191,7 +2205,9 @@ template <std::size_t N>
 /// x times y, where y has up to four terms.
 template <std::size_t N>
 [[nodiscard]] auto operator*(const expansion<N>& x, const expansion<4>& y) {
-    const auto term = [&](std::size_t i) { return i < y.size ? x * y.terms[i] : expansion<2 * N>{}; };
+    const auto term = [&](std::size_t i) {
+        return i < y.size ? x * y.terms[i] : expansion<2 * N>{};
+    };
     return (term(0) + term(1)) + (term(2) + term(3));
 }
 
@@ -2414,26 +2430,37 @@ class tangent_plane {
     /// @param ring    its neighbors
     tangent_plane(const auto& points, const Eigen::Vector3d& p, const std::vector<neighbor>& ring)
         : origin_(p) {
+        rescale(points, ring);
+        if (!exists_) return;
+        moments m;
+        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
+        const eigen_decomposition e = symmetric_eigen(m.covariance_with_point());
+        x_axis_ = column(e.vectors, 0);
+        y_axis_ = column(e.vectors, 1);
+        // Not along a scan line, nor where noise is as wide as the neighborhood.
+        determined_ = e.values[1] > 0.01 * e.values[0] && e.values[1] > 2.0 * e.values[2];
+    }
+
+    /// Keeps the plane, but scales projections for another ring: by a power of two, which rounds
+    /// nothing, so that products of four coordinates stay in range.
+    void rescale(const auto& points, const std::vector<neighbor>& ring) {
         double largest = 0.0;
         for (const neighbor& q : ring) {
-            const Eigen::Vector3d d = difference(points[q.index], p);
+            const Eigen::Vector3d d = difference(points[q.index], origin_);
             for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(d[a]));
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
         if (!exists_) return;
-        // A power of two rounds nothing, and keeps products of four coordinates in range.
         int exponent = 0;
         std::frexp(largest, &exponent);
         scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
-        moments m;
-        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
-        const Eigen::Matrix3d axes = symmetric_eigen(m.covariance_with_point()).vectors;
-        x_axis_ = column(axes, 0);
-        y_axis_ = column(axes, 1);
     }
 
     /// False where all points are one place, or too far apart for numbers.
     [[nodiscard]] bool exists() const { return exists_; }
+
+    /// Whether the neighbors spread in two directions, each more than across.
+    [[nodiscard]] bool is_determined() const { return determined_; }
 
     /// The projection of point q, scaled. What is directly above or below the origin is at the
     /// origin, whatever rounding says.
@@ -2442,7 +2469,9 @@ class tangent_plane {
         const double x = dot(d, x_axis_);
         const double y = dot(d, y_axis_);
         constexpr double rounding = 1e-14;
-        if (!(std::abs(x) + std::abs(y) > rounding * length(d))) return {0.0, 0.0, index};
+        constexpr double smallest = 1e-60;  // of which products of four are numbers
+        if (!(std::abs(x) + std::abs(y) > std::max(rounding * length(d), smallest)))
+            return {0.0, 0.0, index};
         return {x, y, index};
     }
 
@@ -2457,6 +2486,7 @@ class tangent_plane {
     Eigen::Vector3d y_axis_;
     double scale_ = 1.0;
     bool exists_ = false;
+    bool determined_ = false;
 };
 
 }  // namespace gnomon::detail
@@ -2471,7 +2501,7 @@ class tangent_plane {
 /// Only the star of the point is made, never a triangulation. A star whose circles all lie within
 /// the disc that the k nearest neighbors cover is certified: no further point of the plane could
 /// enter one. Else k is doubled. A star at the border of the points is open, and nothing certifies
-/// it.
+/// it, nor a star in a plane that a single scan line or noise has chosen.
 ///
 /// Klasing 2010, Sec. 3.2.2, Fig. 3.1; k = 20 is ours, the thesis does not tell.
 
@@ -2479,8 +2509,8 @@ namespace gnomon {
 
 /// Models `streaming_neighborhood`; its notes say which stars are open, and which are certified.
 struct delaunay {
-    std::size_t k = 20;      ///< neighbors that are triangulated at first, and define the plane
-    int max_doublings = 4;   ///< of k, as long as there is no certificate
+    std::size_t k = 20;     ///< neighbors that are triangulated at first, and define the plane
+    int max_doublings = 4;  ///< of k, as long as there is no certificate
 
     /// The stored graph. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is under 3
@@ -2520,27 +2550,32 @@ class delaunay_search {
         if (!is_finite(p)) return {.open = true, .certified = false};
         std::size_t k = policy_.k;
         tree_.nearest(p, k, i, ring);
-        const tangent_plane plane(points_, p, ring);
+        // Of neighbors that all coincide with the point there is no plane: look farther.
+        const auto all_seen = [&] { return ring.size() < k; };
+        tangent_plane plane(points_, p, ring);
+        int doubling = 0;
+        for (; !plane.exists() && !all_seen() && doubling < policy_.max_doublings; ++doubling) {
+            tree_.nearest(p, k *= 2, i, ring);
+            plane = tangent_plane(points_, p, ring);
+        }
         if (!plane.exists()) {
             ring.clear();
             return {.open = true, .certified = false};
         }
         ring_note note;
-        for (int doubling = 0;; ++doubling) {
+        for (;; ++doubling) {
             star.clear();
-            for (const neighbor& q : ring)
-                star.push_back(plane.project(points_[q.index], q.index));
+            for (const neighbor& q : ring) star.push_back(plane.project(points_[q.index], q.index));
             note.open = reduce_to_star(static_cast<point_index>(i), star);
             if (note.open) break;
             constexpr double rounding = 1.0 + 1e-9;
             note.certified = 4.0 * rounding * largest_squared_circumradius(star) <=
                              plane.projected(ring.back().squared_distance);
-            const bool all_seen = ring.size() < k;
-            if (note.certified || all_seen || doubling >= policy_.max_doublings) break;
-            k *= 2;
-            tree_.nearest(p, k, i, ring);
+            if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
+            tree_.nearest(p, k *= 2, i, ring);
+            plane.rescale(points_, ring);
         }
-        if (note.open) note.certified = false;
+        note.certified = note.certified && !note.open && plane.is_determined();
         ring.clear();
         for (const planar_point& q : star)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});
@@ -2751,11 +2786,13 @@ class sorted_search {
 
     ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
         static thread_local std::vector<planar_point> fan;  // no point costs an allocation
-        search_(i, ring);
+        ring_note note = search_noted(search_, i, ring);
+        note.open = true;
         const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return {.open = true};
+        if (!is_finite(p)) return note;
         const tangent_plane plane(points_, p, ring);
-        if (!plane.exists()) return {.open = true};
+        if (!plane.exists()) return note;
+        note.certified = note.certified && plane.is_determined();
         fan.clear();
         for (const neighbor& q : ring) fan.push_back(plane.project(points_[q.index], q.index));
         // What is directly above or below the point has no direction, and comes first, by index.
@@ -2765,11 +2802,11 @@ class sorted_search {
                   [](const planar_point& a, const planar_point& b) { return a.index < b.index; });
         const std::span<planar_point> around(directed, fan.end());
         sort_by_direction(around);
-        const bool open = begin_after_gap(around);
+        note.open = begin_after_gap(around);
         ring.clear();
         for (const planar_point& q : fan)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});
-        return {.open = open};
+        return note;
     }
 
   private:
@@ -2777,7 +2814,7 @@ class sorted_search {
     position_view<R, Proj> points_;
 };
 
-/// Models `neighbor_search`: reads a stored graph.
+/// Models `annotated_search`: reads a stored graph.
 template <neighborhood_graph G>
 class graph_search {
   public:
@@ -2785,9 +2822,13 @@ class graph_search {
 
     [[nodiscard]] std::size_t size() const { return graph_->size(); }
 
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
+    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
         ring.clear();
-        for (const point_index j : (*graph_)[i]) ring.push_back({0.0, j});
+        for (const point_index j : (*graph_)[i]) {
+            require(j < size(), "sort_around: the graph lists a neighbor of no point");
+            ring.push_back({0.0, j});
+        }
+        return note_of(*graph_, i);
     }
 
   private:
@@ -2797,7 +2838,8 @@ class graph_search {
 }  // namespace detail
 
 /// Models `streaming_neighborhood`. A ring is open where half of the plane or more is without
-/// neighbors; it then begins after the gap. O(k log k) per ring beside those of the base.
+/// neighbors; it then begins after the gap. It is not certified where the plane is not, as along a
+/// single scan line. O(k log k) per ring beside those of the base.
 template <class N = knn>
 struct sorted_around {
     N base = {};  ///< any streaming neighborhood, e.g. sorted_around{knn{.k = 20}}
@@ -2825,7 +2867,7 @@ template <class N>
 sorted_around(N) -> sorted_around<N>;
 
 /// The rings of a stored graph in angular order, as a new graph. O(k log k) per ring.
-/// @throws std::invalid_argument  if graph and points differ in size
+/// @throws std::invalid_argument  if graph and points differ in size, or an index is of no point
 template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] adjacency sort_around(const R& points, const G& graph, const X& run = {},
@@ -2912,6 +2954,14 @@ template <takes_viewpoint E>
 struct result_of<E>
     : std::invoke_result<const E&, const Eigen::Vector3d&, ring_view, const Eigen::Vector3d&> {};
 
+/// Whether a vector is a value: an Eigen block, map or expression refers to what may be gone.
+template <class T>
+concept owns_its_coordinates =
+    !requires { typename T::PlainObject; } || std::same_as<typename T::PlainObject, T>;
+
+template <class T>
+concept gives_normal = normal_estimate<T> || (point<T> && owns_its_coordinates<T>);
+
 }  // namespace detail
 
 /// What e(point, ring) or e(point, ring, viewpoint) gives.
@@ -2919,11 +2969,10 @@ template <class E>
 using estimator_result_t = std::remove_cvref_t<typename detail::result_of<E>::type>;
 
 /// e(point, ring) or e(point, ring, viewpoint) gives a `normal_estimate` or a bare 3-vector. Const
-/// and thread-safe. The vector is a value, not an Eigen expression, which would refer to what is
-/// gone when e returns: let lambdas say `-> Eigen::Vector3d`.
+/// and thread-safe. The vector is a value, not an Eigen expression or block, which would refer to
+/// what is gone when e returns: let lambdas say `-> Eigen::Vector3d`.
 template <class E>
-concept estimator = (detail::takes_ring<E> || detail::takes_viewpoint<E>)&&(
-    normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
+concept estimator = detail::gives_normal<estimator_result_t<E>>;
 
 /// Is told from where the point was seen [m]: the origin where no view point is known.
 template <class E>
@@ -3057,6 +3106,9 @@ class surfel_maker {
             e.normal = position(raw(i, p, ring_view(positions_, open)));
             e.trust = trust::good;
         }
+        if constexpr (ray_estimator<E>) {
+            if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
+        }
         if (usable(e.trust)) {
             const double length = e.normal.norm();
             if (!std::isfinite(length)) e.trust = trust::not_finite;
@@ -3109,7 +3161,8 @@ void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& poi
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
-///         neighbor distance (float points far from the origin) or the ring is not certified.
+///         neighbor distance (float points far from the origin) or the ring is not certified;
+///         `not_finite` as well where a ray estimator has a view point that is not.
 /// @throws std::invalid_argument  if graph and points differ in size, an index is of no point, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.
@@ -3286,7 +3339,7 @@ struct averaging {
             const double double_area = detail::length(c);
             if (double_area == 0.0) continue;
             double w = weight(a, b, double_area);
-            weights += w;
+            weights += std::abs(w);
             if (sign == triangle_sign::to_viewpoint && detail::dot(c, to_viewpoint) < 0.0) w = -w;
             sum = detail::combined(1.0, sum, w / double_area, c);  // Eq. (3.9)
         }
@@ -3296,7 +3349,7 @@ struct averaging {
             return fit;
         }
         constexpr double cancelled = 1e-12;
-        if (length <= cancelled * weights) {
+        if (!(length > cancelled * weights)) {
             fit.trust = trust::degenerate;
             return fit;
         }
@@ -3421,6 +3474,13 @@ struct tangent_basis {
     explicit tangent_basis(const Eigen::Vector3d& n)
         : normal(n), b1(orthogonal(n)), b2(cross(n, b1)) {}
 
+    /// The basis at n that turns least from one nearby, so that coordinates keep their meaning.
+    tangent_basis(const Eigen::Vector3d& n, const tangent_basis& nearby) : normal(n) {
+        const Eigen::Vector3d e = combined(1.0, nearby.b1, -dot(n, nearby.b1), n);
+        b1 = scaled(1.0 / length(e), e);
+        b2 = cross(n, b1);
+    }
+
     /// The unit vector at the end of the rotation by (d1, d2) [rad]: the exponential on the sphere.
     [[nodiscard]] Eigen::Vector3d moved(double d1, double d2) const {
         const double angle = std::hypot(d1, d2);
@@ -3539,11 +3599,14 @@ struct literal_plane_ekf {
     double prior_variance = 10.0;  ///< Sigma_0 = 10 I
     std::uint64_t seed = 1;        ///< of the random start x_0
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
+    ///                                there is a pass
     [[nodiscard]] normal_belief operator()(
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         detail::require_sigma(sigma);
+        detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
+                        "literal_plane_ekf: needs a pass and a positive prior variance");
         using namespace detail;  // dot, scaled, ...
         normal_belief belief;
         if (ring.size() < 2) return belief;
@@ -3606,7 +3669,8 @@ namespace gnomon {
 }
 
 /// The quality of normals over all points with a true one. Angles are without regard to sign. A
-/// missing normal counts as gamma 0 and as a right angle: a method gains nothing by giving up.
+/// missing normal, or one that is not finite, counts as gamma 0 and as a right angle: a method
+/// gains nothing by giving up.
 struct normal_quality {
     std::size_t points = 0;                                    ///< that have a true normal
     double gamma = std::numeric_limits<double>::quiet_NaN();   ///< mean, Eq. (3.12)
@@ -3618,7 +3682,7 @@ struct normal_quality {
 };
 
 /// @param surface  the estimated normals
-/// @param truth    the true unit normals, in the same order; the zero vector where there is none
+/// @param truth    the true unit normals, in the same order; zero or NaN where there is none
 /// @throws std::invalid_argument  if the two differ in size
 /// Complexity: O(n).
 template <normal_range Surface, indexed_range Truth>
@@ -3632,8 +3696,8 @@ template <normal_range Surface, indexed_range Truth>
     auto t = std::ranges::begin(truth);
     for (const auto& s : surface) {
         const Eigen::Vector3d expected = *t++;
-        if (is_missing(expected)) continue;
-        const bool missing = is_missing(s.normal);
+        if (is_missing(expected) || !is_finite(expected)) continue;
+        const bool missing = is_missing(s.normal) || !is_finite(s.normal);
         errors.push_back(missing ? 0.5 * std::numbers::pi : unoriented_angle(s.normal, expected));
         squares += errors.back() * errors.back();
         gammas += missing ? 0.0 : gamma(s.normal, expected);
@@ -4030,7 +4094,7 @@ struct plane_pca {
 
 /// @file
 /// Kalman filters for normals: `plane_ekf` and `plane_ukf`. The neighbors are measurements of
-/// range, one after the other, of a plane that does not move; what comes out is a normal with its
+/// range of a plane that does not move; what comes out is a normal with its
 /// covariance, for a known standard deviation of the range.
 ///
 /// The state is a unit vector and the plane's distance from the neighborhood's centroid, three
@@ -4054,7 +4118,7 @@ struct plane_state {
 
     /// The state at `delta` from this one, without a covariance.
     [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
-        return {detail::tangent_basis(frame.moved(delta[0], delta[1])), distance + delta[2]};
+        return {detail::tangent_basis(frame.moved(delta[0], delta[1]), frame), distance + delta[2]};
     }
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
@@ -4133,8 +4197,8 @@ class by_sigma_points {
 
 /// Models `ray_estimator`. Needs three neighbors. O(k), some ten times as long as `plane_pca`.
 ///
-/// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, and `degenerate`
-/// where the rays graze the plane so that their ranges say nothing.
+/// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
+/// graze the plane so that their ranges say nothing and the covariance is that of the prior.
 template <class Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
@@ -4144,11 +4208,16 @@ struct plane_filter {
     double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]
     double prior_distance = 1.0;  ///< and of the prior distance [m]; both say nothing
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
+    ///                                finite, and there is an iteration
     [[nodiscard]] with_covariance_of<plane_fit> operator()(
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         detail::require_sigma(sigma);
+        detail::require(max_iterations >= 1, "plane_filter: needs an iteration");
+        detail::require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
+                            std::isfinite(prior_distance),
+                        "plane_filter: the prior's deviations must be positive and finite");
         with_covariance_of<plane_fit> belief;
         if (ring.size() < 3) return belief;
         const moments m = moments_about(p, ring);
@@ -4164,16 +4233,22 @@ struct plane_filter {
         state.covariance = detail::diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
         bool settled = false;
         for (int i = 0; i < max_iterations && !settled; ++i) {
-            // The prior's mean and covariance, as seen from the state.
-            Eigen::Vector3d delta = state.frame.towards(prior.frame.normal);
-            delta[2] = prior.distance - state.distance;
-            Eigen::Matrix3d covariance =
-                detail::diagonal(prior_angle * prior_angle, prior_angle * prior_angle,
-                                 prior_distance * prior_distance);
+            // Measurements add up as information, without the loss that subtracting variances
+            // means. The prior comes first: its mean and its precision as seen from the state.
+            Eigen::Vector3d towards_prior = state.frame.towards(prior.frame.normal);
+            towards_prior[2] = prior.distance - state.distance;
+            information sum;
+            sum.precision = detail::diagonal(1.0 / (prior_angle * prior_angle),
+                                             1.0 / (prior_angle * prior_angle),
+                                             1.0 / (prior_distance * prior_distance));
+            sum.weighted = detail::product(sum.precision, towards_prior);
             const Linearization linearize(state, anchor);
-            update(state, linearize, x, delta, covariance);
+            take_in(state, linearize, x, sum);
             for (const Eigen::Vector3d& q : ring)
-                update(state, linearize, detail::difference(q, viewpoint), delta, covariance);
+                take_in(state, linearize, detail::difference(q, viewpoint), sum);
+
+            const Eigen::Matrix3d covariance = detail::inverse_of_symmetric(sum.precision);
+            const Eigen::Vector3d delta = detail::product(covariance, sum.weighted);
             if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
@@ -4188,19 +4263,23 @@ struct plane_filter {
     }
 
   private:
-    /// Takes in the range of one measured point: a Kalman update of delta and its covariance.
-    void update(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
-                Eigen::Vector3d& delta, Eigen::Matrix3d& covariance) const {
+    /// What is known of the state's deviation: its precision, and that times its mean.
+    struct information {
+        Eigen::Matrix3d precision;
+        Eigen::Vector3d weighted;
+    };
+
+    /// Takes in the range of one measured point, x from the view point.
+    void take_in(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
+                 information& sum) const {
         const double range = detail::length(x);
         const Eigen::Vector3d u = detail::scaled(1.0 / range, x);
         if (!(std::abs(detail::dot(u, state.frame.normal)) > detail::grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const Eigen::Vector3d ps = detail::product(covariance, z.slope);
-        const double innovation = range - z.value - detail::dot(z.slope, delta);
-        const double variance = detail::dot(z.slope, ps) + z.variance + sigma * sigma;
-        if (!std::isfinite(variance)) return;
-        delta = detail::combined(1.0, delta, innovation / variance, ps);
-        detail::add_outer(covariance, -1.0 / variance, ps, ps);
+        const double precision = 1.0 / (z.variance + sigma * sigma);
+        if (!std::isfinite(precision * (z.value + z.slope[0] + z.slope[1] + z.slope[2]))) return;
+        detail::add_outer(sum.precision, precision, z.slope, z.slope);
+        sum.weighted = detail::combined(1.0, sum.weighted, precision * (range - z.value), z.slope);
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {
@@ -4773,7 +4852,9 @@ struct robust_pca {
     double cutoff = 2.0;
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 
+    /// @throws std::invalid_argument  unless the cutoff is positive
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
+        detail::require(cutoff > 0.0, "robust_pca: the cutoff must be positive");
         plane_fit fit = plane_pca{min_aspect_ratio}(p, ring);
         if (!usable(fit.trust)) return fit;
         Eigen::Vector3d center = moments_about(p, ring).mean_with_point();
@@ -4829,6 +4910,8 @@ struct mixture_likelihood {
     int mixing_steps = 3;  ///< of expectation and maximization, for the proportion
 
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
+        detail::require(reach > 0.0 && std::isfinite(reach),
+                        "mixture_likelihood: the reach must be positive and finite");
         const double outlier = 1.0 / reach;
         const auto inlier = [sigma](double d) {
             constexpr double height = 0.5 * std::numbers::sqrt2 * std::numbers::inv_sqrtpi;
@@ -4864,9 +4947,10 @@ struct sample_consensus {
     double min_aspect_ratio = 0.1;  ///< sigma_ar of the inliers below which the normal is weak
     [[no_unique_address]] Cost cost = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma is positive and finite and there is a trial
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
         detail::require_sigma(sigma);
+        detail::require(trials >= 1, "sample_consensus: needs a trial");
         if (ring.size() < 3) return {};
         const std::size_t n = ring.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {
@@ -5037,6 +5121,13 @@ struct with_covariance {
         }
         if (!usable(belief.trust)) return belief;
 
+        const double size = detail::length(belief.normal);  // somebody's estimator may forget it
+        if (!(size > 0.0) || !std::isfinite(size)) {
+            belief.trust = trust::degenerate;
+            belief.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
+            return belief;
+        }
+        if (std::abs(size - 1.0) > 1e-12) belief.normal = detail::scaled(1.0 / size, belief.normal);
         const detail::tangent_basis frame(belief.normal);
         const auto& [n, b1, b2] = frame;
         const moments m = moments_about(p, ring);

@@ -93,6 +93,11 @@ TEST(small_svd, of_rank_deficient_matrices) {
     EXPECT_GT(svd.values[1], 0.1);
     EXPECT_LT(svd.values[2], 1e-14);
     EXPECT_LT(svd.values[3], 1e-14);
+    gnomon::row_triangle<4> tiny;  // whose squares are zero
+    tiny.add({1e-200, 1.0, 0.0, 0.0});
+    for (const auto& row : tiny.matrix()) {
+        for (const double entry : row) EXPECT_TRUE(std::isfinite(entry));
+    }
     const auto zero = gnomon::small_svd<4>({});
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(zero.values[i], 0.0);

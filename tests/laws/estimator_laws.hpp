@@ -86,9 +86,9 @@ void normal_follows_the_cloud(const E& estimate, double tolerance = 1e-11) {
         ASSERT_GT(n.norm(), 0.5);
         const auto expect = [&](const Eigen::Matrix3d& r, const Eigen::Vector3d& t,
                                 double allowed) {
-            const auto moved = estimate_one(estimate, {r * sample.p + t,
-                                                       clouds::moved(sample.ring, r, t),
-                                                       r * sample.viewpoint + t});
+            const auto moved = estimate_one(
+                estimate,
+                {r * sample.p + t, clouds::moved(sample.ring, r, t), r * sample.viewpoint + t});
             ASSERT_LT(angle_between(r.colwise().normalized() * n, moved.normal), allowed);
         };
         const Eigen::Matrix3d identity = Eigen::Matrix3d::Identity();

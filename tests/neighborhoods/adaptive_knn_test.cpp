@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <stdexcept>
 
 #include <gtest/gtest.h>
@@ -100,6 +101,10 @@ TEST(adaptive_knn, refuses_sizes_that_make_no_series) {
     EXPECT_THROW((void)(policy{.min_k = 9, .max_k = 8}(points)), std::invalid_argument);
     EXPECT_THROW((void)(policy{.growth = 1.0}(points)), std::invalid_argument);
     EXPECT_THROW((void)(policy{.growth = clouds::nan}(points)), std::invalid_argument);
+    // Sizes beyond all numbers mean: all neighbors.
+    constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
+    EXPECT_EQ((policy{.min_k = all, .max_k = all}(points))[0].size(), 9u);
+    EXPECT_EQ((policy{.min_k = 2, .growth = 1e300}(points)).size(), 10u);
 }
 
 }  // namespace

@@ -245,6 +245,26 @@ TEST(delaunay, looks_farther_until_it_is_certain) {
     EXPECT_GT(count({.k = 20, .max_doublings = 4}), 2700);
 }
 
+/// Twenty copies of a point fill its neighborhood: there are others beyond.
+TEST(delaunay, looks_beyond_copies_of_the_point) {
+    auto points = clouds::sheet(400, 5);
+    for (int i = 0; i < 20; ++i) points.push_back(points[0]);
+    const auto graph = gnomon::delaunay{}(points);
+    EXPECT_GE(graph[0].size(), 3u);
+}
+
+/// Neighbors of wholly different scale, as no sensor delivers them.
+TEST(delaunay, survives_neighborhoods_of_mixed_scale) {
+    gnomon::random_stream random(6);
+    clouds::cloud points;
+    for (int i = 0; i < 98; ++i) {
+        const double scale = i % 2 ? 0.1 : 1e-100;
+        points.push_back({scale * random.gaussian(), scale * random.gaussian(), 0.0});
+    }
+    const auto graph = gnomon::delaunay{}(points);
+    for (std::size_t i = 0; i < points.size(); ++i) EXPECT_LT(graph[i].size(), points.size());
+}
+
 TEST(delaunay, refuses_too_small_a_k) {
     EXPECT_THROW((void)(gnomon::delaunay{.k = 2}(clouds::in_cube(10, 1))), std::invalid_argument);
 }

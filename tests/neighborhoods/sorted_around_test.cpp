@@ -10,6 +10,7 @@
 #include "laws/clouds.hpp"
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/neighborhoods/delaunay.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/sorted_around.hpp>
 
@@ -76,6 +77,26 @@ TEST(sorted_around, sorts_a_stored_graph_alike) {
     EXPECT_EQ(gnomon::sort_around(points, graph),
               gnomon::sorted_around{gnomon::knn{.k = 9}}(points));
     EXPECT_THROW((void)gnomon::sort_around(clouds::sheet(499, 2), graph), std::invalid_argument);
+    const std::vector<std::vector<gnomon::point_index>> foreign{{500}, {0}};
+    EXPECT_THROW((void)gnomon::sort_around(clouds::sheet(2, 1), foreign), std::invalid_argument);
+}
+
+/// What the base does not certify stays so, and along a scan line there is no plane to sort in.
+TEST(sorted_around, certifies_no_more_than_its_base_and_its_plane) {
+    const auto points = clouds::sheet(400, 3);
+    const gnomon::delaunay base{.k = 4, .max_doublings = 0};
+    const auto graph = base(points);
+    const auto sorted = gnomon::sorted_around{base}(points);
+    const auto sorted_again = gnomon::sort_around(points, graph);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        EXPECT_LE(sorted.note(i).certified, graph.note(i).certified);
+        EXPECT_LE(sorted_again.note(i).certified, graph.note(i).certified);
+    }
+    gnomon::random_stream random(4);
+    clouds::cloud line;
+    for (int i = 0; i < 200; ++i) line.push_back({0.001 * i, 2.0 + 1e-4 * random.gaussian(), 0.0});
+    const auto along = gnomon::sorted_around{gnomon::knn{20}}(line);
+    for (std::size_t i = 0; i < line.size(); ++i) EXPECT_FALSE(along.note(i).certified);
 }
 
 /// A neighbor right above the point has no direction, but is not lost.

@@ -107,6 +107,15 @@ TEST(averaging, says_what_is_wrong) {
     EXPECT_EQ(area_weighted{}(p, clouds::cloud{{1, 0, 0}, {2, 0, 0}}).trust, trust::degenerate);
     EXPECT_EQ(area_weighted{}(p, clouds::cloud{{1, 0, 0}, {0, clouds::nan, 0}}).trust,
               trust::not_finite);
+    struct negative {
+        double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const {
+            return -1.0;
+        }
+    };
+    EXPECT_EQ(
+        gnomon::averaging<negative>{}(p, clouds::cloud{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, -1, 0}})
+            .trust,
+        trust::degenerate);
     // There and back again: the triangles cancel, unless they are turned to the view point.
     const clouds::cloud there_and_back{{1, 0, 0}, {0, 1, 0}, {1, 0, 0}, {0, 1, 0}};
     EXPECT_EQ(area_weighted{}(p, there_and_back).trust, trust::degenerate);

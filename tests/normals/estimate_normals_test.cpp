@@ -92,6 +92,21 @@ TEST(estimate_normals, is_not_poisoned_by_nan) {
     for (std::size_t i = 400; i < 440; ++i) EXPECT_EQ(mixed[i].trust, trust::not_finite);
 }
 
+TEST(estimate_normals, hands_view_points_to_ray_estimators) {
+    const auto points = clouds::sheet(50, 6);
+    const auto looks_from = [](const Eigen::Vector3d& p, gnomon::ring_view,
+                               const Eigen::Vector3d& v) -> Eigen::Vector3d { return v - p; };
+    const Eigen::Vector3d v(1, 2, 30);
+    for (const auto& s :
+         gnomon::estimate_normals(gnomon::with_viewpoint(points, v), knn{5}, looks_from)) {
+        EXPECT_GT(s.normal.z(), 0.9);
+    }
+    for (const auto& s : gnomon::estimate_normals(
+             gnomon::with_viewpoint(points, {clouds::nan, 0, 0}), knn{5}, looks_from)) {
+        EXPECT_EQ(s.trust, trust::not_finite);
+    }
+}
+
 TEST(estimate_normals, refuses_a_graph_of_other_points) {
     const auto graph = knn{5}(clouds::sheet(10, 1));
     EXPECT_THROW((void)gnomon::estimate_normals(clouds::sheet(11, 1), graph, plane_pca{}),

@@ -63,6 +63,11 @@ static_assert(gnomon::estimator<decltype(largest_triangle)>);
 static_assert(gnomon::estimator<decltype([](const auto& p, auto) { return p; })>);
 static_assert(!gnomon::estimator<no_ring> && !gnomon::estimator<returns_text>);
 static_assert(!gnomon::estimator<int>);
+// A column of a matrix that is gone: the textbook way to dangle.
+static_assert(!gnomon::estimator<decltype([](const auto& p, auto) {
+    const Eigen::Matrix3d m = p * p.transpose();
+    return m.col(0);
+})>);
 static_assert(!gnomon::estimator<decltype([](const auto& p, auto) { return -p; })>);
 static_assert(std::same_as<gnomon::estimate_t<gnomon::plane_pca>, gnomon::plane_fit>);
 static_assert(std::same_as<gnomon::estimate_t<decltype(largest_triangle)>, gnomon::normal_fit>);

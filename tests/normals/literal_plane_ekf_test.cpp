@@ -83,6 +83,8 @@ TEST(literal_plane_ekf, says_what_is_wrong) {
               trust::not_finite);
     EXPECT_THROW((void)(literal_plane_ekf{.sigma = 0.0}(p, clouds::cloud(4, p))),
                  std::invalid_argument);
+    EXPECT_THROW((void)(literal_plane_ekf{.passes = 0}(p, clouds::cloud(4, p))),
+                 std::invalid_argument);
 }
 
 TEST(literal_plane_ekf, laws_hold) {

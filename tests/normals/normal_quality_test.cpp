@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -40,6 +41,14 @@ TEST(normal_quality, of_missing_normals_and_missing_truth) {
     EXPECT_EQ(q.usable, 0.5);
     EXPECT_EQ(q.gamma, 0.5);
     EXPECT_NEAR(q.p99.degrees(), 90.0, 1e-12);
+    // NaN is no normal, and no truth.
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    auto broken = surface;
+    broken[0].normal.setConstant(nan);
+    EXPECT_EQ(gnomon::quality_of(broken, truth).usable, 0.0);
+    auto unknown = truth;
+    unknown[1].setConstant(nan);
+    EXPECT_EQ(gnomon::quality_of(surface, unknown).points, 1u);
     EXPECT_TRUE(std::isnan(
         gnomon::quality_of(std::vector<gnomon::normal_fit>(), std::vector<Eigen::Vector3d>())
             .gamma));

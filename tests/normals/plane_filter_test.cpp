@@ -137,6 +137,47 @@ TEST(plane_filter, says_what_is_wrong) {
     }
 }
 
+/// Variances far below the rounding of the prior's: nothing may turn negative.
+TEST(plane_filter, of_tiny_noise_stays_a_covariance) {
+    for (const double sigma : {1e-5, 1e-7, 1e-9}) {
+        for (std::uint64_t seed = 0; seed < 100; ++seed) {
+            const auto s = laws::sample_neighborhood(seed);
+            const auto belief = plane_ekf{.sigma = sigma}(s.p, s.ring, s.viewpoint);
+            const double reference =
+                plane_ekf{.sigma = 1e-3}(s.p, s.ring, s.viewpoint).trace() * 1e6 * sigma * sigma;
+            ASSERT_GT(belief.determinant(), 0.0);
+            ASSERT_NEAR(belief.trace() / reference, 1.0, 1e-3);
+        }
+    }
+}
+
+/// A neighborhood that is long in x and seen from above: the weak direction is known, whatever
+/// basis the tangents happen to have on the way.
+TEST(plane_filter, covariance_lies_as_the_neighborhood_does) {
+    gnomon::random_stream random(9);
+    for (int trial = 0; trial < 200; ++trial) {
+        clouds::cloud ring;
+        for (int i = 0; i < 30; ++i)
+            ring.push_back({random.uniform(-0.4, 0.4), random.uniform(-0.05, 0.05), 0.0});
+        const auto check = [&](const auto& filter) {
+            const auto belief = filter({0, 0, 0}, ring, {0, 0, 2});
+            ASSERT_GT(belief.covariance(1, 1), 10.0 * belief.covariance(0, 0));
+        };
+        check(plane_ekf{.sigma = 0.001});
+        check(plane_ukf{.sigma = 0.001});
+    }
+}
+
+TEST(plane_filter, refuses_priors_and_iterations_that_make_no_sense) {
+    const auto s = laws::sample_neighborhood(1);
+    const auto run = [&](const plane_ekf& filter) { (void)filter(s.p, s.ring, s.viewpoint); };
+    EXPECT_THROW(run({.max_iterations = 0}), std::invalid_argument);
+    for (const double bad : {0.0, -1.0, clouds::nan, clouds::infinity}) {
+        EXPECT_THROW(run({.prior_angle = bad}), std::invalid_argument);
+        EXPECT_THROW(run({.prior_distance = bad}), std::invalid_argument);
+    }
+}
+
 TEST(plane_filter, laws_hold) {
     for (const double sigma : {0.005, 0.05}) {
         laws::normals_are_unit_or_zero(plane_ekf{.sigma = sigma});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 #include <gtest/gtest.h>
 
@@ -32,6 +33,9 @@ TEST(robust_pca, says_what_is_wrong) {
     EXPECT_EQ(robust_pca{}(p, clouds::cloud{{1, 0, 0}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(robust_pca{}(p, clouds::cloud(5, p)).trust, trust::degenerate);
     EXPECT_EQ(robust_pca{}(p, clouds::cloud{{1, 0, 0}, {0, 1, 0}}).trust, trust::good);
+    for (const double cutoff : {0.0, -2.0, clouds::nan})
+        EXPECT_THROW((void)(robust_pca{.cutoff = cutoff}(p, clouds::cloud(5, p))),
+                     std::invalid_argument);
 }
 
 }  // namespace

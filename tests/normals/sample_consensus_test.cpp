@@ -67,6 +67,12 @@ TEST(sample_consensus, says_what_is_wrong) {
                      std::invalid_argument);
 }
 
+TEST(sample_consensus, refuses_no_trials_and_no_reach) {
+    const auto s = laws::sample_neighborhood(1);
+    EXPECT_THROW((void)(ransac_plane{.trials = 0}(s.p, s.ring)), std::invalid_argument);
+    EXPECT_THROW((void)(mlesac_plane{.cost = {.reach = 0.0}}(s.p, s.ring)), std::invalid_argument);
+}
+
 TEST(sample_consensus, laws_hold) {
     laws::estimator_laws(ransac_plane{.trials = 20});
     laws::estimator_laws(mlesac_plane{.trials = 20});

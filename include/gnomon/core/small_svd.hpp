@@ -23,8 +23,8 @@ class row_triangle {
     /// Takes in a row.
     void add(std::array<double, N> row) {
         for (std::size_t j = 0; j < N; ++j) {
-            if (row[j] == 0.0) continue;
             const double length = std::sqrt(r_[j][j] * r_[j][j] + row[j] * row[j]);
+            if (length == 0.0) continue;  // also where squares underflow
             const double c = r_[j][j] / length;
             const double s = row[j] / length;
             for (std::size_t i = j; i < N; ++i) {

@@ -131,6 +131,7 @@ class adaptive_search {
         double least = std::numeric_limits<double>::infinity();
         double wanted = static_cast<double>(policy_.min_k);
         while (m.count < ring.size()) {
+            wanted = std::min(wanted, static_cast<double>(ring.size()));
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
             while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();

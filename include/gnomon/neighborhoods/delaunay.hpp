@@ -7,7 +7,7 @@
 /// Only the star of the point is made, never a triangulation. A star whose circles all lie within
 /// the disc that the k nearest neighbors cover is certified: no further point of the plane could
 /// enter one. Else k is doubled. A star at the border of the points is open, and nothing certifies
-/// it.
+/// it, nor a star in a plane that a single scan line or noise has chosen.
 ///
 /// Klasing 2010, Sec. 3.2.2, Fig. 3.1; k = 20 is ours, the thesis does not tell.
 #pragma once
@@ -33,8 +33,8 @@ namespace gnomon {
 
 /// Models `streaming_neighborhood`; its notes say which stars are open, and which are certified.
 struct delaunay {
-    std::size_t k = 20;      ///< neighbors that are triangulated at first, and define the plane
-    int max_doublings = 4;   ///< of k, as long as there is no certificate
+    std::size_t k = 20;     ///< neighbors that are triangulated at first, and define the plane
+    int max_doublings = 4;  ///< of k, as long as there is no certificate
 
     /// The stored graph. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is under 3
@@ -74,27 +74,32 @@ class delaunay_search {
         if (!is_finite(p)) return {.open = true, .certified = false};
         std::size_t k = policy_.k;
         tree_.nearest(p, k, i, ring);
-        const tangent_plane plane(points_, p, ring);
+        // Of neighbors that all coincide with the point there is no plane: look farther.
+        const auto all_seen = [&] { return ring.size() < k; };
+        tangent_plane plane(points_, p, ring);
+        int doubling = 0;
+        for (; !plane.exists() && !all_seen() && doubling < policy_.max_doublings; ++doubling) {
+            tree_.nearest(p, k *= 2, i, ring);
+            plane = tangent_plane(points_, p, ring);
+        }
         if (!plane.exists()) {
             ring.clear();
             return {.open = true, .certified = false};
         }
         ring_note note;
-        for (int doubling = 0;; ++doubling) {
+        for (;; ++doubling) {
             star.clear();
-            for (const neighbor& q : ring)
-                star.push_back(plane.project(points_[q.index], q.index));
+            for (const neighbor& q : ring) star.push_back(plane.project(points_[q.index], q.index));
             note.open = reduce_to_star(static_cast<point_index>(i), star);
             if (note.open) break;
             constexpr double rounding = 1.0 + 1e-9;
             note.certified = 4.0 * rounding * largest_squared_circumradius(star) <=
                              plane.projected(ring.back().squared_distance);
-            const bool all_seen = ring.size() < k;
-            if (note.certified || all_seen || doubling >= policy_.max_doublings) break;
-            k *= 2;
-            tree_.nearest(p, k, i, ring);
+            if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
+            tree_.nearest(p, k *= 2, i, ring);
+            plane.rescale(points_, ring);
         }
-        if (note.open) note.certified = false;
+        note.certified = note.certified && !note.open && plane.is_determined();
         ring.clear();
         for (const planar_point& q : star)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});

@@ -16,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -40,11 +41,13 @@ class sorted_search {
 
     ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
         static thread_local std::vector<planar_point> fan;  // no point costs an allocation
-        search_(i, ring);
+        ring_note note = search_noted(search_, i, ring);
+        note.open = true;
         const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return {.open = true};
+        if (!is_finite(p)) return note;
         const tangent_plane plane(points_, p, ring);
-        if (!plane.exists()) return {.open = true};
+        if (!plane.exists()) return note;
+        note.certified = note.certified && plane.is_determined();
         fan.clear();
         for (const neighbor& q : ring) fan.push_back(plane.project(points_[q.index], q.index));
         // What is directly above or below the point has no direction, and comes first, by index.
@@ -54,11 +57,11 @@ class sorted_search {
                   [](const planar_point& a, const planar_point& b) { return a.index < b.index; });
         const std::span<planar_point> around(directed, fan.end());
         sort_by_direction(around);
-        const bool open = begin_after_gap(around);
+        note.open = begin_after_gap(around);
         ring.clear();
         for (const planar_point& q : fan)
             ring.push_back({squared_distance(p, points_[q.index]), q.index});
-        return {.open = open};
+        return note;
     }
 
   private:
@@ -66,7 +69,7 @@ class sorted_search {
     position_view<R, Proj> points_;
 };
 
-/// Models `neighbor_search`: reads a stored graph.
+/// Models `annotated_search`: reads a stored graph.
 template <neighborhood_graph G>
 class graph_search {
   public:
@@ -74,9 +77,13 @@ class graph_search {
 
     [[nodiscard]] std::size_t size() const { return graph_->size(); }
 
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
+    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
         ring.clear();
-        for (const point_index j : (*graph_)[i]) ring.push_back({0.0, j});
+        for (const point_index j : (*graph_)[i]) {
+            require(j < size(), "sort_around: the graph lists a neighbor of no point");
+            ring.push_back({0.0, j});
+        }
+        return note_of(*graph_, i);
     }
 
   private:
@@ -86,7 +93,8 @@ class graph_search {
 }  // namespace detail
 
 /// Models `streaming_neighborhood`. A ring is open where half of the plane or more is without
-/// neighbors; it then begins after the gap. O(k log k) per ring beside those of the base.
+/// neighbors; it then begins after the gap. It is not certified where the plane is not, as along a
+/// single scan line. O(k log k) per ring beside those of the base.
 template <class N = knn>
 struct sorted_around {
     N base = {};  ///< any streaming neighborhood, e.g. sorted_around{knn{.k = 20}}
@@ -114,7 +122,7 @@ template <class N>
 sorted_around(N) -> sorted_around<N>;
 
 /// The rings of a stored graph in angular order, as a new graph. O(k log k) per ring.
-/// @throws std::invalid_argument  if graph and points differ in size
+/// @throws std::invalid_argument  if graph and points differ in size, or an index is of no point
 template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] adjacency sort_around(const R& points, const G& graph, const X& run = {},

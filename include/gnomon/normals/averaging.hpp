@@ -66,7 +66,7 @@ struct averaging {
             const double double_area = detail::length(c);
             if (double_area == 0.0) continue;
             double w = weight(a, b, double_area);
-            weights += w;
+            weights += std::abs(w);
             if (sign == triangle_sign::to_viewpoint && detail::dot(c, to_viewpoint) < 0.0) w = -w;
             sum = detail::combined(1.0, sum, w / double_area, c);  // Eq. (3.9)
         }
@@ -76,7 +76,7 @@ struct averaging {
             return fit;
         }
         constexpr double cancelled = 1e-12;
-        if (length <= cancelled * weights) {
+        if (!(length > cancelled * weights)) {
             fit.trust = trust::degenerate;
             return fit;
         }

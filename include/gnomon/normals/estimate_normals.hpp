@@ -101,6 +101,9 @@ class surfel_maker {
             e.normal = position(raw(i, p, ring_view(positions_, open)));
             e.trust = trust::good;
         }
+        if constexpr (ray_estimator<E>) {
+            if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
+        }
         if (usable(e.trust)) {
             const double length = e.normal.norm();
             if (!std::isfinite(length)) e.trust = trust::not_finite;
@@ -153,7 +156,8 @@ void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& poi
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
-///         neighbor distance (float points far from the origin) or the ring is not certified.
+///         neighbor distance (float points far from the origin) or the ring is not certified;
+///         `not_finite` as well where a ray estimator has a view point that is not.
 /// @throws std::invalid_argument  if graph and points differ in size, an index is of no point, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.

@@ -78,6 +78,14 @@ template <takes_viewpoint E>
 struct result_of<E>
     : std::invoke_result<const E&, const Eigen::Vector3d&, ring_view, const Eigen::Vector3d&> {};
 
+/// Whether a vector is a value: an Eigen block, map or expression refers to what may be gone.
+template <class T>
+concept owns_its_coordinates =
+    !requires { typename T::PlainObject; } || std::same_as<typename T::PlainObject, T>;
+
+template <class T>
+concept gives_normal = normal_estimate<T> || (point<T> && owns_its_coordinates<T>);
+
 }  // namespace detail
 
 /// What e(point, ring) or e(point, ring, viewpoint) gives.
@@ -85,11 +93,10 @@ template <class E>
 using estimator_result_t = std::remove_cvref_t<typename detail::result_of<E>::type>;
 
 /// e(point, ring) or e(point, ring, viewpoint) gives a `normal_estimate` or a bare 3-vector. Const
-/// and thread-safe. The vector is a value, not an Eigen expression, which would refer to what is
-/// gone when e returns: let lambdas say `-> Eigen::Vector3d`.
+/// and thread-safe. The vector is a value, not an Eigen expression or block, which would refer to
+/// what is gone when e returns: let lambdas say `-> Eigen::Vector3d`.
 template <class E>
-concept estimator = (detail::takes_ring<E> || detail::takes_viewpoint<E>)&&(
-    normal_estimate<estimator_result_t<E>> || point<estimator_result_t<E>>);
+concept estimator = detail::gives_normal<estimator_result_t<E>>;
 
 /// Is told from where the point was seen [m]: the origin where no view point is known.
 template <class E>

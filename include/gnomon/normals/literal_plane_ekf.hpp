@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/trust.hpp>
@@ -49,11 +50,14 @@ struct literal_plane_ekf {
     double prior_variance = 10.0;  ///< Sigma_0 = 10 I
     std::uint64_t seed = 1;        ///< of the random start x_0
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
+    ///                                there is a pass
     [[nodiscard]] normal_belief operator()(
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         detail::require_sigma(sigma);
+        detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
+                        "literal_plane_ekf: needs a pass and a positive prior variance");
         using namespace detail;  // dot, scaled, ...
         normal_belief belief;
         if (ring.size() < 2) return belief;

@@ -25,6 +25,13 @@ struct tangent_basis {
     explicit tangent_basis(const Eigen::Vector3d& n)
         : normal(n), b1(orthogonal(n)), b2(cross(n, b1)) {}
 
+    /// The basis at n that turns least from one nearby, so that coordinates keep their meaning.
+    tangent_basis(const Eigen::Vector3d& n, const tangent_basis& nearby) : normal(n) {
+        const Eigen::Vector3d e = combined(1.0, nearby.b1, -dot(n, nearby.b1), n);
+        b1 = scaled(1.0 / length(e), e);
+        b2 = cross(n, b1);
+    }
+
     /// The unit vector at the end of the rotation by (d1, d2) [rad]: the exponential on the sphere.
     [[nodiscard]] Eigen::Vector3d moved(double d1, double d2) const {
         const double angle = std::hypot(d1, d2);

@@ -21,6 +21,7 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/normals/gamma.hpp>
 
@@ -33,7 +34,8 @@ namespace gnomon {
 }
 
 /// The quality of normals over all points with a true one. Angles are without regard to sign. A
-/// missing normal counts as gamma 0 and as a right angle: a method gains nothing by giving up.
+/// missing normal, or one that is not finite, counts as gamma 0 and as a right angle: a method
+/// gains nothing by giving up.
 struct normal_quality {
     std::size_t points = 0;                                    ///< that have a true normal
     double gamma = std::numeric_limits<double>::quiet_NaN();   ///< mean, Eq. (3.12)
@@ -45,7 +47,7 @@ struct normal_quality {
 };
 
 /// @param surface  the estimated normals
-/// @param truth    the true unit normals, in the same order; the zero vector where there is none
+/// @param truth    the true unit normals, in the same order; zero or NaN where there is none
 /// @throws std::invalid_argument  if the two differ in size
 /// Complexity: O(n).
 template <normal_range Surface, indexed_range Truth>
@@ -59,8 +61,8 @@ template <normal_range Surface, indexed_range Truth>
     auto t = std::ranges::begin(truth);
     for (const auto& s : surface) {
         const Eigen::Vector3d expected = *t++;
-        if (is_missing(expected)) continue;
-        const bool missing = is_missing(s.normal);
+        if (is_missing(expected) || !is_finite(expected)) continue;
+        const bool missing = is_missing(s.normal) || !is_finite(s.normal);
         errors.push_back(missing ? 0.5 * std::numbers::pi : unoriented_angle(s.normal, expected));
         squares += errors.back() * errors.back();
         gammas += missing ? 0.0 : gamma(s.normal, expected);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Kalman filters for normals: `plane_ekf` and `plane_ukf`. The neighbors are measurements of
-/// range, one after the other, of a plane that does not move; what comes out is a normal with its
+/// range of a plane that does not move; what comes out is a normal with its
 /// covariance, for a known standard deviation of the range.
 ///
 /// The state is a unit vector and the plane's distance from the neighborhood's centroid, three
@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
@@ -42,7 +43,7 @@ struct plane_state {
 
     /// The state at `delta` from this one, without a covariance.
     [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
-        return {detail::tangent_basis(frame.moved(delta[0], delta[1])), distance + delta[2]};
+        return {detail::tangent_basis(frame.moved(delta[0], delta[1]), frame), distance + delta[2]};
     }
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
@@ -121,8 +122,8 @@ class by_sigma_points {
 
 /// Models `ray_estimator`. Needs three neighbors. O(k), some ten times as long as `plane_pca`.
 ///
-/// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, and `degenerate`
-/// where the rays graze the plane so that their ranges say nothing.
+/// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
+/// graze the plane so that their ranges say nothing and the covariance is that of the prior.
 template <class Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
@@ -132,11 +133,16 @@ struct plane_filter {
     double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]
     double prior_distance = 1.0;  ///< and of the prior distance [m]; both say nothing
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
+    ///                                finite, and there is an iteration
     [[nodiscard]] with_covariance_of<plane_fit> operator()(
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         detail::require_sigma(sigma);
+        detail::require(max_iterations >= 1, "plane_filter: needs an iteration");
+        detail::require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
+                            std::isfinite(prior_distance),
+                        "plane_filter: the prior's deviations must be positive and finite");
         with_covariance_of<plane_fit> belief;
         if (ring.size() < 3) return belief;
         const moments m = moments_about(p, ring);
@@ -152,16 +158,22 @@ struct plane_filter {
         state.covariance = detail::diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
         bool settled = false;
         for (int i = 0; i < max_iterations && !settled; ++i) {
-            // The prior's mean and covariance, as seen from the state.
-            Eigen::Vector3d delta = state.frame.towards(prior.frame.normal);
-            delta[2] = prior.distance - state.distance;
-            Eigen::Matrix3d covariance =
-                detail::diagonal(prior_angle * prior_angle, prior_angle * prior_angle,
-                                 prior_distance * prior_distance);
+            // Measurements add up as information, without the loss that subtracting variances
+            // means. The prior comes first: its mean and its precision as seen from the state.
+            Eigen::Vector3d towards_prior = state.frame.towards(prior.frame.normal);
+            towards_prior[2] = prior.distance - state.distance;
+            information sum;
+            sum.precision = detail::diagonal(1.0 / (prior_angle * prior_angle),
+                                             1.0 / (prior_angle * prior_angle),
+                                             1.0 / (prior_distance * prior_distance));
+            sum.weighted = detail::product(sum.precision, towards_prior);
             const Linearization linearize(state, anchor);
-            update(state, linearize, x, delta, covariance);
+            take_in(state, linearize, x, sum);
             for (const Eigen::Vector3d& q : ring)
-                update(state, linearize, detail::difference(q, viewpoint), delta, covariance);
+                take_in(state, linearize, detail::difference(q, viewpoint), sum);
+
+            const Eigen::Matrix3d covariance = detail::inverse_of_symmetric(sum.precision);
+            const Eigen::Vector3d delta = detail::product(covariance, sum.weighted);
             if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
@@ -176,19 +188,23 @@ struct plane_filter {
     }
 
   private:
-    /// Takes in the range of one measured point: a Kalman update of delta and its covariance.
-    void update(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
-                Eigen::Vector3d& delta, Eigen::Matrix3d& covariance) const {
+    /// What is known of the state's deviation: its precision, and that times its mean.
+    struct information {
+        Eigen::Matrix3d precision;
+        Eigen::Vector3d weighted;
+    };
+
+    /// Takes in the range of one measured point, x from the view point.
+    void take_in(const plane_state& state, const Linearization& linearize, const Eigen::Vector3d& x,
+                 information& sum) const {
         const double range = detail::length(x);
         const Eigen::Vector3d u = detail::scaled(1.0 / range, x);
         if (!(std::abs(detail::dot(u, state.frame.normal)) > detail::grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const Eigen::Vector3d ps = detail::product(covariance, z.slope);
-        const double innovation = range - z.value - detail::dot(z.slope, delta);
-        const double variance = detail::dot(z.slope, ps) + z.variance + sigma * sigma;
-        if (!std::isfinite(variance)) return;
-        delta = detail::combined(1.0, delta, innovation / variance, ps);
-        detail::add_outer(covariance, -1.0 / variance, ps, ps);
+        const double precision = 1.0 / (z.variance + sigma * sigma);
+        if (!std::isfinite(precision * (z.value + z.slope[0] + z.slope[1] + z.slope[2]))) return;
+        detail::add_outer(sum.precision, precision, z.slope, z.slope);
+        sum.weighted = detail::combined(1.0, sum.weighted, precision * (range - z.value), z.slope);
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {

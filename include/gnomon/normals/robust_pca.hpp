@@ -13,6 +13,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -30,7 +31,9 @@ struct robust_pca {
     double cutoff = 2.0;
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 
+    /// @throws std::invalid_argument  unless the cutoff is positive
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
+        detail::require(cutoff > 0.0, "robust_pca: the cutoff must be positive");
         plane_fit fit = plane_pca{min_aspect_ratio}(p, ring);
         if (!usable(fit.trust)) return fit;
         Eigen::Vector3d center = moments_about(p, ring).mean_with_point();

@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/random.hpp>
@@ -45,6 +46,8 @@ struct mixture_likelihood {
     int mixing_steps = 3;  ///< of expectation and maximization, for the proportion
 
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
+        detail::require(reach > 0.0 && std::isfinite(reach),
+                        "mixture_likelihood: the reach must be positive and finite");
         const double outlier = 1.0 / reach;
         const auto inlier = [sigma](double d) {
             constexpr double height = 0.5 * std::numbers::sqrt2 * std::numbers::inv_sqrtpi;
@@ -80,9 +83,10 @@ struct sample_consensus {
     double min_aspect_ratio = 0.1;  ///< sigma_ar of the inliers below which the normal is weak
     [[no_unique_address]] Cost cost = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  unless sigma is positive and finite and there is a trial
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
         detail::require_sigma(sigma);
+        detail::require(trials >= 1, "sample_consensus: needs a trial");
         if (ring.size() < 3) return {};
         const std::size_t n = ring.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {

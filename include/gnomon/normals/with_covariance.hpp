@@ -48,6 +48,13 @@ struct with_covariance {
         }
         if (!usable(belief.trust)) return belief;
 
+        const double size = detail::length(belief.normal);  // somebody's estimator may forget it
+        if (!(size > 0.0) || !std::isfinite(size)) {
+            belief.trust = trust::degenerate;
+            belief.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
+            return belief;
+        }
+        if (std::abs(size - 1.0) > 1e-12) belief.normal = detail::scaled(1.0 / size, belief.normal);
         const detail::tangent_basis frame(belief.normal);
         const auto& [n, b1, b2] = frame;
         const moments m = moments_about(p, ring);

@@ -60,6 +60,21 @@ namespace gnomon::detail {
     return m;
 }
 
+/// The inverse of a symmetric matrix, by its cofactors; not finite if there is none.
+[[nodiscard]] inline Eigen::Matrix3d inverse_of_symmetric(const Eigen::Matrix3d& m) {
+    Eigen::Matrix3d inverse;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+            inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+        }
+    }
+    const double determinant =
+        m(0, 0) * inverse(0, 0) + m(0, 1) * inverse(0, 1) + m(0, 2) * inverse(0, 2);
+    for (int i = 0; i < 9; ++i) inverse.data()[i] /= determinant;
+    return inverse;
+}
+
 /// Column j of M.
 [[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
     return {m(0, j), m(1, j), m(2, j)};

@@ -24,9 +24,7 @@ struct expansion {
     void append(double term) {
         if (term != 0.0) terms[size++] = term;
     }
-    [[nodiscard]] int sign() const {
-        return size == 0 ? 0 : (terms[size - 1] > 0.0 ? 1 : -1);
-    }
+    [[nodiscard]] int sign() const { return size == 0 ? 0 : (terms[size - 1] > 0.0 ? 1 : -1); }
 };
 
 /// The rounding error of sum = a + b. Knuth's two-sum.
@@ -87,7 +85,9 @@ template <std::size_t N>
 /// x times y, where y has up to four terms.
 template <std::size_t N>
 [[nodiscard]] auto operator*(const expansion<N>& x, const expansion<4>& y) {
-    const auto term = [&](std::size_t i) { return i < y.size ? x * y.terms[i] : expansion<2 * N>{}; };
+    const auto term = [&](std::size_t i) {
+        return i < y.size ? x * y.terms[i] : expansion<2 * N>{};
+    };
     return (term(0) + term(1)) + (term(2) + term(3));
 }
 

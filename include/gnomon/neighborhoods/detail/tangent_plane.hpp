@@ -27,26 +27,37 @@ class tangent_plane {
     /// @param ring    its neighbors
     tangent_plane(const auto& points, const Eigen::Vector3d& p, const std::vector<neighbor>& ring)
         : origin_(p) {
+        rescale(points, ring);
+        if (!exists_) return;
+        moments m;
+        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
+        const eigen_decomposition e = symmetric_eigen(m.covariance_with_point());
+        x_axis_ = column(e.vectors, 0);
+        y_axis_ = column(e.vectors, 1);
+        // Not along a scan line, nor where noise is as wide as the neighborhood.
+        determined_ = e.values[1] > 0.01 * e.values[0] && e.values[1] > 2.0 * e.values[2];
+    }
+
+    /// Keeps the plane, but scales projections for another ring: by a power of two, which rounds
+    /// nothing, so that products of four coordinates stay in range.
+    void rescale(const auto& points, const std::vector<neighbor>& ring) {
         double largest = 0.0;
         for (const neighbor& q : ring) {
-            const Eigen::Vector3d d = difference(points[q.index], p);
+            const Eigen::Vector3d d = difference(points[q.index], origin_);
             for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(d[a]));
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
         if (!exists_) return;
-        // A power of two rounds nothing, and keeps products of four coordinates in range.
         int exponent = 0;
         std::frexp(largest, &exponent);
         scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
-        moments m;
-        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
-        const Eigen::Matrix3d axes = symmetric_eigen(m.covariance_with_point()).vectors;
-        x_axis_ = column(axes, 0);
-        y_axis_ = column(axes, 1);
     }
 
     /// False where all points are one place, or too far apart for numbers.
     [[nodiscard]] bool exists() const { return exists_; }
+
+    /// Whether the neighbors spread in two directions, each more than across.
+    [[nodiscard]] bool is_determined() const { return determined_; }
 
     /// The projection of point q, scaled. What is directly above or below the origin is at the
     /// origin, whatever rounding says.
@@ -55,7 +66,9 @@ class tangent_plane {
         const double x = dot(d, x_axis_);
         const double y = dot(d, y_axis_);
         constexpr double rounding = 1e-14;
-        if (!(std::abs(x) + std::abs(y) > rounding * length(d))) return {0.0, 0.0, index};
+        constexpr double smallest = 1e-60;  // of which products of four are numbers
+        if (!(std::abs(x) + std::abs(y) > std::max(rounding * length(d), smallest)))
+            return {0.0, 0.0, index};
         return {x, y, index};
     }
 
@@ -70,6 +83,7 @@ class tangent_plane {
     Eigen::Vector3d y_axis_;
     double scale_ = 1.0;
     bool exists_ = false;
+    bool determined_ = false;
 };
 
 }  // namespace gnomon::detail
