@@ -4,12 +4,14 @@
 /// compares quality, time and trust.
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
 #include <string>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -50,7 +52,7 @@ scan_with_truth scan_of(const options& o) {
     return result;
 }
 
-/// An estimator as the registry has it, told of the noise and in need of no more.
+/// An estimator as the registry has it, told of the noise.
 template <class E>
 E told(E estimate, double sigma) {
     if constexpr (requires { estimate.sigma; }) estimate.sigma = sigma;

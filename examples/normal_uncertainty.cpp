@@ -11,7 +11,6 @@
 #include <exception>
 #include <filesystem>
 #include <limits>
-#include <numbers>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -68,8 +67,9 @@ void print_calibration(const gnomon::true_scan& truth, const auto& surface,
         const std::size_t c = class_of(deviations[i]);
         ++points[c];
         squares[c] += deviations[i] * deviations[i];
-        const double error = gnomon::unoriented_angle(surface[i].normal, truth.normals[i]) * 180.0 /
-                             std::numbers::pi;
+        const double error =
+            gnomon::radians(gnomon::unoriented_angle(surface[i].normal, truth.normals[i]))
+                .degrees();
         errors[c] += error * error;
         within += gnomon::nees(surface[i], truth.normals[i]) < 5.991;
     }
@@ -97,9 +97,12 @@ void normal_uncertainty(const options& o) {
     // [normal_uncertainty]
     auto surface =
         gnomon::estimate_normals(scan, graph, gnomon::plane_eif{.sigma = o.sigma}, o.threads);
-    std::vector<double> deviations;  // of each normal, in one direction [degrees]
-    for (const auto& s : surface)
-        deviations.push_back(std::sqrt(0.5 * s.trace()) * 180.0 / std::numbers::pi);
+    std::vector<double> deviations;  // of each normal, in one direction [degrees]; NaN for none
+    for (const auto& s : surface) {
+        deviations.push_back(gnomon::usable(s.trust)
+                                 ? gnomon::radians(std::sqrt(0.5 * s.trace())).degrees()
+                                 : std::numeric_limits<double>::quiet_NaN());
+    }
     // [normal_uncertainty]
     gnomon::orient_normals(scan, surface);
     std::printf("%s in %.3f s\n\n", picture::counted(scan.size(), "normal").c_str(),
@@ -108,8 +111,6 @@ void normal_uncertainty(const options& o) {
 
     std::vector<picture::splat> splats;
     for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (!gnomon::usable(surface[i].trust))
-            deviations[i] = std::numeric_limits<double>::quiet_NaN();
         if (!gnomon::is_finite(scan.points[i])) continue;
         const bool usable = gnomon::usable(surface[i].trust);
         const auto label = usable ? static_cast<std::int32_t>(class_of(deviations[i])) : -1;

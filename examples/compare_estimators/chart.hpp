@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How does one see thirty methods at once? A row for each, and in every row four bars.
+/// How does one see so many methods at once? A row for each, and in every row four bars.
 #pragma once
 
 #include <algorithm>

@@ -1999,8 +1999,9 @@ concept size_preference = requires(const P& preference, const neighborhood_shape
     { preference(shape) } -> std::convertible_to<double>;
 };
 
-/// Doubles k until the neighborhood is no longer that of a single scan line. Klasing 2010, Sec.
-/// 3.2.9, Eq. (3.19), before the estimate instead of after it.
+/// The smallest size, of doublings, at which the neighborhood is not that of a single scan line;
+/// the least one-sided if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
+/// instead of after it.
 struct prefer_isotropic {
     double min_aspect_ratio = 0.1;  ///< sigma_ar
 
@@ -2024,9 +2025,10 @@ struct prefer_low_entropy {
     }
 };
 
-/// The size at which the normal is expected to err least: noise turns it by sigma / (r sqrt(k)),
-/// curvature by as much as the neighbors depart from a plane beyond the noise. After Mitra, Nguyen
-/// and Guibas 2004, with the curvature read off the residual instead of estimated first.
+/// The size at which the normal is expected to err least: noise turns it by 2 sigma / (r sqrt(k))
+/// in a disc of radius r, curvature by as much as the neighbors depart from a plane beyond the
+/// noise. After Mitra, Nguyen and Guibas 2004, with the curvature read off the residual instead of
+/// estimated first.
 struct prefer_small_error {
     double sigma = 0.015;  ///< standard deviation of points across the surface [m]
 
@@ -2569,8 +2571,8 @@ class delaunay_search {
             note.open = reduce_to_star(static_cast<point_index>(i), star);
             if (note.open) break;
             constexpr double rounding = 1.0 + 1e-9;
-            note.certified = 4.0 * rounding * largest_squared_circumradius(star) <=
-                             plane.projected(ring.back().squared_distance);
+            note.certified = all_seen() || 4.0 * rounding * largest_squared_circumradius(star) <=
+                                               plane.projected(ring.back().squared_distance);
             if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
             tree_.nearest(p, k *= 2, i, ring);
             plane.rescale(points_, ring);
@@ -3537,6 +3539,19 @@ struct with_covariance_of : Estimate {
     }
 };
 
+namespace detail {
+
+/// Beyond this trace [rad^2], some 20 degrees, a normal is weak, however it was found.
+inline constexpr double vague_trace = 0.1;
+
+/// Makes a good estimate weak whose covariance says that it may be anything.
+template <class Belief>
+void distrust_if_vague(Belief& belief) {
+    if (belief.trust == trust::good && !(belief.trace() <= vague_trace)) belief.trust = trust::weak;
+}
+
+}  // namespace detail
+
 /// A normal with its covariance and no more.
 using normal_belief = with_covariance_of<normal_fit>;
 
@@ -3769,8 +3784,9 @@ namespace gnomon {
 /// more than one for faster ones.
 ///
 /// @param gamma        mean quality, Eq. (3.12), 0 to 1
-/// @param mean_time    per normal, t-bar, in the same unit as
-/// @param wanted_time  t-hat, the bound that the user thinks reasonable; 1 us in the thesis
+/// @param mean_time    t-bar, per normal
+/// @param wanted_time  t-hat, the bound that the user thinks reasonable, in the same unit; 1 us in
+///                     the thesis
 /// @throws std::invalid_argument  unless times are positive and finite and gamma is in [0, 1]
 [[nodiscard]] inline double performance_index(double gamma, double mean_time, double wanted_time) {
     detail::require(mean_time > 0.0 && std::isfinite(mean_time) && wanted_time > 0.0 &&
@@ -3906,7 +3922,7 @@ class ray_regression {
 /// @file
 /// RayLS: a range finder errs along its rays, so fit the plane to what it measured. A plane n . x =
 /// d is seen along the unit ray u at the range r with 1/r = m . u, m = n/d: linear in m. Weighted
-/// by r^4, the variance of 1/r, least squares is the maximum likelihood fit of first order, and it
+/// by r^4, the precision of 1/r, least squares is the maximum likelihood fit of first order, and it
 /// takes no eigenvalues: a regression on two coordinates.
 ///
 /// Beyond the thesis. The inverse range is the idea of Badino et al., Fast and Accurate Computation
@@ -3974,7 +3990,7 @@ struct ray_ls {
 namespace gnomon {
 
 /// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal
-/// and trust it gives.
+/// and trust it gives, but `weak` where the covariance exceeds some 20 degrees.
 struct plane_eif {
     double sigma = 0.015;  ///< standard deviation of the range [m]
     ray_ls fit = {};
@@ -3996,6 +4012,7 @@ struct plane_eif {
         belief.covariance = frame.in_space(regression.covariance(scaled_sigma, b1, b1),
                                            regression.covariance(scaled_sigma, b1, b2),
                                            regression.covariance(scaled_sigma, b2, b2));
+        detail::distrust_if_vague(belief);
         return belief;
     }
 };
@@ -4257,8 +4274,8 @@ struct plane_filter {
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
         belief.covariance = state.frame.in_space(c(0, 0), c(0, 1), c(1, 1));
-        constexpr double vague = 0.1;  // [rad^2], some 20 degrees
-        if (!settled || belief.trace() > vague) belief.trust = trust::weak;
+        if (!settled) belief.trust = trust::weak;
+        detail::distrust_if_vague(belief);
         return belief;
     }
 
@@ -4685,7 +4702,7 @@ orientation propagate_orientation(const R& points, const N& policy, Surface& sur
 /// Exact on spheres, cylinders, cones and paraboloids, whatever their curvature. On noisy planes it
 /// is weak: two planes are a quadric, too, so that nothing but noise decides between them.
 ///
-/// Klasing 2010, Eq. (3.7); the gradient is that of the specification of the quadric above.
+/// Klasing 2010, Eq. (3.7), which leaves the gradient to the reader.
 
 namespace gnomon {
 
@@ -4846,9 +4863,9 @@ namespace gnomon {
 /// points with their final weights.
 struct robust_pca {
     int iterations = 6;
-    /// Points this many standard deviations from the plane have lost 40 % of their weight. The
-    /// deviation is that of the weighted points, which 2.0 leaves all but unchanged for a normal
-    /// distribution, so that a plane with mere noise keeps its points.
+    /// Points this many standard deviations from the plane have lost 40 % of their weight, the
+    /// deviation being that of the weighted points: of a plane with mere normal noise 2.0 makes it,
+    /// and with it the last value of the spectrum, 13 % too small, and keeps the points.
     double cutoff = 2.0;
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 
@@ -5089,7 +5106,7 @@ struct weighted_pca {
 /// @file
 /// A covariance for the normals of any estimator: how the errors of the points turn the least
 /// squares plane, to first order. Exact for PlanePCA, whose perturbation it is; for other methods
-/// what PlanePCA would be worth on the same neighborhood.
+/// what a least squares fit with their normal would be worth on the same neighborhood.
 ///
 /// With the tangent coordinates t_j of the points about their centroid and their errors e_j along
 /// the normal, the normal turns by -A^-1 mean(t_j e_j), where A is the covariance of the t_j less
@@ -5098,6 +5115,9 @@ struct weighted_pca {
 namespace gnomon {
 
 /// Models `ray_estimator`, around any estimator whose result is a struct. O(k) more than that.
+///
+/// Trust: the estimator's; `weak` as well where the covariance exceeds 20 degrees, or rays graze
+/// the plane so that nothing is known.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
 template <estimator E>
@@ -5172,11 +5192,14 @@ struct with_covariance {
         const double r22 = i12 * s12 + i22 * s22;
         belief.covariance = frame.in_space(w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
                                            w * (r21 * i12 + r22 * i22));
-        if (!seen || !belief.covariance.allFinite()) {
+        // Around other methods than PlanePCA, A need not be one of a plane.
+        const bool is_plane = a11 > 0.0 && determinant > 0.0;
+        if (!seen || !is_plane || !belief.covariance.allFinite()) {
             constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
             belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
             belief.trust = trust::weak;
         }
+        detail::distrust_if_vague(belief);
         return belief;
     }
 };

@@ -245,6 +245,16 @@ TEST(delaunay, looks_farther_until_it_is_certain) {
     EXPECT_GT(count({.k = 20, .max_doublings = 4}), 2700);
 }
 
+/// When there are no more points to look at, a closed star is certain.
+TEST(delaunay, certifies_what_has_seen_all) {
+    gnomon::random_stream random(7);
+    clouds::cloud points{{0, 0, 0}};
+    for (int i = 0; i < 12; ++i) points.push_back({random.gaussian(), random.gaussian(), 0.0});
+    const auto graph = gnomon::delaunay{}(points);
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_EQ(graph.note(i).certified, !graph.note(i).open);
+}
+
 /// Twenty copies of a point fill its neighborhood: there are others beyond.
 TEST(delaunay, looks_beyond_copies_of_the_point) {
     auto points = clouds::sheet(400, 5);

@@ -10,6 +10,7 @@
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
 #include <gnomon/normals/averaging.hpp>
+#include <gnomon/normals/plane_eif.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/plane_svd.hpp>
 #include <gnomon/normals/with_covariance.hpp>
@@ -76,6 +77,18 @@ TEST(with_covariance, says_what_is_wrong) {
     EXPECT_GT(line.trace(), 1.0);
     EXPECT_THROW((void)(with_covariance<plane_pca>{.sigma = 0.0}(p, clouds::cloud(4, p))),
                  std::invalid_argument);
+}
+
+/// Noise as large as the patch: no normal of it is good.
+TEST(with_covariance, of_vague_normals_is_weak) {
+    clouds::cloud ring;
+    for (int i = 0; i < 9; ++i) ring.push_back({2.0, 0.02 * (i % 3 - 1), 0.02 * (i / 3 - 1)});
+    ring.erase(ring.begin() + 4);
+    const auto belief = with_covariance<plane_pca>{.sigma = 0.5}({2, 0, 0}, ring);
+    EXPECT_GT(belief.trace(), 1.0);
+    EXPECT_EQ(belief.trust, trust::weak);
+    EXPECT_EQ(gnomon::plane_eif{.sigma = 0.5}({2, 0, 0}, ring).trust, trust::weak);
+    EXPECT_EQ(gnomon::plane_eif{.sigma = 0.001}({2, 0, 0}, ring).trust, trust::good);
 }
 
 TEST(with_covariance, laws_hold) { laws::estimator_laws(with_covariance<plane_pca>{}); }

@@ -110,8 +110,8 @@ TEST(instrument, readings_follow_the_mixture) {
                     EXPECT_EQ(r.range, max_range);
                     ++count[bins];
                 } else {
-                    const auto bin = static_cast<std::size_t>(r.range / max_range * bins);
-                    ++count[std::min<std::size_t>(bin, bins - 1)];
+                    const auto cell = static_cast<std::size_t>(r.range / max_range * bins);
+                    ++count[std::min<std::size_t>(cell, bins - 1)];
                 }
             }
             const auto below = [&](double r) {

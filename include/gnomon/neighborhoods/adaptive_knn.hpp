@@ -43,8 +43,9 @@ concept size_preference = requires(const P& preference, const neighborhood_shape
     { preference(shape) } -> std::convertible_to<double>;
 };
 
-/// Doubles k until the neighborhood is no longer that of a single scan line. Klasing 2010, Sec.
-/// 3.2.9, Eq. (3.19), before the estimate instead of after it.
+/// The smallest size, of doublings, at which the neighborhood is not that of a single scan line;
+/// the least one-sided if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
+/// instead of after it.
 struct prefer_isotropic {
     double min_aspect_ratio = 0.1;  ///< sigma_ar
 
@@ -68,9 +69,10 @@ struct prefer_low_entropy {
     }
 };
 
-/// The size at which the normal is expected to err least: noise turns it by sigma / (r sqrt(k)),
-/// curvature by as much as the neighbors depart from a plane beyond the noise. After Mitra, Nguyen
-/// and Guibas 2004, with the curvature read off the residual instead of estimated first.
+/// The size at which the normal is expected to err least: noise turns it by 2 sigma / (r sqrt(k))
+/// in a disc of radius r, curvature by as much as the neighbors depart from a plane beyond the
+/// noise. After Mitra, Nguyen and Guibas 2004, with the curvature read off the residual instead of
+/// estimated first.
 struct prefer_small_error {
     double sigma = 0.015;  ///< standard deviation of points across the surface [m]
 

@@ -93,8 +93,8 @@ class delaunay_search {
             note.open = reduce_to_star(static_cast<point_index>(i), star);
             if (note.open) break;
             constexpr double rounding = 1.0 + 1e-9;
-            note.certified = 4.0 * rounding * largest_squared_circumradius(star) <=
-                             plane.projected(ring.back().squared_distance);
+            note.certified = all_seen() || 4.0 * rounding * largest_squared_circumradius(star) <=
+                                               plane.projected(ring.back().squared_distance);
             if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
             tree_.nearest(p, k *= 2, i, ring);
             plane.rescale(points_, ring);

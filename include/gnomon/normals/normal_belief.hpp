@@ -12,6 +12,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -87,6 +88,19 @@ struct with_covariance_of : Estimate {
         return minor(0, 1) + minor(0, 2) + minor(1, 2);
     }
 };
+
+namespace detail {
+
+/// Beyond this trace [rad^2], some 20 degrees, a normal is weak, however it was found.
+inline constexpr double vague_trace = 0.1;
+
+/// Makes a good estimate weak whose covariance says that it may be anything.
+template <class Belief>
+void distrust_if_vague(Belief& belief) {
+    if (belief.trust == trust::good && !(belief.trace() <= vague_trace)) belief.trust = trust::weak;
+}
+
+}  // namespace detail
 
 /// A normal with its covariance and no more.
 using normal_belief = with_covariance_of<normal_fit>;

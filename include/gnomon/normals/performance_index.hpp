@@ -15,8 +15,9 @@ namespace gnomon {
 /// more than one for faster ones.
 ///
 /// @param gamma        mean quality, Eq. (3.12), 0 to 1
-/// @param mean_time    per normal, t-bar, in the same unit as
-/// @param wanted_time  t-hat, the bound that the user thinks reasonable; 1 us in the thesis
+/// @param mean_time    t-bar, per normal
+/// @param wanted_time  t-hat, the bound that the user thinks reasonable, in the same unit; 1 us in
+///                     the thesis
 /// @throws std::invalid_argument  unless times are positive and finite and gamma is in [0, 1]
 [[nodiscard]] inline double performance_index(double gamma, double mean_time, double wanted_time) {
     detail::require(mean_time > 0.0 && std::isfinite(mean_time) && wanted_time > 0.0 &&

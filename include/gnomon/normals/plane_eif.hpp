@@ -20,7 +20,7 @@
 namespace gnomon {
 
 /// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal
-/// and trust it gives.
+/// and trust it gives, but `weak` where the covariance exceeds some 20 degrees.
 struct plane_eif {
     double sigma = 0.015;  ///< standard deviation of the range [m]
     ray_ls fit = {};
@@ -42,6 +42,7 @@ struct plane_eif {
         belief.covariance = frame.in_space(regression.covariance(scaled_sigma, b1, b1),
                                            regression.covariance(scaled_sigma, b1, b2),
                                            regression.covariance(scaled_sigma, b2, b2));
+        detail::distrust_if_vague(belief);
         return belief;
     }
 };

@@ -182,8 +182,8 @@ struct plane_filter {
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
         belief.covariance = state.frame.in_space(c(0, 0), c(0, 1), c(1, 1));
-        constexpr double vague = 0.1;  // [rad^2], some 20 degrees
-        if (!settled || belief.trace() > vague) belief.trust = trust::weak;
+        if (!settled) belief.trust = trust::weak;
+        detail::distrust_if_vague(belief);
         return belief;
     }
 

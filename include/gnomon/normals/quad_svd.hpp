@@ -6,7 +6,7 @@
 /// Exact on spheres, cylinders, cones and paraboloids, whatever their curvature. On noisy planes it
 /// is weak: two planes are a quadric, too, so that nothing but noise decides between them.
 ///
-/// Klasing 2010, Eq. (3.7); the gradient is that of the specification of the quadric above.
+/// Klasing 2010, Eq. (3.7), which leaves the gradient to the reader.
 #pragma once
 
 #include <cmath>
@@ -15,9 +15,11 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/small_svd.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 
 namespace gnomon {

@@ -2,7 +2,7 @@
 /// @file
 /// RayLS: a range finder errs along its rays, so fit the plane to what it measured. A plane n . x =
 /// d is seen along the unit ray u at the range r with 1/r = m . u, m = n/d: linear in m. Weighted
-/// by r^4, the variance of 1/r, least squares is the maximum likelihood fit of first order, and it
+/// by r^4, the precision of 1/r, least squares is the maximum likelihood fit of first order, and it
 /// takes no eigenvalues: a regression on two coordinates.
 ///
 /// Beyond the thesis. The inverse range is the idea of Badino et al., Fast and Accurate Computation

@@ -2,7 +2,7 @@
 /// @file
 /// A covariance for the normals of any estimator: how the errors of the points turn the least
 /// squares plane, to first order. Exact for PlanePCA, whose perturbation it is; for other methods
-/// what PlanePCA would be worth on the same neighborhood.
+/// what a least squares fit with their normal would be worth on the same neighborhood.
 ///
 /// With the tangent coordinates t_j of the points about their centroid and their errors e_j along
 /// the normal, the normal turns by -A^-1 mean(t_j e_j), where A is the covariance of the t_j less
@@ -11,7 +11,6 @@
 
 #include <cmath>
 #include <functional>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -25,6 +24,9 @@
 namespace gnomon {
 
 /// Models `ray_estimator`, around any estimator whose result is a struct. O(k) more than that.
+///
+/// Trust: the estimator's; `weak` as well where the covariance exceeds 20 degrees, or rays graze
+/// the plane so that nothing is known.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
 template <estimator E>
@@ -99,11 +101,14 @@ struct with_covariance {
         const double r22 = i12 * s12 + i22 * s22;
         belief.covariance = frame.in_space(w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
                                            w * (r21 * i12 + r22 * i22));
-        if (!seen || !belief.covariance.allFinite()) {
+        // Around other methods than PlanePCA, A need not be one of a plane.
+        const bool is_plane = a11 > 0.0 && determinant > 0.0;
+        if (!seen || !is_plane || !belief.covariance.allFinite()) {
             constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
             belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
             belief.trust = trust::weak;
         }
+        detail::distrust_if_vague(belief);
         return belief;
     }
 };
