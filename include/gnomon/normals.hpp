@@ -7,8 +7,10 @@
 #include <gnomon/normals/averaging.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/feature_preserving.hpp>
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/literal_plane_ekf.hpp>
+#include <gnomon/normals/noise_level.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 #include <gnomon/normals/normal_quality.hpp>
 #include <gnomon/normals/orient.hpp>

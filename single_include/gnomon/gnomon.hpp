@@ -3408,6 +3408,452 @@ using gravitationally_weighted = averaging<gravitational_weight>;
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/plane_fit.hpp -----------------------------------------------------------
+
+/// @file
+/// What a total least squares fit of a plane tells: the direction in which a set of points varies
+/// least, and how it spreads. The result of all estimators that decompose a 3x3 matrix.
+
+namespace gnomon {
+
+/// A plane fitted to a neighborhood, and how the neighborhood spreads.
+struct plane_fit : normal_fit {
+    gnomon::spectrum spectrum;  ///< of what was fitted [m^2]
+
+    [[nodiscard]] double surface_variation() const { return spectrum.surface_variation(); }
+    [[nodiscard]] double aspect_ratio() const { return spectrum.aspect_ratio(); }
+};
+
+namespace detail {
+
+/// Eigenvectors err by about 1e-15 / gap: below this gap, relative to the largest eigenvalue, a
+/// normal is noise.
+inline constexpr double smallest_gap = 1e-12;
+
+/// The plane across the direction of least spread, from the eigenvectors of a neighborhood's second
+/// moments [m^2]: degenerate where that is not determined, weak under the given aspect ratio.
+[[nodiscard]] inline plane_fit plane_across(const eigen_decomposition& e, double min_aspect_ratio) {
+    plane_fit fit;
+    fit.spectrum = gnomon::spectrum(e.values);
+    if (e.values[1] - e.values[2] <= smallest_gap * e.values[0]) {
+        fit.trust = trust::degenerate;
+        return fit;
+    }
+    fit.normal = e.vectors.col(2);
+    fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
+    return fit;
+}
+
+/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
+/// which whatever is not finite shows.
+[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
+    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
+}
+
+/// The same from the second moments themselves.
+[[nodiscard]] inline plane_fit plane_of_least_spread(const Eigen::Matrix3d& second_moments,
+                                                     double min_aspect_ratio) {
+    if (has_finite_trace(second_moments))
+        return plane_across(symmetric_eigen(second_moments), min_aspect_ratio);
+    plane_fit fit;
+    fit.trust = trust::not_finite;
+    return fit;
+}
+
+}  // namespace detail
+}  // namespace gnomon
+
+// -------- gnomon/normals/detail/lent_plane.hpp ---------------------------------------------------
+
+/// @file
+/// The two steps of `feature_preserving` that look at the neighbors' planes: one takes the plane
+/// that fits a point best, its own or a neighbor's; the other takes the mean of the normals around
+/// as far as they speak of the same surface.
+
+namespace gnomon::detail {
+
+/// The plane that a point has found: {p + x : <normal, x> = offset}.
+struct local_plane {
+    plane_fit fit;
+    double offset = 0.0;         ///< from the point along the normal [m]
+    point_index neighbors = 0;   ///< that noise asks for at the point
+    double mean_distance = 0.0;  ///< to them [m]
+
+    /// How far the position x [m] from the point is off the plane.
+    [[nodiscard]] double residual(const Eigen::Vector3d& x) const {
+        return dot(fit.normal, x) - offset;
+    }
+};
+
+/// What a point sees: its neighbors, nearest first and itself in front, all from where it stands.
+struct surroundings {
+    std::vector<point_index> index;
+    std::vector<Eigen::Vector3d> way;  ///< from the point to it [m]
+
+    [[nodiscard]] std::size_t size() const { return index.size(); }
+    [[nodiscard]] double radius() const { return length(way.back()); }
+
+    /// The plane of member a of this ring, seen from the point.
+    [[nodiscard]] local_plane borrowed(std::size_t a,
+                                       const std::vector<local_plane>& planes) const {
+        local_plane plane = planes[index[a]];
+        plane.offset += dot(plane.fit.normal, way[a]);
+        return plane;
+    }
+};
+
+/// exp(-x), or nothing where that hardly counts.
+[[nodiscard]] inline double decay(double x) { return x < 12.0 ? std::exp(-x) : 0.0; }
+
+/// exp(-d^2 / 2) of a distance d in deviations.
+[[nodiscard]] inline double gaussian(double d) { return decay(0.5 * d * d); }
+
+/// Of all the planes around, the one on which the point and most of its neighbors lie. Beside an
+/// edge it is that of a neighbor whose own neighbors are all on this side: a shifted neighborhood
+/// (Cao et al. 2018). Precondition: the point's own plane is usable.
+/// @param deviation  of points that lie on a plane [m]
+[[nodiscard]] inline local_plane best_plane(const surroundings& ring,
+                                            const std::vector<local_plane>& planes,
+                                            double deviation) {
+    constexpr std::size_t lenders = 24, judges = 32;  // at least, of a large ring
+    const std::size_t each_lender = std::max<std::size_t>(1, (ring.size() - 1) / lenders);
+    const std::size_t each_judge = std::max<std::size_t>(1, (ring.size() - 1) / judges);
+    const auto most = static_cast<double>((ring.size() - 1) / each_judge + 1);
+    local_plane best = planes[ring.index[0]];
+    double best_score = -1.0;
+    for (std::size_t a = 0; a < ring.size(); a += each_lender) {
+        if (!usable(planes[ring.index[a]].fit.trust)) continue;
+        const local_plane plane = ring.borrowed(a, planes);
+        const double own = gaussian(plane.offset / deviation);
+        if (own * most <= best_score) continue;
+        double all = 0.0;
+        for (std::size_t l = 0; l < ring.size(); l += each_judge)
+            all += gaussian(plane.residual(ring.way[l]) / deviation);
+        if (own * all > best_score) {
+            best_score = own * all;
+            best = plane;
+        }
+    }
+    return best;
+}
+
+/// The plane fitted again to the members of the ring that lie on it, several times (iteratively
+/// reweighted least squares).
+/// @param deviation  at which a point has lost 40 % of its weight [m]
+[[nodiscard]] inline local_plane refitted(const surroundings& ring, local_plane plane,
+                                          double deviation, double min_aspect_ratio) {
+    constexpr int rounds = 4;
+    for (int i = 0; i < rounds; ++i) {
+        weighted_moments m;
+        for (const Eigen::Vector3d& x : ring.way) m.add(x, gaussian(plane.residual(x) / deviation));
+        if (!(m.weight > 0.0)) break;
+        const plane_fit fit = plane_of_least_spread(m.covariance(), min_aspect_ratio);
+        if (!usable(fit.trust)) break;
+        plane.fit = fit;
+        plane.offset = dot(fit.normal, m.mean());
+    }
+    return plane;
+}
+
+/// The mean of the normals of a ring, as axes without sign, weighted by nearness, by agreement in
+/// direction and by how near the points are to each other's planes: a bilateral filter that stops
+/// at edges and between close walls. Precondition: the point's own plane is usable.
+/// @param deviation  of points that lie on each other's planes [m]
+[[nodiscard]] inline Eigen::Vector3d filtered_normal(const surroundings& ring,
+                                                     const std::vector<local_plane>& planes,
+                                                     double deviation) {
+    constexpr double agreement = 0.8;  // deviation of the sine between normals of one surface
+    constexpr double nearness = 0.5;   // deviation of distances, in radii of the ring
+    const local_plane& own = planes[ring.index[0]];
+    const double radius = ring.radius();
+    weighted_moments axes;
+    for (std::size_t l = 0; l < ring.size(); ++l) {
+        const local_plane& other = planes[ring.index[l]];
+        if (!usable(other.fit.trust)) continue;
+        const double cosine = dot(own.fit.normal, other.fit.normal);
+        const double here = own.residual(ring.way[l]) / deviation;
+        const double there = ring.borrowed(l, planes).offset / deviation;
+        const double far = length(ring.way[l]) / (nearness * radius);
+        const double unlike = (1.0 - cosine * cosine) / (agreement * agreement) +
+                              0.5 * (here * here + there * there) + far * far;
+        axes.add(other.fit.normal, decay(0.5 * unlike));
+    }
+    Eigen::Matrix3d outer = axes.outer;
+    for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < i; ++j) outer(j, i) = outer(i, j);
+    return column(symmetric_eigen(outer).vectors, 0);
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/noise_level.hpp ---------------------------------------------------------
+
+/// @file
+/// How noisy a cloud is: the standard deviation of its points across the surface, for all that want
+/// to know it (`prefer_small_error`, `plane_ekf`, `feature_preserving`) when the data sheet is
+/// lost.
+///
+/// The residual of a fitted plane is noise only if the neighborhood is much wider than the noise:
+/// a ball of radius r that noise fills reads r / sqrt(5). So neighborhoods grow until their radius
+/// is four times what they read; and they must be flat, so that the value is one that 70 % of
+/// them exceed: bends and edges count only where they are nearly everywhere.
+
+namespace gnomon {
+namespace detail {
+
+/// The element that the given part of the values is less than. Precondition: there are values, and
+/// `part` is under 1.
+[[nodiscard]] inline double quantile(std::vector<double>& values, double part) {
+    const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
+/// The moments of the first k neighbors about p.
+template <class Points>
+[[nodiscard]] moments moments_of_first(std::size_t k, const std::vector<neighbor>& ring,
+                                       const Points& points, const Eigen::Vector3d& p) {
+    moments m;
+    for (std::size_t l = 0; l < k; ++l) m.add(difference(points[ring[l].index], p));
+    return m;
+}
+
+/// `noise_level` of the points of a position_view in a tree, from neighborhoods up to max_k.
+template <class Points>
+[[nodiscard]] double noise_level_in(const Points& points, const kd_tree& tree, std::size_t max_k) {
+    constexpr std::size_t samples = 500;
+    constexpr double flat_part = 0.3, clearance = 4.0;
+    std::vector<std::size_t> chosen;  // evenly from the finite points
+    const std::size_t step = std::max<std::size_t>(1, tree.size() / samples);
+    for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
+        if (is_finite(points[i]) && finite++ % step == 0) chosen.push_back(i);
+
+    double sigma = 0.0;
+    std::vector<neighbor> ring;
+    std::vector<double> spread, radius;
+    for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
+        spread.clear();
+        radius.clear();
+        for (const std::size_t i : chosen) {
+            const Eigen::Vector3d p = points[i];
+            tree.nearest(p, k, i, ring);
+            if (ring.size() < 3) return 0.0;  // so few points are on one plane
+            const auto n = static_cast<double>(ring.size());
+            const moments m = moments_of_first(ring.size(), ring, points, p);
+            const plane_fit fit = plane_of_least_spread(m.covariance_with_point(), 0.0);
+            // k + 1 points, less the three parameters of a plane
+            spread.push_back(std::sqrt(fit.spectrum.lambda[2] * (n + 1.0) / (n - 2.0)));
+            radius.push_back(std::sqrt(ring.back().squared_distance));
+        }
+        if (chosen.empty()) return 0.0;
+        sigma = quantile(spread, flat_part);
+        if (k >= max_k || quantile(radius, 0.5) >= clearance * sigma) return sigma;
+    }
+}
+
+}  // namespace detail
+
+/// The standard deviation of the points across the surface they lie on [m]; 0 for a clean cloud of
+/// flat pieces, and for fewer than four points. One number for all points: of a scanner whose noise
+/// grows with range, it tells the noise of the typical point. Where walls are nearer to each other
+/// than about eight deviations, it reads too much; noise so strong that 256 points do not form a
+/// plane reads too little (25 % too little at 100,000 points with noise of 1.2 % of the cloud's
+/// diagonal).
+///
+/// @param points  any point range [m]; points that are not finite do not count
+/// Complexity: O(n log n) for the index, and 500 neighborhoods.
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] double noise_level(const R& points, Proj projection = {}) {
+    const kd_tree tree(points, projection);
+    return detail::noise_level_in(position_view<R, Proj>(points, std::move(projection)), tree, 255);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/normals/feature_preserving.hpp --------------------------------------------------
+
+/// @file
+/// Normals that are sharp at edges and steady under noise, with one set of parameters for clean and
+/// noisy clouds, dense and thin ones. Estimators see one neighborhood; this method sees the cloud,
+/// in three sweeps over it:
+///
+///  1. fit     How many neighbors a point gets, noise decides: the fewest with which it tilts the
+///             normal by no more than `tilt` (Mitra, Nguyen and Guibas 2004). PlanePCA of those.
+///  2. lend    Each point tries its neighbors' planes as well and takes the one on which it and
+///             most of its neighbors lie; beside an edge, that of a neighbor whose own neighbors
+///             do not cross it (shifted neighborhoods, Cao et al. 2018). Then the plane is fitted
+///             again to those that lie on it.
+///  3. filter  The mean of the neighbors' normals as far as they agree and the points lie on each
+///             other's planes (a bilateral filter, as of Zheng et al. 2011 for meshes).
+///
+/// What it is not good at: smooth, clean surfaces, on which a plane is biased and a jet is not; and
+/// clouds whose noise differs much from place to place, since it takes one `noise` for all.
+
+namespace gnomon {
+
+/// No `estimator`, which would see one neighborhood at a time, but called like one, without a
+/// graph: `estimate_normals(points, feature_preserving{})`.
+struct feature_preserving {
+    std::optional<double> noise = {};  ///< across the surface [m]; else what `noise_level` finds
+    double tilt = 0.05;             ///< standard deviation of a first normal that is allowed [rad]
+    std::size_t min_k = 8;          ///< fewest neighbors of a first fit
+    std::size_t max_k = 255;        ///< most neighbors, for the sake of time
+    double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
+};
+
+namespace detail {
+
+/// The three sweeps over the points of a position_view.
+template <class Points>
+class feature_preserving_sweeps {
+  public:
+    feature_preserving_sweeps(const feature_preserving& options, const Points& points,
+                              const kd_tree& tree, double noise)
+        : options_(options), points_(points), tree_(tree), noise_(noise) {}
+
+    /// Sweep 1, for point i. Searches as many neighbors as were enough for the last point first.
+    local_plane fitted(std::size_t i, std::vector<neighbor>& ring, std::size_t& enough) const {
+        const Eigen::Vector3d p = points_[i];
+        std::size_t k = options_.min_k;
+        enough = std::max(enough, k);
+        tree_.nearest(p, enough, i, ring);
+        // A plane over a disc of radius r: its slopes have the deviation 2 noise / (r sqrt(k)).
+        const auto too_tilted = [&] {
+            const double r2 = ring[k - 1].squared_distance;
+            return 2.0 * noise_ > options_.tilt * std::sqrt(r2 * static_cast<double>(k));
+        };
+        while (k <= ring.size() && k < options_.max_k && too_tilted()) {
+            k = std::min(options_.max_k, k + std::max<std::size_t>(1, k / 6));
+            if (k <= enough) continue;
+            enough = std::min(options_.max_k, k + k / 2);
+            tree_.nearest(p, enough, i, ring);
+        }
+        enough = k + k / 4;
+        k = std::min(k, ring.size());
+        local_plane plane;
+        plane.neighbors = static_cast<point_index>(k);
+        if (k < 2) return plane;
+        for (std::size_t l = 0; l < k; ++l)
+            plane.mean_distance += std::sqrt(ring[l].squared_distance);
+        plane.mean_distance /= static_cast<double>(k);
+        const moments m = moments_of_first(k, ring, points_, p);
+        plane.fit = plane_of_least_spread(m.covariance_with_point(), options_.min_aspect_ratio);
+        plane.offset = dot(plane.fit.normal, m.mean_with_point());
+        return plane;
+    }
+
+    /// Sweep 2, for point i with the planes of sweep 1.
+    local_plane lent(std::size_t i, const std::vector<local_plane>& planes,
+                     std::vector<neighbor>& found, surroundings& ring) const {
+        constexpr std::size_t sight = 32;  // neighbors, to see beyond an edge
+        constexpr double honest = 2.4;     // noise deviations that a point may be off its plane,
+        constexpr double bend = 0.004;     // and radii of the ring, for curvature that is no edge
+        constexpr double wider = 2.5;      // once the side is decided, more points make less noise
+        if (!usable(planes[i].fit.trust)) return planes[i];
+        look_around(i, std::max<std::size_t>(sight, planes[i].neighbors), found, ring);
+        const double deviation = std::hypot(honest * noise_, bend * ring.radius());
+        local_plane plane = planes[i];
+        const local_plane best = refitted(ring, best_plane(ring, planes, deviation),
+                                          wider * deviation, options_.min_aspect_ratio);
+        plane.fit = best.fit;
+        plane.offset = best.offset;
+        return plane;
+    }
+
+    /// Sweep 3, for point i with the planes of sweep 2.
+    surfel<plane_fit> filtered(std::size_t i, const std::vector<local_plane>& planes,
+                               std::vector<neighbor>& found, surroundings& ring) const {
+        constexpr std::size_t fewest = 16, most = 128;
+        constexpr double honest = 2.0, bend = 0.05;
+        surfel<plane_fit> s;
+        static_cast<plane_fit&>(s) = planes[i].fit;
+        s.neighbors = planes[i].neighbors;
+        s.mean_distance = planes[i].mean_distance;
+        if (!usable(s.trust)) return s;
+        look_around(i, std::clamp<std::size_t>(s.neighbors, fewest, most), found, ring);
+        s.normal = filtered_normal(ring, planes, std::hypot(honest * noise_, bend * ring.radius()));
+        return s;
+    }
+
+  private:
+    void look_around(std::size_t i, std::size_t k, std::vector<neighbor>& found,
+                     surroundings& ring) const {
+        const Eigen::Vector3d p = points_[i];
+        tree_.nearest(p, k, i, found);
+        ring.index.assign(1, static_cast<point_index>(i));
+        ring.way.assign(1, {0.0, 0.0, 0.0});
+        for (const neighbor& q : found) {
+            ring.index.push_back(q.index);
+            ring.way.push_back(difference(points_[q.index], p));
+        }
+    }
+
+    const feature_preserving& options_;
+    const Points& points_;
+    const kd_tree& tree_;
+    double noise_;
+};
+
+}  // namespace detail
+
+/// The surface elements of all points, in their order. The normals have no consistent sign:
+/// `orient` or `propagate_orientation` gives them one.
+///
+/// @param points      any point range of n points [m]
+/// @param options     a `feature_preserving`
+/// @param run         `sequential{}` or `threads{n}`; the result is the same bytes
+/// @param projection  makes a point of an element of the range
+/// @return n surface elements, as of an estimator that gives `plane_fit`; the spectrum is that of
+///         the weighted neighbors at the end, `neighbors` the k that noise asked for
+/// @throws std::invalid_argument  unless 2 <= min_k <= max_k, tilt > 0 and noise >= 0, both finite
+/// Complexity: three searches and about 2,000 exponentials per point; 250 bytes per point.
+/// Accuracy and limits: docs/normals.md.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] auto estimate_normals(const R& points, const feature_preserving& options,
+                                    const X& run = {}, Proj projection = {})
+    -> std::vector<surfel<plane_fit>> {
+    detail::require(options.min_k >= 2 && options.min_k <= options.max_k,
+                    "feature_preserving: needs 2 <= min_k <= max_k");
+    detail::require(options.tilt > 0.0 && std::isfinite(options.tilt),
+                    "feature_preserving: the tilt must be positive");
+    detail::require(!options.noise || (*options.noise >= 0.0 && std::isfinite(*options.noise)),
+                    "feature_preserving: the noise must not be negative");
+    const position_view<R, Proj> p(points, projection);
+    const kd_tree tree(points, std::move(projection));
+    const double noise =
+        options.noise ? *options.noise : detail::noise_level_in(p, tree, options.max_k);
+    const detail::feature_preserving_sweeps sweeps(options, p, tree, noise);
+
+    std::vector<detail::local_plane> first(p.size()), second(p.size());
+    std::vector<surfel<plane_fit>> surface(p.size());
+    for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<neighbor> found;
+        std::size_t enough = 0;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (is_finite(p[i]))
+                first[i] = sweeps.fitted(i, found, enough);
+            else
+                first[i].fit.trust = trust::not_finite;
+        }
+    });
+    for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<neighbor> found;
+        detail::surroundings ring;
+        for (std::size_t i = begin; i < end; ++i) second[i] = sweeps.lent(i, first, found, ring);
+    });
+    for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
+        std::vector<neighbor> found;
+        detail::surroundings ring;
+        for (std::size_t i = begin; i < end; ++i)
+            surface[i] = sweeps.filtered(i, second, found, ring);
+    });
+    return surface;
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/normals/gamma.hpp ---------------------------------------------------------------
 
 /// @file
@@ -4017,61 +4463,6 @@ struct plane_eif {
     }
 };
 
-}  // namespace gnomon
-
-// -------- gnomon/normals/plane_fit.hpp -----------------------------------------------------------
-
-/// @file
-/// What a total least squares fit of a plane tells: the direction in which a set of points varies
-/// least, and how it spreads. The result of all estimators that decompose a 3x3 matrix.
-
-namespace gnomon {
-
-/// A plane fitted to a neighborhood, and how the neighborhood spreads.
-struct plane_fit : normal_fit {
-    gnomon::spectrum spectrum;  ///< of what was fitted [m^2]
-
-    [[nodiscard]] double surface_variation() const { return spectrum.surface_variation(); }
-    [[nodiscard]] double aspect_ratio() const { return spectrum.aspect_ratio(); }
-};
-
-namespace detail {
-
-/// Eigenvectors err by about 1e-15 / gap: below this gap, relative to the largest eigenvalue, a
-/// normal is noise.
-inline constexpr double smallest_gap = 1e-12;
-
-/// The plane across the direction of least spread, from the eigenvectors of a neighborhood's second
-/// moments [m^2]: degenerate where that is not determined, weak under the given aspect ratio.
-[[nodiscard]] inline plane_fit plane_across(const eigen_decomposition& e, double min_aspect_ratio) {
-    plane_fit fit;
-    fit.spectrum = gnomon::spectrum(e.values);
-    if (e.values[1] - e.values[2] <= smallest_gap * e.values[0]) {
-        fit.trust = trust::degenerate;
-        return fit;
-    }
-    fit.normal = e.vectors.col(2);
-    fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
-    return fit;
-}
-
-/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
-/// which whatever is not finite shows.
-[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
-    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
-}
-
-/// The same from the second moments themselves.
-[[nodiscard]] inline plane_fit plane_of_least_spread(const Eigen::Matrix3d& second_moments,
-                                                     double min_aspect_ratio) {
-    if (has_finite_trace(second_moments))
-        return plane_across(symmetric_eigen(second_moments), min_aspect_ratio);
-    plane_fit fit;
-    fit.trust = trust::not_finite;
-    return fit;
-}
-
-}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/normals/plane_pca.hpp -----------------------------------------------------------
