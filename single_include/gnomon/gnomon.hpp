@@ -249,6 +249,15 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
     }
 }
 
+/// w outer, whole. By columns: by rows, g++ 12 at -O3 makes nonsense of it in some places.
+[[nodiscard]] inline Eigen::Matrix3d scaled_whole(const Eigen::Matrix3d& outer, double w) {
+    Eigen::Matrix3d c;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = j; i < 3; ++i) c(i, j) = c(j, i) = w * outer(i, j);
+    }
+    return c;
+}
+
 /// w outer - (w sum) (w sum)^T, whole.
 [[nodiscard]] inline Eigen::Matrix3d covariance(const Eigen::Vector3d& sum,
                                                 const Eigen::Matrix3d& outer, double w) {
@@ -291,12 +300,7 @@ struct moments {
     /// The mean of the outer products [m^2]: second moments about the point, not about a mean.
     /// Precondition: count > 0.
     [[nodiscard]] Eigen::Matrix3d second_moments() const {
-        const double w = 1.0 / static_cast<double>(count);
-        Eigen::Matrix3d c;
-        for (int j = 0; j < 3; ++j) {
-            for (int i = j; i < 3; ++i) c(i, j) = c(j, i) = w * outer(i, j);
-        }
-        return c;
+        return detail::scaled_whole(outer, 1.0 / static_cast<double>(count));
     }
 
   private:
@@ -323,6 +327,12 @@ struct weighted_moments {
     /// The weighted covariance [m^2]. Precondition: weight > 0.
     [[nodiscard]] Eigen::Matrix3d covariance() const {
         return detail::covariance(sum, outer, 1.0 / weight);
+    }
+
+    /// The weighted mean of the outer products: second moments about the point, not about a mean.
+    /// Precondition: weight > 0.
+    [[nodiscard]] Eigen::Matrix3d second_moments() const {
+        return detail::scaled_whole(outer, 1.0 / weight);
     }
 };
 
@@ -3578,10 +3588,8 @@ struct surroundings {
                               0.5 * (here * here + there * there) + far * far;
         axes.add(other.fit.normal, decay(0.5 * unlike));
     }
-    Eigen::Matrix3d outer = axes.outer;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < i; ++j) outer(j, i) = outer(i, j);
-    return column(symmetric_eigen(outer).vectors, 0);
+    if (!(axes.weight > 0.0)) return own.fit.normal;  // of an outlier, with which nobody agrees
+    return column(symmetric_eigen(axes.second_moments()).vectors, 0);
 }
 
 }  // namespace gnomon::detail
