@@ -1976,6 +1976,40 @@ class kd_tree {
 
 }  // namespace gnomon
 
+// -------- gnomon/neighborhoods/detail/tree_search.hpp --------------------------------------------
+
+/// @file
+/// The search of all policies that ask a kd-tree. Such a policy has a member
+/// find(tree, points, i, ring), which replaces the content of `ring` by the neighbors of point i, a
+/// finite one of the `points` that the tree is of, and returns nothing or a `ring_note`.
+
+namespace gnomon::detail {
+
+/// Models `neighbor_search`, and `annotated_search` if the policy's `find` returns notes. What is
+/// not finite has no neighbors, and nothing certifies that.
+template <class Policy, class R, class Proj>
+class tree_search {
+  public:
+    tree_search(const Policy& policy, const R& points, Proj projection)
+        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+    auto operator()(std::size_t i, std::vector<neighbor>& ring) const {
+        if (is_finite(points_[i])) return policy_.find(tree_, points_, i, ring);
+        ring.clear();
+        using note = decltype(policy_.find(tree_, points_, i, ring));
+        if constexpr (!std::is_void_v<note>) return note{.open = true, .certified = false};
+    }
+
+  private:
+    Policy policy_;
+    position_view<R, Proj> points_;
+    kd_tree tree_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/adaptive_knn.hpp --------------------------------------------------
 
 /// @file
@@ -2061,67 +2095,43 @@ struct adaptive_knn {
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
+        detail::require(growth >= 1.1 && std::isfinite(growth),
+                        "adaptive_knn: growth must be at least 1.1");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
-};
 
-namespace detail {
-
-/// Models `neighbor_search`.
-template <class Policy, class R, class Proj>
-class adaptive_search {
-  public:
-    adaptive_search(const Policy& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return;
-        tree_.nearest(p, policy_.max_k, i, ring);
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
+              std::vector<neighbor>& ring) const {
+        const Eigen::Vector3d p = points[i];
+        tree.nearest(p, max_k, i, ring);
 
         moments m;
-        std::size_t best = std::min(policy_.min_k, ring.size());
+        std::size_t best = std::min(min_k, ring.size());
         double least = std::numeric_limits<double>::infinity();
-        double wanted = static_cast<double>(policy_.min_k);
+        double wanted = static_cast<double>(min_k);
         while (m.count < ring.size()) {
             wanted = std::min(wanted, static_cast<double>(ring.size()));
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
-            while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
+            while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
             if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
-            const double cost = policy_.preference(neighborhood_shape{
+            const double cost = preference(neighborhood_shape{
                 k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
                 least = cost;
                 best = k;
             }
-            wanted = std::max(wanted * policy_.growth, wanted + 1.0);
+            wanted = std::max(wanted * growth, wanted + 1.0);
         }
         ring.resize(best, {});
     }
-
-  private:
-    Policy policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
 };
-
-}  // namespace detail
-
-template <size_preference Preference>
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto adaptive_knn<Preference>::search(const R& points, Proj projection) const {
-    detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
-    detail::require(growth >= 1.1 && std::isfinite(growth),
-                    "adaptive_knn: growth must be at least 1.1");
-    return detail::adaptive_search<adaptive_knn, R, Proj>(*this, points, std::move(projection));
-}
 
 }  // namespace gnomon
 
@@ -2527,109 +2537,60 @@ struct delaunay {
     /// @throws std::invalid_argument  if k is under 3
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(k >= 3, "delaunay: k must be at least 3");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
+
+    /// The ring of the finite point i.
+    ring_note find(const kd_tree& tree, const auto& points, std::size_t i,
+                   std::vector<neighbor>& ring) const;
 };
 
-namespace detail {
-
-/// Models `annotated_search`.
-template <class R, class Proj>
-class delaunay_search {
-  public:
-    delaunay_search(const delaunay& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        // Kept between calls, so that no point costs an allocation.
-        static thread_local std::vector<planar_point> star;
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return {.open = true, .certified = false};
-        std::size_t k = policy_.k;
-        tree_.nearest(p, k, i, ring);
-        // Of neighbors that all coincide with the point there is no plane: look farther.
-        const auto all_seen = [&] { return ring.size() < k; };
-        tangent_plane plane(points_, p, ring);
-        int doubling = 0;
-        for (; !plane.exists() && !all_seen() && doubling < policy_.max_doublings; ++doubling) {
-            tree_.nearest(p, k *= 2, i, ring);
-            plane = tangent_plane(points_, p, ring);
-        }
-        if (!plane.exists()) {
-            ring.clear();
-            return {.open = true, .certified = false};
-        }
-        ring_note note;
-        for (;; ++doubling) {
-            star.clear();
-            for (const neighbor& q : ring) star.push_back(plane.project(points_[q.index], q.index));
-            note.open = reduce_to_star(static_cast<point_index>(i), star);
-            if (note.open) break;
-            constexpr double rounding = 1.0 + 1e-9;
-            note.certified = all_seen() || 4.0 * rounding * largest_squared_circumradius(star) <=
-                                               plane.projected(ring.back().squared_distance);
-            if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
-            tree_.nearest(p, k *= 2, i, ring);
-            plane.rescale(points_, ring);
-        }
-        note.certified = note.certified && !note.open && plane.is_determined();
-        ring.clear();
-        for (const planar_point& q : star)
-            ring.push_back({squared_distance(p, points_[q.index]), q.index});
-        return note;
+ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
+                         std::vector<neighbor>& ring) const {
+    // Kept between calls, so that no point costs an allocation.
+    static thread_local std::vector<detail::planar_point> star;
+    const Eigen::Vector3d p = points[i];
+    std::size_t wanted = k;
+    tree.nearest(p, wanted, i, ring);
+    // Of neighbors that all coincide with the point there is no plane: look farther.
+    const auto all_seen = [&] { return ring.size() < wanted; };
+    detail::tangent_plane plane(points, p, ring);
+    int doubling = 0;
+    for (; !plane.exists() && !all_seen() && doubling < max_doublings; ++doubling) {
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane = detail::tangent_plane(points, p, ring);
     }
-
-  private:
-    delaunay policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
-};
-
-}  // namespace detail
-
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto delaunay::search(const R& points, Proj projection) const {
-    detail::require(k >= 3, "delaunay: k must be at least 3");
-    return detail::delaunay_search<R, Proj>(*this, points, std::move(projection));
+    if (!plane.exists()) {
+        ring.clear();
+        return {.open = true, .certified = false};
+    }
+    ring_note note;
+    for (;; ++doubling) {
+        star.clear();
+        for (const neighbor& q : ring) star.push_back(plane.project(points[q.index], q.index));
+        note.open = detail::reduce_to_star(static_cast<point_index>(i), star);
+        if (note.open) break;
+        constexpr double rounding = 1.0 + 1e-9;
+        note.certified =
+            all_seen() || 4.0 * rounding * detail::largest_squared_circumradius(star) <=
+                              plane.projected(ring.back().squared_distance);
+        if (note.certified || all_seen() || doubling >= max_doublings) break;
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane.rescale(points, ring);
+    }
+    note.certified = note.certified && !note.open && plane.is_determined();
+    ring.clear();
+    for (const detail::planar_point& q : star)
+        ring.push_back({squared_distance(p, points[q.index]), q.index});
+    return note;
 }
 
 }  // namespace gnomon
-
-// -------- gnomon/neighborhoods/detail/tree_search.hpp --------------------------------------------
-
-/// @file
-/// What the tree-based policies share: points with a kd-tree over them.
-
-namespace gnomon::detail {
-
-/// Models `neighbor_search`: asks `policy.find` for the ring of each finite point.
-template <class Policy, class R, class Proj>
-class tree_search {
-  public:
-    tree_search(const Policy& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (is_finite(p)) policy_.find(tree_, p, i, ring);
-    }
-
-  private:
-    Policy policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
-};
-
-}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/hybrid.hpp --------------------------------------------------------
 
@@ -2660,16 +2621,16 @@ struct hybrid {
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "hybrid: k must be at least 1");
         detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
-        return detail::tree_search<hybrid, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring);
+        tree.nearest(points[i], k, i, ring);
         while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
     }
 };
@@ -2705,16 +2666,16 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        return detail::tree_search<knn, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring, ties);
+        tree.nearest(points[i], k, i, ring, ties);
     }
 };
 
@@ -2747,16 +2708,17 @@ struct radius {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
-        return detail::tree_search<radius, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.for_each_within(p, r, [&](const neighbor& q) {
+        ring.clear();
+        tree.for_each_within(points[i], r, [&](const neighbor& q) {
             if (q.index != i) ring.push_back(q);
         });
         std::sort(ring.begin(), ring.end());
@@ -3271,7 +3233,7 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
         if (wider.k >= p.size()) break;  // there are no more neighbors to be had
         wider.k *= 2;
         const auto found = [&](std::size_t i, std::vector<neighbor>& buffer) {
-            wider.find(tree, p[i], i, buffer);
+            wider.find(tree, p, i, buffer);
             return detail::noted_ring<const std::vector<neighbor>&>{buffer, {}};
         };
         const auto index_of = [&flagged](std::size_t f) { return flagged[f]; };
