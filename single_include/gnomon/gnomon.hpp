@@ -1239,6 +1239,16 @@ template <std::size_t N>
     return e;
 }
 
+namespace detail {
+
+/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
+/// which whatever is not finite shows.
+[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
+    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
+}
+
+}  // namespace detail
+
 }  // namespace gnomon
 
 // -------- gnomon/core/trust.hpp ------------------------------------------------------------------
@@ -2120,7 +2130,7 @@ struct adaptive_knn {
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
             while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
-            if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
+            if (!detail::has_finite_trace(covariance)) break;
             const double cost = preference(neighborhood_shape{
                 k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
@@ -4015,12 +4025,6 @@ inline constexpr double smallest_gap = 1e-12;
     fit.normal = e.vectors.col(2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
-}
-
-/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
-/// which whatever is not finite shows.
-[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
-    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
 }
 
 /// The same from the second moments themselves.

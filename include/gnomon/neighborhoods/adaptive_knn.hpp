@@ -131,7 +131,7 @@ struct adaptive_knn {
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
             while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
-            if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
+            if (!detail::has_finite_trace(covariance)) break;
             const double cost = preference(neighborhood_shape{
                 k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
