@@ -5177,6 +5177,133 @@ struct with_covariance {
 /// @file
 /// What the surface is at a point. normals/registry.hpp stays outside, as it needs Boost.Hana.
 
+// -------- gnomon/features/detail/eigen_2x2.hpp ---------------------------------------------------
+
+/// @file
+/// Eigenvalues and eigenvectors of a symmetric 2x2 matrix, in closed form.
+
+namespace gnomon::detail {
+
+/// Of a symmetric 2x2 matrix: its eigenvalues and the unit eigenvector (c, s) of the larger one;
+/// (-s, c) is that of the smaller. Of equal eigenvalues the eigenvector is (1, 0).
+struct eigen_2x2 {
+    double larger;
+    double smaller;
+    double c = 1.0;
+    double s = 0.0;
+
+    /// Of [[xx, xy], [xy, yy]].
+    eigen_2x2(double xx, double xy, double yy) {
+        const double mean = 0.5 * (xx + yy);
+        const double half = 0.5 * (xx - yy);
+        const double radius = std::sqrt(half * half + xy * xy);
+        larger = mean + radius;
+        smaller = mean - radius;
+        // Of the two rows of A - larger I, the one without cancellation.
+        const double x = half >= 0.0 ? half + radius : xy;
+        const double y = half >= 0.0 ? xy : radius - half;
+        const double length = std::sqrt(x * x + y * y);
+        if (length > 0.0) {
+            c = x / length;
+            s = y / length;
+        }
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/height_frame.hpp ------------------------------------------------
+
+/// @file
+/// The frame in which a surface near a point is a height over its tangent plane: z along the
+/// normal, x and y along the principal components of the neighbors across it (Klasing 2010,
+/// Sec. 3.3.2). Plain sums: once per point, and nothing on the heap.
+
+namespace gnomon::detail {
+
+/// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
+struct height_frame {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d x;  ///< the direction of larger spread
+    Eigen::Vector3d y;
+    Eigen::Vector3d z;          ///< the normal, of unit length
+    double rms_x = 0.0;         ///< root of the mean square of the neighbors' x [m]
+    double rms_y = 0.0;         ///< the same of y [m]
+    double aspect_ratio = 0.0;  ///< sigma_ar in the tangent plane, Eq. (3.19)
+    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
+
+    /// @param min_aspect_ratio  below which the trust is weak
+    height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
+                 std::size_t min_neighbors, double min_aspect_ratio)
+        : origin(p) {
+        const double size = length(normal);
+        if (!is_finite(p) || !std::isfinite(size)) {
+            trust = gnomon::trust::not_finite;
+            return;
+        }
+        if (size == 0.0) {  // a missing normal
+            trust = gnomon::trust::degenerate;
+            return;
+        }
+        if (ring.size() < min_neighbors) return;
+        for (int i = 0; i < 3; ++i) z[i] = normal[i] / size;
+        x = orthogonal(z);
+        y = cross(z, x);
+        trust = align(ring, min_aspect_ratio);
+    }
+
+    /// The coordinates of q [m].
+    [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
+        const Eigen::Vector3d d = difference(q, origin);
+        return {dot(x, d), dot(y, d), dot(z, d)};
+    }
+
+    /// The direction of (a, b, c), not normalised.
+    [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
+        return combined(a, x, b, y, c, z);
+    }
+
+  private:
+    /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
+    gnomon::trust align(ring_view ring, double min_aspect_ratio) {
+        double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
+        for (const Eigen::Vector3d& q : ring) {
+            const auto [a, b, c] = (*this)(q);
+            sum_x += a;
+            sum_y += b;
+            xx += a * a;
+            xy += a * b;
+            yy += b * b;
+            zz += c * c;
+        }
+        if (!std::isfinite(xx + yy + zz)) return gnomon::trust::not_finite;
+        // A radius whose square's inverse is no number has no curvature.
+        const double k = static_cast<double>(ring.size());
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        if (xx + yy < k * std::numeric_limits<double>::min() / epsilon) {
+            return gnomon::trust::degenerate;
+        }
+        const double w = 1.0 / (k + 1.0);
+        const eigen_2x2 spread(w * xx - (w * sum_x) * (w * sum_x),
+                               w * xy - (w * sum_x) * (w * sum_y),
+                               w * yy - (w * sum_y) * (w * sum_y));
+        // On one line, up to the same gap as in plane_pca.
+        if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
+        aspect_ratio = std::sqrt(spread.smaller / spread.larger);
+
+        const double c = spread.c;
+        const double s = spread.s;
+        const Eigen::Vector3d u = x;
+        x = combined(c, u, s, y);
+        y = combined(c, y, -s, u);
+        rms_x = std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy) / k);
+        rms_y = std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy) / k);
+        return aspect_ratio < min_aspect_ratio ? gnomon::trust::weak : gnomon::trust::good;
+    }
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/features/detail/quadric_fit.hpp -------------------------------------------------
 
 /// @file
@@ -5275,149 +5402,6 @@ class homogeneous_quadric {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/features/detail/tangent_frame.hpp -----------------------------------------------
-
-/// @file
-/// The frame in which a surface near a point is a height over its tangent plane: z along the
-/// normal, x and y along the principal components of the neighbors across it (Klasing 2010,
-/// Sec. 3.3.2). Plain sums: once per point, and nothing on the heap.
-
-namespace gnomon::detail {
-
-/// Of a symmetric 2x2 matrix: its eigenvalues and the unit eigenvector (c, s) of the larger one;
-/// (-s, c) is that of the smaller. Of equal eigenvalues the eigenvector is (1, 0).
-struct eigen_2x2 {
-    double larger;
-    double smaller;
-    double c = 1.0;
-    double s = 0.0;
-
-    /// Of [[xx, xy], [xy, yy]].
-    eigen_2x2(double xx, double xy, double yy) {
-        const double mean = 0.5 * (xx + yy);
-        const double half = 0.5 * (xx - yy);
-        const double radius = std::sqrt(half * half + xy * xy);
-        larger = mean + radius;
-        smaller = mean - radius;
-        // Of the two rows of A - larger I, the one without cancellation.
-        const double x = half >= 0.0 ? half + radius : xy;
-        const double y = half >= 0.0 ? xy : radius - half;
-        const double length = std::sqrt(x * x + y * y);
-        if (length > 0.0) {
-            c = x / length;
-            s = y / length;
-        }
-    }
-};
-
-/// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
-struct tangent_frame {
-    Eigen::Vector3d origin;
-    Eigen::Vector3d x;  ///< the direction of larger spread
-    Eigen::Vector3d y;
-    Eigen::Vector3d z;          ///< the normal, of unit length
-    double rms_x = 0.0;         ///< root of the mean square of the neighbors' x [m]
-    double rms_y = 0.0;         ///< the same of y [m]
-    double aspect_ratio = 0.0;  ///< sigma_ar in the tangent plane, Eq. (3.19)
-    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
-
-    /// @param min_aspect_ratio  below which the trust is weak
-    tangent_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
-                  std::size_t min_neighbors, double min_aspect_ratio)
-        : origin(p) {
-        const double length = std::sqrt(normal.dot(normal));
-        if (!is_finite(p) || !std::isfinite(length)) {
-            trust = gnomon::trust::not_finite;
-            return;
-        }
-        if (length == 0.0) {  // a missing normal
-            trust = gnomon::trust::degenerate;
-            return;
-        }
-        if (ring.size() < min_neighbors) return;
-        for (int i = 0; i < 3; ++i) z[i] = normal[i] / length;
-        span_tangent_plane();
-        trust = align(ring, min_aspect_ratio);
-    }
-
-    /// The coordinates of q [m].
-    [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
-        std::array<double, 3> r{0.0, 0.0, 0.0};
-        for (int i = 0; i < 3; ++i) {
-            const double d = q[i] - origin[i];
-            r[0] += x[i] * d;
-            r[1] += y[i] * d;
-            r[2] += z[i] * d;
-        }
-        return r;
-    }
-
-    /// The direction of (a, b, c), not normalised.
-    [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
-        Eigen::Vector3d d;
-        for (int i = 0; i < 3; ++i) d[i] = a * x[i] + b * y[i] + c * z[i];
-        return d;
-    }
-
-  private:
-    /// Some x and y: the coordinate axis farthest from the normal, made perpendicular to it.
-    void span_tangent_plane() {
-        int least = 0;
-        for (int i = 1; i < 3; ++i) {
-            if (std::abs(z[i]) < std::abs(z[least])) least = i;
-        }
-        const double height = z[least];
-        const double length = std::sqrt(1.0 - height * height);  // at least sqrt(2/3)
-        for (int i = 0; i < 3; ++i) x[i] = ((i == least ? 1.0 : 0.0) - height * z[i]) / length;
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            const int k = (i + 2) % 3;
-            y[i] = z[j] * x[k] - z[k] * x[j];
-        }
-    }
-
-    /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
-    gnomon::trust align(ring_view ring, double min_aspect_ratio) {
-        double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
-        for (const Eigen::Vector3d& q : ring) {
-            const auto [a, b, c] = (*this)(q);
-            sum_x += a;
-            sum_y += b;
-            xx += a * a;
-            xy += a * b;
-            yy += b * b;
-            zz += c * c;
-        }
-        if (!std::isfinite(xx + yy + zz)) return gnomon::trust::not_finite;
-        // A radius whose square's inverse is no number has no curvature.
-        const double k = static_cast<double>(ring.size());
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        if (xx + yy < k * std::numeric_limits<double>::min() / epsilon) {
-            return gnomon::trust::degenerate;
-        }
-        const double w = 1.0 / (k + 1.0);
-        const eigen_2x2 spread(w * xx - (w * sum_x) * (w * sum_x),
-                               w * xy - (w * sum_x) * (w * sum_y),
-                               w * yy - (w * sum_y) * (w * sum_y));
-        // On one line, up to the same gap as in plane_pca.
-        if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
-        aspect_ratio = std::sqrt(spread.smaller / spread.larger);
-
-        const double c = spread.c;
-        const double s = spread.s;
-        for (int i = 0; i < 3; ++i) {
-            const double u = x[i];
-            x[i] = c * u + s * y[i];
-            y[i] = c * y[i] - s * u;
-        }
-        rms_x = std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy) / k);
-        rms_y = std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy) / k);
-        return aspect_ratio < min_aspect_ratio ? gnomon::trust::weak : gnomon::trust::good;
-    }
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/features/curvature.hpp ----------------------------------------------------------
 
 /// @file
@@ -5474,7 +5458,7 @@ namespace detail {
 /// The curvature of the surface z = e x + f y + a x^2 + b x y + c y^2 of a frame above its origin.
 /// Where the surface is inclined to the frame, its own tangent plane counts: S is the second
 /// fundamental form in an orthonormal basis of that plane, t1 up the gradient and t2 across.
-[[nodiscard]] inline curvature curvature_of(const quadric& q, const tangent_frame& frame) {
+[[nodiscard]] inline curvature curvature_of(const quadric& q, const height_frame& frame) {
     const double slope = std::sqrt(q.e * q.e + q.f * q.f);
     const double gx = slope > 0.0 ? q.e / slope : 1.0;
     const double gy = slope > 0.0 ? q.f / slope : 0.0;
@@ -5495,10 +5479,8 @@ namespace detail {
     result.kappa2 = s.smaller;
     const Eigen::Vector3d t1 = frame.direction(gx / w, gy / w, slope / w);
     const Eigen::Vector3d t2 = frame.direction(-gy, gx, 0.0);
-    for (int i = 0; i < 3; ++i) {
-        result.direction1[i] = s.c * t1[i] + s.s * t2[i];
-        result.direction2[i] = s.c * t2[i] - s.s * t1[i];
-    }
+    result.direction1 = combined(s.c, t1, s.s, t2);
+    result.direction2 = combined(s.c, t2, -s.s, t1);
     result.trust = frame.trust;
     return result;
 }
@@ -5524,7 +5506,7 @@ struct shape_operator_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        detail::tangent_frame frame(p, normal, ring, 5, min_aspect_ratio);
+        detail::height_frame frame(p, normal, ring, 5, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
@@ -5564,7 +5546,7 @@ struct thesis_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        const detail::tangent_frame frame(p, normal, ring, 3, min_aspect_ratio);
+        const detail::height_frame frame(p, normal, ring, 3, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
