@@ -1369,6 +1369,14 @@ namespace gnomon::detail {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
+/// it rounds nothing.
+[[nodiscard]] inline double power_to_one(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, -std::max(exponent, -1000));
+}
+
 /// s a
 [[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
     return {s * a[0], s * a[1], s * a[2]};
@@ -1385,6 +1393,15 @@ namespace gnomon::detail {
                                               const Eigen::Vector3d& b, double u,
                                               const Eigen::Vector3d& c) {
     return combined(1.0, combined(s, a, t, b), u, c);
+}
+
+/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
+/// Precondition: a is finite and not zero.
+[[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
+    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    const double size = length(b);
+    return {b[0] / size, b[1] / size, b[2] / size};
 }
 
 /// M a
@@ -2473,9 +2490,7 @@ class tangent_plane {
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
         if (!exists_) return;
-        int exponent = 0;
-        std::frexp(largest, &exponent);
-        scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
+        scale_ = power_to_one(largest);
     }
 
     /// False where all points are one place, or too far apart for numbers.
@@ -5236,17 +5251,16 @@ struct height_frame {
     height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
                  std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
-        const double size = length(normal);
-        if (!is_finite(p) || !std::isfinite(size)) {
+        if (!is_finite(p) || !normal.allFinite()) {
             trust = gnomon::trust::not_finite;
             return;
         }
-        if (size == 0.0) {  // a missing normal
+        if (is_missing(normal)) {
             trust = gnomon::trust::degenerate;
             return;
         }
         if (ring.size() < min_neighbors) return;
-        for (int i = 0; i < 3; ++i) z[i] = normal[i] / size;
+        z = direction_of(normal);
         x = orthogonal(z);
         y = cross(z, x);
         trust = align(ring, min_aspect_ratio);

@@ -14,6 +14,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/detail/eigen_2x2.hpp>
@@ -37,17 +38,16 @@ struct height_frame {
     height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
                  std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
-        const double size = length(normal);
-        if (!is_finite(p) || !std::isfinite(size)) {
+        if (!is_finite(p) || !normal.allFinite()) {
             trust = gnomon::trust::not_finite;
             return;
         }
-        if (size == 0.0) {  // a missing normal
+        if (is_missing(normal)) {
             trust = gnomon::trust::degenerate;
             return;
         }
         if (ring.size() < min_neighbors) return;
-        for (int i = 0; i < 3; ++i) z[i] = normal[i] / size;
+        z = direction_of(normal);
         x = orthogonal(z);
         y = cross(z, x);
         trust = align(ring, min_aspect_ratio);
