@@ -24,6 +24,7 @@
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/normals/detail/ring_gatherer.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
 
