@@ -3473,6 +3473,33 @@ template <normal_range Surface, indexed_range Truth>
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/detail/range_of_plane.hpp -----------------------------------------------
+
+/// @file
+/// The measurement of all filters of planes: the range at which a ray meets the plane
+/// n . (x - c) = distance, and how it changes with n, which may have any length.
+///
+/// Klasing 2010, Sec. 3.2.7, Eqs. (3.17) and (3.18), where the distance is zero.
+
+namespace gnomon::detail {
+
+/// h(n), Eq. (3.17): the range [m] along the unit ray u.
+[[nodiscard]] inline double range_of_plane(const Eigen::Vector3d& c, const Eigen::Vector3d& n,
+                                           const Eigen::Vector3d& u, double distance = 0.0) {
+    return (dot(c, n) + distance) / dot(u, n);
+}
+
+/// dh/dn, Eq. (3.18).
+[[nodiscard]] inline Eigen::Vector3d range_gradient(const Eigen::Vector3d& c,
+                                                    const Eigen::Vector3d& n,
+                                                    const Eigen::Vector3d& u,
+                                                    double distance = 0.0) {
+    const double un = dot(u, n);
+    return combined(1.0 / un, c, -(dot(c, n) + distance) / (un * un), u);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/normals/detail/require_sigma.hpp ------------------------------------------------
 
 /// @file
@@ -3619,21 +3646,6 @@ template <normal_estimate Estimate>
 
 namespace gnomon {
 
-/// h(x) of Eq. (3.17): the range [m] at which the unit ray u meets the plane through `centroid` [m]
-/// with the normal x of any length.
-[[nodiscard]] inline double predicted_range(const Eigen::Vector3d& centroid,
-                                            const Eigen::Vector3d& x, const Eigen::Vector3d& u) {
-    return detail::dot(centroid, x) / detail::dot(u, x);
-}
-
-/// dh/dx of Eq. (3.18).
-[[nodiscard]] inline Eigen::Vector3d range_jacobian(const Eigen::Vector3d& centroid,
-                                                    const Eigen::Vector3d& x,
-                                                    const Eigen::Vector3d& u) {
-    const double ux = detail::dot(u, x);
-    return detail::combined(1.0 / ux, centroid, -detail::dot(centroid, x) / (ux * ux), u);
-}
-
 /// Models `ray_estimator`. Needs two neighbors. O(passes k). The covariance is that of the
 /// algorithm, made one of the unit normal.
 struct literal_plane_ekf {
@@ -3668,8 +3680,8 @@ struct literal_plane_ekf {
         const auto take_in = [&](const Eigen::Vector3d& q) {
             const double range = length(q);
             const Eigen::Vector3d u = scaled(1.0 / range, q);                 // line 4
-            const double h = predicted_range(centroid, x, u);                 // line 5
-            const Eigen::Vector3d jacobian = range_jacobian(centroid, x, u);  // line 6
+            const double h = range_of_plane(centroid, x, u);                  // line 5
+            const Eigen::Vector3d jacobian = range_gradient(centroid, x, u);  // line 6
             const Eigen::Vector3d ph = product(covariance, jacobian);
             const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
             x = combined(1.0, x, (range - h) * gain, ph);                   // line 8
@@ -4165,7 +4177,7 @@ struct plane_state {
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
     [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
-        return (detail::dot(anchor, frame.normal) + distance) / detail::dot(u, frame.normal);
+        return detail::range_of_plane(anchor, frame.normal, u, distance);
     }
 };
 
@@ -4184,12 +4196,10 @@ class by_derivative {
 
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
-        const double h = state_.range(anchor_, u);
-        const double un = detail::dot(u, state_.frame.normal);
-        const Eigen::Vector3d gradient = detail::combined(1.0 / un, anchor_, -h / un, u);
-        return {h,
-                {detail::dot(gradient, state_.frame.b1), detail::dot(gradient, state_.frame.b2),
-                 1.0 / un}};
+        const auto& [n, b1, b2] = state_.frame;
+        const Eigen::Vector3d gradient = detail::range_gradient(anchor_, n, u, state_.distance);
+        return {state_.range(anchor_, u),
+                {detail::dot(gradient, b1), detail::dot(gradient, b2), 1.0 / detail::dot(u, n)}};
     }
 
   private:

@@ -26,6 +26,7 @@
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/range_of_plane.hpp>
 #include <gnomon/normals/detail/require_sigma.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
@@ -48,7 +49,7 @@ struct plane_state {
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
     [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
-        return (detail::dot(anchor, frame.normal) + distance) / detail::dot(u, frame.normal);
+        return detail::range_of_plane(anchor, frame.normal, u, distance);
     }
 };
 
@@ -67,12 +68,10 @@ class by_derivative {
 
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
-        const double h = state_.range(anchor_, u);
-        const double un = detail::dot(u, state_.frame.normal);
-        const Eigen::Vector3d gradient = detail::combined(1.0 / un, anchor_, -h / un, u);
-        return {h,
-                {detail::dot(gradient, state_.frame.b1), detail::dot(gradient, state_.frame.b2),
-                 1.0 / un}};
+        const auto& [n, b1, b2] = state_.frame;
+        const Eigen::Vector3d gradient = detail::range_gradient(anchor_, n, u, state_.distance);
+        return {state_.range(anchor_, u),
+                {detail::dot(gradient, b1), detail::dot(gradient, b2), 1.0 / detail::dot(u, n)}};
     }
 
   private:
