@@ -2160,6 +2160,9 @@ struct adaptive_knn {
     }
 };
 
+template <class Preference>
+adaptive_knn(std::size_t, std::size_t, double, Preference) -> adaptive_knn<Preference>;
+
 }  // namespace gnomon
 
 // -------- gnomon/neighborhoods/detail/expansion.hpp ----------------------------------------------
@@ -3392,6 +3395,9 @@ struct averaging {
     }
 };
 
+template <class Weight>
+averaging(triangle_sign, Weight) -> averaging<Weight>;
+
 /// All triangles alike. Gouraud 1971.
 struct equal_weight {
     double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return 1.0; }
@@ -3983,6 +3989,33 @@ struct ray_fit : normal_fit {
     [[nodiscard]] double aspect_ratio() const { return ray_aspect_ratio; }
 };
 
+namespace detail {
+
+/// The regression of a ring of at least two on the rays from the view point.
+[[nodiscard]] inline ray_regression regression_of(const Eigen::Vector3d& p, ring_view ring,
+                                                  const Eigen::Vector3d& viewpoint) {
+    ray_regression r(difference(p, viewpoint));
+    for (const Eigen::Vector3d& q : ring) r.add(difference(q, p));
+    r.solve();
+    return r;
+}
+
+/// The plane that a regression found, weak under the given aspect ratio of the rays.
+[[nodiscard]] inline ray_fit plane_seen(const ray_regression& r, double min_aspect_ratio) {
+    ray_fit fit;
+    fit.trust = r.status();
+    if (!usable(fit.trust)) return fit;
+    const Eigen::Vector3d m = r.solution();
+    const double size = length(m);
+    fit.normal = scaled(1.0 / size, m);
+    fit.distance = r.range() / size;
+    fit.ray_aspect_ratio = r.aspect_ratio();
+    fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
+    return fit;
+}
+
+}  // namespace detail
+
 /// Models `ray_estimator`. Needs two neighbors. O(k), about the time of `plane_pca` or less.
 ///
 /// Trust: `weak` under `min_aspect_ratio`; `degenerate` where all rays lie in one plane, neighbors
@@ -3994,28 +4027,7 @@ struct ray_ls {
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         if (ring.size() < 2) return {};
-        return result_of(regression(p, ring, viewpoint));
-    }
-
-    /// The two steps of it, for those who want to know more of the regression.
-    [[nodiscard]] detail::ray_regression regression(const Eigen::Vector3d& p, ring_view ring,
-                                                    const Eigen::Vector3d& viewpoint) const {
-        detail::ray_regression r(detail::difference(p, viewpoint));
-        for (const Eigen::Vector3d& q : ring) r.add(detail::difference(q, p));
-        r.solve();
-        return r;
-    }
-    [[nodiscard]] ray_fit result_of(const detail::ray_regression& r) const {
-        ray_fit fit;
-        fit.trust = r.status();
-        if (!usable(fit.trust)) return fit;
-        const Eigen::Vector3d m = r.solution();
-        const double length = detail::length(m);
-        fit.normal = detail::scaled(1.0 / length, m);
-        fit.distance = r.range() / length;
-        fit.ray_aspect_ratio = r.aspect_ratio();
-        fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
-        return fit;
+        return detail::plane_seen(detail::regression_of(p, ring, viewpoint), min_aspect_ratio);
     }
 };
 
@@ -4045,8 +4057,8 @@ struct plane_eif {
         detail::require_sigma(sigma);
         with_covariance_of<ray_fit> belief;
         if (ring.size() < 3) return belief;
-        const detail::ray_regression regression = fit.regression(p, ring, viewpoint);
-        static_cast<ray_fit&>(belief) = fit.result_of(regression);
+        const detail::ray_regression regression = detail::regression_of(p, ring, viewpoint);
+        static_cast<ray_fit&>(belief) = detail::plane_seen(regression, fit.min_aspect_ratio);
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of M's error across n turns n.
         const detail::tangent_basis frame(belief.normal);
@@ -4188,6 +4200,14 @@ struct linear_range {
     double variance = 0.0;  ///< of what is not linear [m^2]
 };
 
+/// Made of a state and the anchor point of its plane, it linearizes the range along unit rays.
+template <class L>
+concept range_linearization =
+    std::constructible_from<L, const plane_state&, const Eigen::Vector3d&> &&
+    requires(const L& linearize, const Eigen::Vector3d& u) {
+        { linearize(u) } -> std::same_as<linear_range>;
+    };
+
 /// Linearizes by the derivative, Eq. (3.18).
 class by_derivative {
   public:
@@ -4251,7 +4271,7 @@ class by_sigma_points {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
 /// graze the plane so that their ranges say nothing and the covariance is that of the prior.
-template <class Linearization>
+template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
@@ -4943,14 +4963,31 @@ struct robust_pca {
 
 namespace gnomon {
 
-/// How well points agree with a plane: cost(distances), smaller is better, where distances(visit)
-/// calls visit(signed distance [m]) for every point.
-///
-/// RANSAC: the number of points that are not within 2.5 sigma.
+/// Where inliers end, in standard deviations: 99 % of them lie within.
+inline constexpr double inlier_limit = 2.5;
+
+namespace detail {
+
+/// Distances as costs are given them: of one point, in its plane.
+struct one_distance {
+    void operator()(auto&& visit) const { visit(0.0); }
+};
+
+}  // namespace detail
+
+/// How badly points agree with a plane: cost(sigma, distances), smaller is better, where
+/// distances(visit) calls visit(signed distance [m]) for every point.
+template <class C>
+concept consensus_cost =
+    requires(const C& cost, double sigma, const detail::one_distance& distances) {
+        { cost(sigma, distances) } -> std::convertible_to<double>;
+    };
+
+/// RANSAC: the number of points that are not inliers.
 struct count_outliers {
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
         double outliers = 0.0;
-        distances([&](double d) { outliers += std::abs(d) > 2.5 * sigma; });
+        distances([&](double d) { outliers += std::abs(d) > inlier_limit * sigma; });
         return outliers;
     }
 };
@@ -4988,8 +5025,8 @@ struct mixture_likelihood {
 
 /// Models `estimator`. Needs three neighbors. O(trials k).
 ///
-/// Trust: that of PlanePCA on the points within 2.5 sigma of the best plane.
-template <class Cost>
+/// Trust: that of PlanePCA on the inliers of the best plane.
+template <consensus_cost Cost>
 struct sample_consensus {
     static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
 
@@ -5036,7 +5073,7 @@ struct sample_consensus {
         weighted_moments inliers;
         for (std::size_t j = 0; j < n; ++j) {
             const Eigen::Vector3d d = offset(j);
-            if (std::abs(best.signed_distance(d)) <= 2.5 * sigma) inliers.add(d, 1.0);
+            if (std::abs(best.signed_distance(d)) <= inlier_limit * sigma) inliers.add(d, 1.0);
         }
         return detail::plane_of_least_spread(inliers.covariance(), min_aspect_ratio);
     }
@@ -5238,6 +5275,9 @@ struct with_covariance {
         return belief;
     }
 };
+
+template <class E>
+with_covariance(double, E) -> with_covariance<E>;
 
 }  // namespace gnomon
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
@@ -18,6 +19,10 @@
 namespace {
 
 using gnomon::plane_pca, gnomon::trust, gnomon::with_covariance;
+
+/// Every compiler deduces the estimator, though not from designated initialisers.
+static_assert(
+    std::same_as<decltype(with_covariance{0.01, plane_pca{}}), with_covariance<plane_pca>>);
 
 /// Against the spread of the normals themselves under many draws of the noise.
 TEST(with_covariance, is_the_spread_of_the_normals) {

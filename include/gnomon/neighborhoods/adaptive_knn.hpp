@@ -144,4 +144,7 @@ struct adaptive_knn {
     }
 };
 
+template <class Preference>
+adaptive_knn(std::size_t, std::size_t, double, Preference) -> adaptive_knn<Preference>;
+
 }  // namespace gnomon

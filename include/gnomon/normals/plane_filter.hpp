@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 
 #include <Eigen/Core>
 
@@ -59,6 +60,14 @@ struct linear_range {
     Eigen::Vector3d slope;  ///< [m/rad], [m/rad], 1
     double variance = 0.0;  ///< of what is not linear [m^2]
 };
+
+/// Made of a state and the anchor point of its plane, it linearizes the range along unit rays.
+template <class L>
+concept range_linearization =
+    std::constructible_from<L, const plane_state&, const Eigen::Vector3d&> &&
+    requires(const L& linearize, const Eigen::Vector3d& u) {
+        { linearize(u) } -> std::same_as<linear_range>;
+    };
 
 /// Linearizes by the derivative, Eq. (3.18).
 class by_derivative {
@@ -123,7 +132,7 @@ class by_sigma_points {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
 /// graze the plane so that their ranges say nothing and the covariance is that of the prior.
-template <class Linearization>
+template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
