@@ -84,7 +84,7 @@ namespace detail {
 
 /// Checks an argument at a public door, in constant time.
 /// @throws std::invalid_argument  with `message` unless `condition` holds
-inline void require(bool condition, const char* message) {
+constexpr void require(bool condition, const char* message) {
     if (!condition) throw std::invalid_argument(message);
 }
 
@@ -5917,7 +5917,10 @@ struct besl_jain {
 
     /// From K [1/m^2] and H [1/m]. Since K <= H^2, K > 0 tells that H is not zero, and then its
     /// sign decides even within the tolerance; `unknown` if K > 0 and H = 0, or either is NaN.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] constexpr surface_type operator()(double K, double H) const {
+        detail::require(gaussian_tolerance >= 0.0 && mean_tolerance >= 0.0,
+                        "besl_jain: the tolerances must not be negative");
         if (K != K || H != H) return surface_type::unknown;
         if (K > gaussian_tolerance) {
             if (H == 0.0) return surface_type::unknown;
@@ -5930,8 +5933,10 @@ struct besl_jain {
     }
 
     /// `unknown` if the curvature is not usable.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] surface_type operator()(const curvature& c) const {
-        return usable(c.trust) ? (*this)(c.gaussian(), c.mean()) : surface_type::unknown;
+        const surface_type type = (*this)(c.gaussian(), c.mean());
+        return usable(c.trust) ? type : surface_type::unknown;
     }
 };
 
