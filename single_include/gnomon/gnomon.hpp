@@ -3244,6 +3244,14 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     }
 }
 
+/// Refused: an estimator is called as e(point, ring) or e(point, ring, viewpoint) and gives a
+/// `normal_estimate` or a bare 3-vector. Without this, compilers would first complain that a policy
+/// is no graph.
+template <class R, class N, class E>
+    requires(!estimator<E>)
+void estimate_normals(const R& points, const N& neighborhood, const E& not_an_estimator,
+                      const auto&... others) = delete;
+
 }  // namespace gnomon
 
 // -------- gnomon/normals/anisotropy.hpp ----------------------------------------------------------
