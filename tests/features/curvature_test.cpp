@@ -170,6 +170,27 @@ TEST(curvature, says_what_is_wrong) {
         laws::expect_no_curvature(fit({1, 0, 0}, up, ring));
 }
 
+/// Also where the square of the length is no number.
+TEST(curvature, of_a_normal_of_any_length) {
+    const auto [ring, p] = bent_sample(1);
+    const Eigen::Vector3d inclined(0.25, -0.5, 1.0);
+    const auto expect_equal = [](const curvature& a, const curvature& b) {
+        EXPECT_EQ(a.trust, b.trust);
+        EXPECT_EQ(a.kappa1, b.kappa1);
+        EXPECT_EQ(a.kappa2, b.kappa2);
+        EXPECT_EQ(a.direction1, b.direction1);
+        EXPECT_EQ(a.direction2, b.direction2);
+    };
+    for (const double length : {1e-320, 1e-161, 1e-3, 1e161, 1e308}) {
+        SCOPED_TRACE(length);
+        expect_equal(shape_operator_curvature{}(p, length * up, ring),
+                     shape_operator_curvature{}(p, up, ring));
+        const double power = std::exp2(std::floor(std::log2(length)));
+        expect_equal(thesis_curvature{}(p, power * inclined, ring),
+                     thesis_curvature{}(p, inclined, ring));
+    }
+}
+
 TEST(curvature, of_a_perfect_plane_is_zero) {
     clouds::cloud ring;
     for (int i = 0; i < 20; ++i) ring.push_back({0.1 * (i % 5), 0.1 * (i / 5), 0.0});
