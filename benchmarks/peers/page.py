@@ -50,14 +50,14 @@ METHOD = """\
 - k neighbors beside the point itself, for every library: PCL, Open3D, nanoflann and ANN, which find
   the point, too, are asked for k + 1. Defaults otherwise. The points stay in the order of the scan.
 - Every library has a program of its own, compiled twice by the same compiler from the same source.
-  PCL, Open3D, ANN and GSL are the system's packages and were compiled for any processor of the
-  kind: of them flags reach only what stands in headers. PCL computes in float, all others in double.
-- One warm-up, then rounds in which all libraries take their turns, each round beginning with another
-  one. A program may use as many cores as threads, no more. Times are medians, in brackets the
-  fastest and the slowest round; bars in the picture span the ratios of the single rounds.
-- gamma is the mean of |<n, true n>| over all points, 1 being perfect. Memory is how far the resident
-  set rose during the warm-up, cloud not included but the result: gnomon's holds trust,
-  spectrum and mean distance beside each normal.
+  PCL, Open3D, ANN and GSL are the system's packages, compiled for every processor of the family:
+  flags reach only what stands in their headers. PCL computes in float, all others in double.
+- One warm-up, then rounds in which all libraries take their turns, each round beginning with
+  another one. A program may use as many cores as threads, no more. Times are medians, in brackets
+  the fastest and the slowest round; bars in the picture span the ratios of the single rounds.
+- gamma is the mean over all points of the cosine between normal and true normal, 1 being perfect.
+  Memory is how far the resident set rose during the warm-up: tree, working storage and result, but
+  not the cloud. gnomon's result holds trust, spectrum and mean distance beside each normal.
 - gnomon: `estimate_normals(points, knn{}, plane_pca{}, threads{})`. nanoflann + Eigen: a plain loop
   with OpenMP. ANN + GSL: the tool chain of the thesis, a singular value decomposition for each
   point; ANN keeps the state of a search in global variables and so has one thread. CGAL jet fits
