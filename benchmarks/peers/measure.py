@@ -20,6 +20,7 @@ import statistics
 import subprocess
 import sys
 import tempfile
+import time
 
 OURS = "gnomon"
 
@@ -42,6 +43,7 @@ FULL = [("normals", "kitchen", [10, 20, 30, 50]),
         ("normals", "pcl_office1_kinect.pcd", [30])]
 QUICK = [("normals", "kitchen_medium", [20])]
 THREADS = [1, 2]
+BUSY = 0.2  # cores that others use when it begins, above which the figures will scatter
 
 
 class Refusal(Exception):
@@ -69,6 +71,24 @@ def cpu():
             if line.startswith("model name"):
                 return line.split(":", 1)[1].strip()
     return platform.processor() or platform.machine()
+
+
+def busy_cores():
+    """How many cores others keep busy, watched for a second; zero where the system is silent."""
+    info = pathlib.Path("/proc/stat")
+    if not info.exists():
+        return 0.0
+
+    def ticks():
+        words = info.read_text(encoding="utf-8").split("\n", 1)[0].split()
+        times = [int(word) for word in words[1:9]]
+        return sum(times), times[3] + times[4]  # of these idle, or waiting for a disk
+
+    all_before, idle_before = ticks()
+    time.sleep(1)
+    all_after, idle_after = ticks()
+    idle = (idle_after - idle_before) / max(1, all_after - all_before)
+    return round((1 - idle) * (os.cpu_count() or 1), 2)
 
 
 class Worker:
@@ -208,8 +228,7 @@ def measure_all(programs, scans, plan, rounds):
             except Refusal as refusal:
                 rows.append(dict(setting, library=None, version=None, seconds=None, ratio=None,
                                  gamma=None, peak_bytes=None, note=str(refusal)))
-    name = cpu()
-    return [dict(row, cpu=name) for row in rows]
+    return rows
 
 
 def main():
@@ -223,13 +242,14 @@ def main():
     if not (arguments.programs / "cloud").exists():
         parser.error(f"{arguments.programs} holds no programs")
 
-    load = os.getloadavg()[0]
-    if load > 0.5:
-        print(f"The machine is busy (load {load:.1f}): figures will scatter", file=sys.stderr)
+    machine = {"cpu": cpu(), "busy_cores": busy_cores()}
+    if machine["busy_cores"] > BUSY:
+        print(f"Others keep {machine['busy_cores']} cores busy: figures will scatter",
+              file=sys.stderr)
     rows = measure_all(arguments.programs, arguments.scans, QUICK if arguments.quick else FULL,
                        rounds=3 if arguments.quick else 5)
     arguments.out.mkdir(parents=True, exist_ok=True)
-    lines = ",\n".join(json.dumps(row) for row in rows)
+    lines = ",\n".join(json.dumps(row | machine) for row in rows)
     (arguments.out / "peers.json").write_text(f"[\n{lines}\n]\n", encoding="utf-8")
 
 

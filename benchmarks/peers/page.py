@@ -111,7 +111,7 @@ def time_text(row):
 
 
 def gamma_text(row):
-    return "unknown" if row["gamma"] is None else f"{row['gamma']:.4f}"
+    return f"{row['gamma']:.4f}"
 
 
 def memory_text(row):
@@ -150,7 +150,10 @@ def section(rows):
             parts.append(table(own, columns_of(own), cell))
         shown = [row for row in rows if row["library"] in measured]
     own = [row for row in shown if row["flags"] == all_flags[0] and row["threads"] == 1]
-    for name, cell in (("gamma", gamma_text), ("Peak memory above the cloud", memory_text)):
+    tables = {"gamma": gamma_text, "Peak memory above the cloud": memory_text}
+    if not any(row["gamma"] for row in own):
+        del tables["gamma"]  # where the truth is not known
+    for name, cell in tables.items():
         parts.append(f"{name}:\n")
         parts.append(table(own, columns_of(own), cell))
     return "\n".join(parts)
@@ -166,6 +169,9 @@ def page(rows):
     """The whole page."""
     about = next(row for row in rows if row["library"] == OURS)
     head = INTRODUCTION.format(cpu=about["cpu"], compiler=about["compiler"])
+    if about["busy_cores"] > 0.2:
+        head += (f"\nOther work kept {about['busy_cores']:.1f} cores busy when this began, which "
+                 "makes the figures scatter,\nmost of all those of several threads.\n")
     return "\n".join([head, *map(section, sections_of(rows)), METHOD])
 
 
