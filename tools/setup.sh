@@ -49,3 +49,12 @@ set_up() {
 # examples need beside it (zlib, because Assimp links it and its package does not say so).
 build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev libboost-dev"
 example_packages="libstb-dev nlohmann-json3-dev libassimp-dev zlib1g-dev"
+
+# python_with MODULE: names a Python that has this module. The system's packages are for the system's
+# own Python, which need not be the first on the path.
+python_with() {
+    for python in python3 /usr/bin/python3; do
+        if "$python" -c "import $1" 2>/dev/null; then break; fi
+    done
+    echo "$python"
+}

@@ -1,0 +1,16 @@
+#!/bin/sh
+# SPDX-License-Identifier: BSL-1.0
+# Called by benchmarks/reproduce.sh:
+#     make.sh PROGRAMS OUT [--quick]     measures, and makes the page
+#     make.sh --check OUT                compares the page there with what its figures make
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=$here/../..
+. "$root/tools/setup.sh"
+python=$(python_with matplotlib)
+
+programs=$1 out=$2
+shift 2
+if [ "$programs" = --check ]; then exec "$python" "$here/page.py" --check "$out"; fi
+"$python" "$here/measure.py" "$programs" "$out" --scans "$root/../shared/data/scans" "$@"
+"$python" "$here/page.py" "$out"

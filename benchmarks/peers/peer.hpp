@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The frame of a program that puts one library to work, told from outside when to run, so that
+/// the programs of several libraries can take turns. No header of gnomon is behind it: every
+/// program holds its library alone.
+///     PROGRAM                             tells in JSON what it is and which jobs it knows
+///     PROGRAM JOB DIRECTORY K THREADS     does a job on the cloud in a directory: once at the
+///                                         start, as a warm-up, of which it tells peak memory and
+///                                         gamma; and once more for each line that it reads, of
+///                                         which it tells the seconds
+#pragma once
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <concepts>
+#include <cstddef>
+#include <cstdio>
+#include <exception>
+#include <iterator>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include "peak_memory.hpp"
+#include "vectors.hpp"
+
+namespace peers {
+
+/// What a library is asked for.
+struct request {
+    std::size_t k;     ///< neighbors of a point, itself not counted
+    unsigned threads;  ///< at most
+};
+
+/// A task done by a library. Constructed from points, it puts them into the library's own
+/// container, uncounted; called, it does the work, which is counted; `normal` looks into the
+/// result, uncounted.
+template <class J>
+concept job = std::constructible_from<J, const vectors&> && requires(J& work, request r) {
+    { J::task } -> std::convertible_to<std::string_view>;
+    { J::library } -> std::convertible_to<std::string_view>;
+    { J::one_thread_only } -> std::convertible_to<bool>;
+    { J::normal(work(r), std::size_t{}) } -> std::convertible_to<Eigen::Vector3d>;
+};
+
+namespace detail {
+
+/// Eq. (3.12) of the thesis: the mean of |<n, truth>|, a missing normal counting as 0.
+template <job J>
+double gamma(const auto& result, const vectors& truth) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < truth.size(); ++i) {
+        const double g = std::abs(J::normal(result, i).dot(truth[i]));
+        if (g <= 1.5) sum += g;  // not NaN
+    }
+    return sum / static_cast<double>(truth.size());
+}
+
+inline constexpr std::ptrdiff_t few_points = 1000;
+
+template <job J>
+void do_job(const std::string& directory, const request& r) {
+    const vectors points = read_vectors(directory + "/points");
+    {
+        // Code is loaded and threads are started on a small cloud, so as not to count as memory.
+        const vectors few(points.begin(),
+                          points.begin() + std::min(std::ssize(points), few_points));
+        J work(few);
+        work(r);
+    }
+    J work(points);
+    {
+        const peak_memory peak;
+        const auto result = work(r);
+        std::printf("{\"peak_bytes\": %zu", peak.above());
+        const vectors truth = read_vectors(directory + "/normals");
+        if (!truth.empty()) std::printf(", \"gamma\": %.6f", gamma<J>(result, truth));
+    }
+    std::puts("}");
+    std::fflush(stdout);
+
+    while (std::getchar() != EOF) {  // the line feed
+        const auto start = std::chrono::steady_clock::now();
+        const auto result = work(r);
+        const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+        std::printf("%.6f\n", taken.count());
+        std::fflush(stdout);
+    }
+}
+
+template <job J>
+std::string id() {
+    return std::string(J::task) + "/" + J::library;
+}
+
+template <class Number>
+std::optional<Number> number(std::string_view text) {
+    Number n{};
+    const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), n);
+    const bool good = problem == std::errc{} && end == text.data() + text.size() && n > 0;
+    return good ? std::optional(n) : std::nullopt;
+}
+
+}  // namespace detail
+
+/// The whole of main.
+template <job... Jobs>
+int serve(const std::string& version, int argc, char** argv) {
+    const std::size_t count = sizeof...(Jobs);
+    if (argc == 1) {
+        std::printf(R"({"version": "%s", "compiler": "%s", "flags": "%s", "jobs": [)",
+                    version.c_str(), PEERS_COMPILER, PEERS_FLAGS);
+        std::size_t told = 0;
+        ((std::printf(R"({"task": "%s", "library": "%s", "one_thread_only": %s}%s)", Jobs::task,
+                      Jobs::library, Jobs::one_thread_only ? "true" : "false",
+                      ++told < count ? ", " : "]}\n")),
+         ...);
+        return 0;
+    }
+    const auto k = detail::number<std::size_t>(argc == 5 ? argv[3] : "");
+    const auto threads = detail::number<unsigned>(argc == 5 ? argv[4] : "");
+    if (!k || !threads || !((argv[1] == detail::id<Jobs>()) || ...)) {
+        std::fprintf(stderr, "usage: %s [JOB DIRECTORY K THREADS]\nJOB:", argv[0]);
+        (std::fprintf(stderr, " '%s'", detail::id<Jobs>().c_str()), ...);
+        std::fputs("\n", stderr);
+        return 2;
+    }
+    try {
+        ((argv[1] == detail::id<Jobs>() ? detail::do_job<Jobs>(argv[2], {*k, *threads}) : void()),
+         ...);
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "%s: %s\n", argv[0], problem.what());
+        return 1;
+    }
+    return 0;
+}
+
+}  // namespace peers
