@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The k nearest neighbors of all points of a leaf at once. Their neighborhoods overlap, so one
+/// walk through the tree lists the leaves that matter for any of them, and what follows is done in
+/// the nearest cache, in floats relative to the leaf's middle, 32 points at a time:
+///
+///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
+///     bit more than that of the point before)? A third more points than needed pass.
+///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
+///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
+///     distances, all that passed are sorted by their canonical distances in double.
+///
+/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
+/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon::detail {
+
+/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
+/// `stride`: the ways with zeros.
+class found_neighbors {
+  public:
+    static constexpr std::size_t stride = 8;
+
+    explicit found_neighbors(std::size_t k)
+        : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+    /// Coordinate `axis` of the ways from the point to them [m].
+    [[nodiscard]] const double* way(std::size_t axis) const {
+        return numbers_.data() + axis * capacity();
+    }
+    /// Canonical squared distances [m^2].
+    [[nodiscard]] const double* squared_distance() const { return way(3); }
+    [[nodiscard]] const point_index* index() const { return index_.data(); }
+
+    /// Takes the points at the given places of the tree, seen from that at `from`.
+    void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
+        const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
+        const point_index* all_indices = tree.index();
+        const double px = all_x[from], py = all_y[from], pz = all_z[from];
+        double* way_x = numbers_.data();
+        double* way_y = way_x + capacity();
+        double* way_z = way_y + capacity();
+        point_index* index = index_.data();
+        for (std::size_t j = 0; j < count_; ++j) {
+            const std::size_t at = places[j];
+            way_x[j] = all_x[at] - px;
+            way_y[j] = all_y[at] - py;
+            way_z[j] = all_z[at] - pz;
+            index[j] = all_indices[at];
+        }
+        const double *x = way(0), *y = way(1), *z = way(2);
+        for (std::size_t j = 0; j < capacity(); j += stride) {
+            std::array<double, stride> d2;
+            for (std::size_t l = 0; l < stride; ++l)
+                d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
+            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity() + j);
+        }
+    }
+
+  private:
+    [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
+
+    std::size_t count_;
+    std::vector<point_index> index_;
+    std::vector<double> numbers_;  // x, y, z and squared distance
+};
+
+inline namespace GNOMON_LANES {
+
+/// Searches leaf by leaf. It learns from one what to expect of the next: one for each thread.
+class leaf_search {
+  public:
+    /// Precondition: the tree is not empty.
+    leaf_search(const leaf_tree& tree, std::size_t k)
+        : tree_(tree),
+          k_(std::min(k, tree.size() - 1)),
+          diagonal_(std::sqrt(tree.box().squared_diagonal())),
+          found_(k_) {}
+
+    /// Calls visit(index, found_neighbors) for each point of leaf number `leaf`.
+    template <class Visit>
+    void operator()(std::size_t leaf, Visit&& visit) {
+        std::uint32_t waiting = ~std::uint32_t{0} >> (lane_count - tree_.size_of(leaf));
+        std::size_t answered = 0;
+        while (waiting != 0) {
+            list_around(leaf);
+            double farther = 0.0;
+            std::uint32_t left = 0;
+            for (; waiting != 0; waiting &= waiting - 1) {
+                const auto q = static_cast<std::size_t>(std::countr_zero(waiting));
+                const double reached = select(q);
+                if (reached <= reach_ || complete_) {
+                    gather(q);
+                    visit(tree_.index()[leaf * lane_count + q], found_);
+                    reached_[answered++] = reached;
+                } else {
+                    farther = std::max(farther, reached);
+                    left |= std::uint32_t{1} << q;
+                }
+            }
+            waiting = left;
+            if (left != 0) reach_ = std::min(1.001 * farther, 4.0 * reach_);
+        }
+        // Stragglers would make the next list too long for all the others.
+        const auto end = reached_.begin() + static_cast<std::ptrdiff_t>(answered);
+        const auto most = reached_.begin() + static_cast<std::ptrdiff_t>(answered * 7 / 8);
+        std::nth_element(reached_.begin(), most, end);
+        reach_ = 1.1 * std::min(*std::max_element(most, end), 1.5 * *most);
+    }
+
+  private:
+    /// Lists the leaves within `reach_` of the leaf, itself first.
+    void list_around(std::size_t leaf) {
+        first_ = leaf * lane_count;
+        leaf_box box{position(first_), position(first_)};
+        for (std::size_t l = 1; l < tree_.size_of(leaf); ++l) box.add(position(first_ + l));
+        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
+        complete_ = reach_ >= diagonal_;
+        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
+        half_ = 0.5 * std::sqrt(box.squared_diagonal());
+        scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
+        listed_ = 0;
+        list(leaf, box);
+        tree_.for_each_leaf_near(box, reach_, [&](std::size_t other, const leaf_box& b) {
+            if (other != leaf) list(other, b);
+        });
+        for (std::size_t l = listed_; l % lane_count != 0; ++l)
+            boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
+        const std::size_t most = (listed_ + 1) * lane_count;
+        if (distance_.size() * lane_count < most) {
+            distance_.resize(listed_ + 1);
+            candidate_.resize(most);
+        }
+    }
+
+    void list(std::size_t leaf, const leaf_box& box) {
+        if (listed_ == points_.size()) {
+            points_.resize(listed_ + lane_count);
+            starts_.resize(listed_ + lane_count);
+            boxes_.emplace_back();
+        }
+        std::array<float, 3> middle{}, half{};
+        for (std::size_t a = 0; a < 3; ++a) {  // a hair larger, as floats are off by 2^-24
+            middle[a] = scaled(0.5 * box.low[a] + 0.5 * box.high[a], a);
+            half[a] = static_cast<float>(0.5 * scale_ * (box.high[a] - box.low[a]));
+            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);
+        }
+        boxes_[listed_ / lane_count].set(listed_ % lane_count, middle, half);
+        const std::size_t start = leaf * lane_count;
+        starts_[listed_] = static_cast<std::uint32_t>(start);
+        lane_points& block = points_[listed_++];
+        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
+        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
+        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
+        for (std::size_t l = tree_.size_of(leaf); l < lane_count; ++l)
+            block.set(l, {far_, far_, far_});
+    }
+
+    [[nodiscard]] std::array<double, 3> position(std::size_t at) const {
+        return {tree_.at(0)[at], tree_.at(1)[at], tree_.at(2)[at]};
+    }
+
+    /// A coordinate in floats from the middle of the leaf, in units in which the list reaches to 1.
+    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
+        return static_cast<float>((coordinate - origin_[axis]) * scale_);
+    }
+
+    /// Marks the k nearest of point q, a member of the listed leaf 0, as far as they are listed.
+    /// @return how far the k-th is [m]; infinity if there are fewer
+    double select(std::size_t q) {
+        constexpr float everything = 16.0f;  // beyond all that is within reach of all
+        auto limit = static_cast<float>(guess_ * scale_ * scale_);
+        if (!(limit > 0.0f && limit < everything)) limit = everything;
+        std::size_t n = collect(q, limit);
+        while (n < k_ && limit < everything) {
+            limit = std::min(everything, 2.5f * limit);
+            n = collect(q, limit);
+        }
+        if (n < k_) return std::numeric_limits<double>::infinity();
+        limit = kth(n, limit);
+        // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its own.
+        const float d = std::sqrt(limit);
+        const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d);
+        const float below = d > error ? (d - error) * (d - error) : 0.0f;
+        const float above = (d + error) * (d + error);
+        limit_ = limit;
+        exactly_ = count(n, above) - count(n, below) > 1;
+        if (exactly_) choose_exactly(q, n, above);
+        const double farthest = static_cast<double>(above) / (scale_ * scale_);
+        // Of the last two, lest a straggler makes the next one sift through too much.
+        guess_ = 1.6 * std::min(farthest, last_);
+        last_ = farthest;
+        count_ = n;
+        return std::sqrt(farthest);
+    }
+
+    /// All listed points within the limit of point q, and their squared distances.
+    /// @return how many
+    std::size_t collect(std::size_t q, float limit) {
+        const float x = points_[0].x[q], y = points_[0].y[q], z = points_[0].z[q];
+        float* distance = distance_[0].at;
+        std::uint32_t* candidate = candidate_.data();
+        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
+            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
+            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
+                 near &= near - 1) {
+                const std::size_t b =
+                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                const lanes d2 = points_[b].squared_distances(x, y, z);
+                std::uint32_t within = at_most(d2, limit);
+                if (b == 0) within &= ~(std::uint32_t{1} << q);  // not itself
+                distance = compress(d2.at, within, distance);
+                candidate = compress_from(starts_[b], within, candidate);
+            }
+        }
+        const auto n = static_cast<std::size_t>(distance - distance_[0].at);
+        for (std::size_t l = 0; l < lane_count; ++l) distance[l] = far_;
+        return n;
+    }
+
+    /// How many of the n candidates are within a limit.
+    [[nodiscard]] std::size_t count(std::size_t n, float limit) const {
+        std::size_t within = 0;
+        for (std::size_t b = 0; b * lane_count < n; ++b)
+            within += count_at_most(distance_[b], limit);
+        return within;
+    }
+
+    /// A limit that k of the n candidates are within, or more if floats cannot tell them apart.
+    /// Precondition: all are within `high`.
+    [[nodiscard]] float kth(std::size_t n, float high) {
+        if (n <= k_) return high;
+        float low = 0.0f;
+        auto below = 0.0f, within = static_cast<float>(n);
+        const auto wanted = static_cast<float>(k_);
+        for (int i = 0; i < 5; ++i) {
+            const float limit =
+                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
+            const std::size_t c = count(n, limit);
+            if (c == k_) return limit;
+            if (c < k_)
+                low = limit, below = static_cast<float>(c);
+            else
+                high = limit, within = static_cast<float>(c);
+        }
+        sorted_.assign(distance_[0].at, distance_[0].at + n);
+        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+        std::nth_element(sorted_.begin(), last, sorted_.end());
+        return *last;
+    }
+
+    /// Leaves as candidates the k nearest by canonical distances, of n of which floats place them
+    /// within `above`.
+    void choose_exactly(std::size_t q, std::size_t n, float above) {
+        exact_.clear();
+        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(first_ + q).data());
+        for (std::size_t c = 0; c < n; ++c) {
+            if (distance_[c / lane_count][c % lane_count] > above) continue;
+            const std::uint32_t at = candidate_[c];
+            const double d2 = squared_distance(p, Eigen::Vector3d::Map(position(at).data()));
+            exact_.push_back({{d2, tree_.index()[at]}, at});
+        }
+        std::sort(exact_.begin(), exact_.end(),
+                  [](const auto& a, const auto& b) { return a.first < b.first; });
+        for (std::size_t c = 0; c < k_; ++c) candidate_[c] = exact_[c].second;
+        // In the order of the list, which does not depend on how this point was answered.
+        std::sort(candidate_.begin(), candidate_.begin() + static_cast<std::ptrdiff_t>(k_));
+    }
+
+    /// Leaves as candidates those within the limit, if they have not been chosen yet, and looks
+    /// them up.
+    void gather(std::size_t q) {
+        if (!exactly_) {
+            std::uint32_t* chosen = candidate_.data();
+            for (std::size_t b = 0; b * lane_count < count_; ++b)
+                chosen = compress(candidate_.data() + b * lane_count,
+                                  at_most(distance_[b], limit_), chosen);
+        }
+        found_.look_up(tree_, first_ + q, candidate_);
+    }
+
+    static constexpr float far_ = std::numeric_limits<float>::infinity();
+
+    const leaf_tree& tree_;
+    std::size_t k_;
+    double diagonal_;
+    double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
+    double guess_ = 0.0;                                     // of the next one
+    double reach_ = 0.0;                         // within which leaves are listed [m]
+    bool complete_ = false;                      // whether that is all of them
+    std::array<double, lane_count> reached_{};   // the k-th distances in a leaf [m]
+    std::array<double, 3> origin_{};
+    double half_ = 0.0, scale_ = 1.0;
+    std::size_t first_ = 0;  // of the points that are asked for
+    std::size_t listed_ = 0;
+    std::vector<lane_boxes> boxes_;
+    std::vector<lane_points> points_;
+    std::vector<std::uint32_t> starts_;
+    std::vector<lanes> distance_;
+    std::vector<std::uint32_t> candidate_;
+    std::size_t count_ = 0;
+    float limit_ = 0.0f;
+    bool exactly_ = false;
+    std::vector<float> sorted_;
+    std::vector<std::pair<neighbor, std::uint32_t>> exact_;
+    found_neighbors found_;
+};
+
+}  // inline namespace
+}  // namespace gnomon::detail
