@@ -110,7 +110,7 @@ class leaf_search {
                 const auto q = static_cast<std::size_t>(std::countr_zero(waiting));
                 const double reached = select(q);
                 if (reached <= reach_ || complete_) {
-                    gather(q);
+                    found_.look_up(tree_, first_ + q, candidate_);
                     visit(tree_.index()[leaf * lane_count + q], found_);
                     reached_[answered++] = reached;
                 } else {
@@ -129,20 +129,20 @@ class leaf_search {
     }
 
   private:
-    /// Lists the leaves within `reach_` of the leaf, itself first.
+    /// Lists the leaves within `reach_` of the leaf, itself among them.
     void list_around(std::size_t leaf) {
         first_ = leaf * lane_count;
         leaf_box box{position(first_), position(first_)};
         for (std::size_t l = 1; l < tree_.size_of(leaf); ++l) box.add(position(first_ + l));
-        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
-        complete_ = reach_ >= diagonal_;
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
         half_ = 0.5 * std::sqrt(box.squared_diagonal());
+        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
+        complete_ = reach_ >= diagonal_;
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
-        list(leaf, box);
         tree_.for_each_leaf_near(box, reach_, [&](std::size_t other, const leaf_box& b) {
-            if (other != leaf) list(other, b);
+            if (other == leaf) own_ = listed_;
+            list(other, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
             boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
@@ -160,10 +160,13 @@ class leaf_search {
             boxes_.emplace_back();
         }
         std::array<float, 3> middle{}, half{};
-        for (std::size_t a = 0; a < 3; ++a) {  // a hair larger, as floats are off by 2^-24
-            middle[a] = scaled(0.5 * box.low[a] + 0.5 * box.high[a], a);
-            half[a] = static_cast<float>(0.5 * scale_ * (box.high[a] - box.low[a]));
-            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);
+        for (std::size_t a = 0; a < 3; ++a) {
+            constexpr double beyond = 64.0;  // all that matters
+            const double low = std::max(-beyond, (box.low[a] - origin_[a]) * scale_);
+            const double high = std::min(beyond, (box.high[a] - origin_[a]) * scale_);
+            middle[a] = static_cast<float>(0.5 * (low + high));
+            half[a] = static_cast<float>(0.5 * (high - low));
+            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);  // floats are off by 2^-24
         }
         boxes_[listed_ / lane_count].set(listed_ % lane_count, middle, half);
         const std::size_t start = leaf * lane_count;
@@ -185,39 +188,53 @@ class leaf_search {
         return static_cast<float>((coordinate - origin_[axis]) * scale_);
     }
 
-    /// Marks the k nearest of point q, a member of the listed leaf 0, as far as they are listed.
-    /// @return how far the k-th is [m]; infinity if there are fewer
+    /// Leaves as candidates the k nearest of point q of the leaf, as far as they are listed.
+    /// @return how far the k-th is [m]; infinity if fewer are listed
     double select(std::size_t q) {
+        if (k_ == 0) return 0.0;  // a lonely point
         constexpr float everything = 16.0f;  // beyond all that is within reach of all
         auto limit = static_cast<float>(guess_ * scale_ * scale_);
         if (!(limit > 0.0f && limit < everything)) limit = everything;
-        std::size_t n = collect(q, limit);
-        while (n < k_ && limit < everything) {
-            limit = std::min(everything, 2.5f * limit);
-            n = collect(q, limit);
+        for (;;) {
+            const std::size_t n = collect(q, limit);
+            if (n >= k_) {
+                const float d2 = kth(n, limit);
+                // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
+                // own; and squares under the least normal float.
+                const float d = std::sqrt(d2);
+                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f;
+                const float above = (d + error) * (d + error);
+                const float below = d > error ? (d - error) * (d - error) : -1.0f;
+                if (above <= limit || limit == everything) {
+                    if (count(n, above) - count(n, below) > 1)
+                        settle(q, n, below, above);
+                    else
+                        keep_within(n, d2);
+                    return learn(static_cast<double>(above) / (scale_ * scale_));
+                }
+                limit = 1.1f * above;  // ties of the k-th may not be among the candidates
+            } else {
+                if (limit == everything) return std::numeric_limits<double>::infinity();
+                limit = 2.5f * limit;
+            }
+            limit = std::min(everything, limit);
         }
-        if (n < k_) return std::numeric_limits<double>::infinity();
-        limit = kth(n, limit);
-        // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its own.
-        const float d = std::sqrt(limit);
-        const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d);
-        const float below = d > error ? (d - error) * (d - error) : 0.0f;
-        const float above = (d + error) * (d + error);
-        limit_ = limit;
-        exactly_ = count(n, above) - count(n, below) > 1;
-        if (exactly_) choose_exactly(q, n, above);
-        const double farthest = static_cast<double>(above) / (scale_ * scale_);
-        // Of the last two, lest a straggler makes the next one sift through too much.
-        guess_ = 1.6 * std::min(farthest, last_);
-        last_ = farthest;
-        count_ = n;
-        return std::sqrt(farthest);
+    }
+
+    /// Guesses the next squared k-th distance from this one and that before, lest a straggler makes
+    /// the next one sift through too much.
+    /// @return the distance
+    double learn(double squared) {
+        guess_ = 1.6 * std::min(squared, last_);
+        last_ = squared;
+        return std::sqrt(squared);
     }
 
     /// All listed points within the limit of point q, and their squared distances.
     /// @return how many
     std::size_t collect(std::size_t q, float limit) {
-        const float x = points_[0].x[q], y = points_[0].y[q], z = points_[0].z[q];
+        const lane_points& queries = points_[own_];
+        const float x = queries.x[q], y = queries.y[q], z = queries.z[q];
         float* distance = distance_[0].at;
         std::uint32_t* candidate = candidate_.data();
         for (std::size_t g = 0; g * lane_count < listed_; ++g) {
@@ -228,7 +245,7 @@ class leaf_search {
                     g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
                 const lanes d2 = points_[b].squared_distances(x, y, z);
                 std::uint32_t within = at_most(d2, limit);
-                if (b == 0) within &= ~(std::uint32_t{1} << q);  // not itself
+                if (b == own_) within &= ~(std::uint32_t{1} << q);  // not itself
                 distance = compress(d2.at, within, distance);
                 candidate = compress_from(starts_[b], within, candidate);
             }
@@ -246,14 +263,13 @@ class leaf_search {
         return within;
     }
 
-    /// A limit that k of the n candidates are within, or more if floats cannot tell them apart.
-    /// Precondition: all are within `high`.
+    /// A limit that k of the n >= k candidates are within, or more if floats cannot tell them
+    /// apart. Precondition: all are within `high`.
     [[nodiscard]] float kth(std::size_t n, float high) {
-        if (n <= k_) return high;
         float low = 0.0f;
         auto below = 0.0f, within = static_cast<float>(n);
         const auto wanted = static_cast<float>(k_);
-        for (int i = 0; i < 5; ++i) {
+        for (int i = 0; i < 5 && n > k_; ++i) {
             const float limit =
                 low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
             const std::size_t c = count(n, limit);
@@ -269,34 +285,37 @@ class leaf_search {
         return *last;
     }
 
-    /// Leaves as candidates the k nearest by canonical distances, of n of which floats place them
-    /// within `above`.
-    void choose_exactly(std::size_t q, std::size_t n, float above) {
-        exact_.clear();
-        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(first_ + q).data());
-        for (std::size_t c = 0; c < n; ++c) {
-            if (distance_[c / lane_count][c % lane_count] > above) continue;
-            const std::uint32_t at = candidate_[c];
-            const double d2 = squared_distance(p, Eigen::Vector3d::Map(position(at).data()));
-            exact_.push_back({{d2, tree_.index()[at]}, at});
-        }
-        std::sort(exact_.begin(), exact_.end(),
-                  [](const auto& a, const auto& b) { return a.first < b.first; });
-        for (std::size_t c = 0; c < k_; ++c) candidate_[c] = exact_[c].second;
-        // In the order of the list, which does not depend on how this point was answered.
-        std::sort(candidate_.begin(), candidate_.begin() + static_cast<std::ptrdiff_t>(k_));
+    /// Leaves as candidates, in their order, those within a limit.
+    /// @return how many
+    std::size_t keep_within(std::size_t n, float limit) {
+        std::uint32_t* kept = candidate_.data();
+        for (std::size_t b = 0; b * lane_count < n; ++b)
+            kept = compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), kept);
+        return static_cast<std::size_t>(kept - candidate_.data());
     }
 
-    /// Leaves as candidates those within the limit, if they have not been chosen yet, and looks
-    /// them up.
-    void gather(std::size_t q) {
-        if (!exactly_) {
-            std::uint32_t* chosen = candidate_.data();
-            for (std::size_t b = 0; b * lane_count < count_; ++b)
-                chosen = compress(candidate_.data() + b * lane_count,
-                                  at_most(distance_[b], limit_), chosen);
+    /// Leaves as candidates the k nearest: those within `below`, and of those up to `above`, among
+    /// which floats cannot tell the k-th from the next, the nearest by canonical distances.
+    void settle(std::size_t q, std::size_t n, float below, float above) {
+        doubtful_.clear();
+        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(first_ + q).data());
+        for (std::size_t c = 0; c < n; ++c) {
+            const float d2 = distance_[c / lane_count][c % lane_count];
+            if (d2 <= below || d2 > above) continue;
+            const std::uint32_t at = candidate_[c];
+            const Eigen::Vector3d o = Eigen::Vector3d::Map(position(at).data());
+            doubtful_.push_back({{squared_distance(p, o), tree_.index()[at]}, at});
         }
-        found_.look_up(tree_, first_ + q, candidate_);
+        const std::size_t certain = keep_within(n, below);
+        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain);
+        const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+        if (wanted < std::ssize(doubtful_))
+            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(), nearer);
+        for (std::ptrdiff_t c = 0; c < wanted; ++c)
+            candidate_[certain + static_cast<std::size_t>(c)] =
+                doubtful_[static_cast<std::size_t>(c)].second;
+        // In the order of the tree, whatever way they were found.
+        std::sort(candidate_.begin(), candidate_.begin() + static_cast<std::ptrdiff_t>(k_));
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
@@ -312,17 +331,14 @@ class leaf_search {
     std::array<double, 3> origin_{};
     double half_ = 0.0, scale_ = 1.0;
     std::size_t first_ = 0;  // of the points that are asked for
-    std::size_t listed_ = 0;
+    std::size_t listed_ = 0, own_ = 0;
     std::vector<lane_boxes> boxes_;
     std::vector<lane_points> points_;
     std::vector<std::uint32_t> starts_;
     std::vector<lanes> distance_;
     std::vector<std::uint32_t> candidate_;
-    std::size_t count_ = 0;
-    float limit_ = 0.0f;
-    bool exactly_ = false;
     std::vector<float> sorted_;
-    std::vector<std::pair<neighbor, std::uint32_t>> exact_;
+    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
     found_neighbors found_;
 };
 
