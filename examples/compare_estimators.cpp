@@ -7,16 +7,15 @@
 #include <array>
 #include <cstddef>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <boost/hana/for_each.hpp>
 
+#include "common/output_directory.hpp"
+#include "common/program.hpp"
 #include "common/progress.hpp"
 #include "compare_estimators/chart.hpp"
 #include "compare_estimators/options.hpp"
@@ -92,6 +91,7 @@ void compare_estimators(const options& o) {
         data.normals.size() - static_cast<std::size_t>(std::count_if(
                                   data.normals.begin(), data.normals.end(), gnomon::is_missing));
     if (known == 0) throw gnomon::error(o.scan, "", "has no true normals in nx, ny, nz");
+    const output_directory out(o.out, {"estimators.png"});
 
     const stopwatch watch;
     const gnomon::adjacency graph = o.delaunay ? gnomon::delaunay{}(data.scan, o.threads)
@@ -116,30 +116,12 @@ void compare_estimators(const options& o) {
     });
 
     const std::string drawing = chart_of(rows, title).png();
-    std::error_code problem;
-    std::filesystem::create_directories(o.out, problem);
-    if (problem) throw gnomon::error(o.out, "", problem.message());
-    gnomon::io::replace_file(o.out + "/estimators.png", drawing);
-    std::printf("\nwrote estimators.png into %s\n", o.out.c_str());
+    gnomon::io::replace_file(out / "estimators.png", drawing);
+    out.report();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        if (const auto o = options_from({argv + 1, argv + argc})) {
-            compare_estimators(*o);
-        } else {
-            std::fputs(usage, stdout);
-        }
-        if (std::fflush(stdout) != 0)
-            throw gnomon::error("standard output", "", "cannot be written");
-        return 0;
-    } catch (const usage_error& problem) {
-        std::fprintf(stderr, "compare_estimators: %s\n%s", problem.what(), usage);
-        return 2;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "compare_estimators: %s\n", problem.what());
-        return 1;
-    }
+    return run_program("compare_estimators", usage, options_from, compare_estimators, argc, argv);
 }

@@ -8,15 +8,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <limits>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "common/output_directory.hpp"
+#include "common/program.hpp"
 #include "common/progress.hpp"
 #include "normal_uncertainty/options.hpp"
 #include "picture/picture.hpp"
@@ -92,6 +91,7 @@ void print_calibration(const gnomon::true_scan& truth, const auto& surface,
 void normal_uncertainty(const options& o) {
     const gnomon::true_scan known = scan_of(o);
     const gnomon::scan& scan = known.scan;
+    const output_directory out(o.out, {"normals.ply", "uncertainty.png"});
     const stopwatch watch;
     const gnomon::adjacency graph = gnomon::knn{.k = o.k}(scan, o.threads);
     // [normal_uncertainty]
@@ -123,33 +123,15 @@ void normal_uncertainty(const options& o) {
                             viewpoints.empty() ? Eigen::Vector3d::Zero() : viewpoints.front(),
                             Eigen::Vector3d::UnitZ(), picture::warning_color)
             .png();
-    std::error_code problem;
-    std::filesystem::create_directories(o.out, problem);
-    if (problem) throw gnomon::error(o.out, "", problem.message());
     using namespace gnomon::io;
-    write_ply(o.out + "/normals.ply", scan,
+    write_ply(out / "normals.ply", scan,
               {normal_properties(surface), scalar_property("deviation", deviations)});
-    replace_file(o.out + "/uncertainty.png", drawing);
-    std::printf("\nwrote normals.ply, uncertainty.png into %s\n", o.out.c_str());
+    replace_file(out / "uncertainty.png", drawing);
+    out.report();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        if (const auto o = options_from({argv + 1, argv + argc})) {
-            normal_uncertainty(*o);
-        } else {
-            std::fputs(usage, stdout);
-        }
-        if (std::fflush(stdout) != 0)
-            throw gnomon::error("standard output", "", "cannot be written");
-        return 0;
-    } catch (const usage_error& problem) {
-        std::fprintf(stderr, "normal_uncertainty: %s\n%s", problem.what(), usage);
-        return 2;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "normal_uncertainty: %s\n", problem.what());
-        return 1;
-    }
+    return run_program("normal_uncertainty", usage, options_from, normal_uncertainty, argc, argv);
 }

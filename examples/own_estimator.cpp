@@ -11,7 +11,7 @@
 
 namespace {
 
-// [own_estimator]
+// [own_lambdas]
 // A lambda that returns a vector (a value: say so, or Eigen returns an expression of what is gone)
 // will do: the normal of the triangle of the first two neighbors.
 const auto first_triangle = [](const auto& p, auto ring) -> Eigen::Vector3d {
@@ -19,6 +19,15 @@ const auto first_triangle = [](const auto& p, auto ring) -> Eigen::Vector3d {
     return (ring[0] - p).cross(ring[1] - p);
 };
 
+// With a third argument it is told from where the point was seen, and can look that way.
+const auto facing_triangle = [](const auto& p, auto ring,
+                                const Eigen::Vector3d& viewpoint) -> Eigen::Vector3d {
+    const Eigen::Vector3d n = first_triangle(p, ring);
+    return n.dot(viewpoint - p) < 0.0 ? Eigen::Vector3d(-n) : n;
+};
+// [own_lambdas]
+
+// [own_estimator]
 // A struct can have parameters and say what its result is worth: a plane fit in which near
 // neighbors count more than far ones.
 struct gaussian_pca {
@@ -58,6 +67,7 @@ void report(const char* name, const gnomon::true_scan& truth, const auto& estima
 int main() {
     const auto truth = gnomon::simulate(gnomon::box_and_cylinder{.sigma = 0.005});
     report("first_triangle (a lambda)", truth, first_triangle);
+    report("facing_triangle (another)", truth, facing_triangle);
     report("gaussian_pca (a struct)", truth, gaussian_pca{.width = 0.02});
     report("plane_pca (the library's)", truth, gnomon::plane_pca{});
 }

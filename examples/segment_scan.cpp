@@ -9,18 +9,17 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <numbers>
 #include <optional>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "common/output_directory.hpp"
+#include "common/program.hpp"
 #include "common/progress.hpp"
 #include "picture/picture.hpp"
 #include "segment_scan/options.hpp"
@@ -156,15 +155,15 @@ std::string picture_of(const gnomon::scan& scan, const result& r, const options&
     return picture::picture_of(splats_of(scan, r), legend, "segment", viewpoint, o.up).png();
 }
 
-void write_points(const std::string& directory, const gnomon::scan& scan, const result& r) {
+void write_points(const output_directory& out, const gnomon::scan& scan, const result& r) {
     using namespace gnomon::io;
     const properties normals = normal_properties(r.surface, &surfel::normal);
-    write_ply(directory + "/normals.ply", scan,
+    write_ply(out / "normals.ply", scan,
               {normals, scalar_property("quality", r.surface, &surfel::surface_variation),
                scalar_property("trust", r.surface, &surfel::trust)});
     const auto& labels = r.segments.labels();
     write_ply(
-        directory + "/segments.ply", scan,
+        out / "segments.ply", scan,
         {color_properties(labels, picture::color_of), scalar_property("label", labels), normals});
 }
 
@@ -195,9 +194,8 @@ void segment_scan(const options& o) {
     const gnomon::scan scan = scan_of(o);
     const double read_seconds = total.seconds();
 
-    std::error_code problem;
-    std::filesystem::create_directories(o.out, problem);
-    if (problem) throw gnomon::error(o.out, "", problem.message());
+    const output_directory out(o.out,
+                               {"normals.ply", "segments.ply", "segments.png", "segments.json"});
 
     const result r = o.remove_floor ? surfaces_without_floor(scan, o) : surfaces_of(scan, o);
     json report{{"points", scan.size()},
@@ -211,32 +209,18 @@ void segment_scan(const options& o) {
 
     {
         const progress telling("writing");
-        write_points(o.out, scan, r);
-        gnomon::io::replace_file(o.out + "/segments.png", png);
+        write_points(out, scan, r);
+        gnomon::io::replace_file(out / "segments.png", png);
         report["seconds"]["total"] = total.seconds();
-        gnomon::io::replace_file(o.out + "/segments.json", report.dump(2) + "\n");
+        gnomon::io::replace_file(out / "segments.json", report.dump(2) + "\n");
     }
     print_table(report, o.threads.count());
-    std::printf("\nwrote normals.ply, segments.ply, segments.png, segments.json into %s\n",
-                o.out.c_str());
+    out.report();
     if (report["valid"] == 0) std::puts("The scan has no finite points: there was nothing to do.");
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        if (const auto o = options_from({argv + 1, argv + argc})) {
-            segment_scan(*o);
-        } else {
-            std::fputs(usage, stdout);
-        }
-        return 0;
-    } catch (const usage_error& problem) {
-        std::fprintf(stderr, "segment_scan: %s\n%s", problem.what(), usage);
-        return 2;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "segment_scan: %s\n", problem.what());
-        return 1;
-    }
+    return run_program("segment_scan", usage, options_from, segment_scan, argc, argv);
 }

@@ -8,17 +8,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <exception>
-#include <filesystem>
 #include <numbers>
 #include <numeric>
 #include <string>
-#include <system_error>
 #include <vector>
 
 #include <Eigen/Core>
 #include <nlohmann/json.hpp>
 
+#include "common/output_directory.hpp"
+#include "common/program.hpp"
 #include "common/progress.hpp"
 #include "picture/picture.hpp"
 #include "simulate_scan/options.hpp"
@@ -122,6 +121,7 @@ json names_of(const gnomon::scene& world) {
 
 void simulate_scan(const options& o) {
     const gnomon::scene world = scene_of(o);
+    const output_directory out(o.out, {"scan.ply", "scan.png", "names.json"});
     const stopwatch watch;
     const gnomon::true_scan truth = scan_of(world, o);
     const double seconds = watch.seconds();
@@ -131,12 +131,9 @@ void simulate_scan(const options& o) {
     const std::string drawing = picture_of(world, truth, count);
     const std::string names =
         names_of(world).dump(2, ' ', false, json::error_handler_t::replace) + "\n";
-    std::error_code problem;
-    std::filesystem::create_directories(o.out, problem);
-    if (problem) throw gnomon::error(o.out, "", problem.message());
-    write_points(o.out + "/scan.ply", truth);
-    gnomon::io::replace_file(o.out + "/scan.png", drawing);
-    gnomon::io::replace_file(o.out + "/names.json", names);
+    write_points(out / "scan.ply", truth);
+    gnomon::io::replace_file(out / "scan.png", drawing);
+    gnomon::io::replace_file(out / "names.json", names);
 
     const auto mixed = std::count(truth.echoes.begin(), truth.echoes.end(), gnomon::echo::mixed);
     std::printf("%s in %.3f s, %s of several surfaces\n\n",
@@ -146,26 +143,11 @@ void simulate_scan(const options& o) {
         std::printf("%3zu  %-28s %9s\n", object, world.objects()[object].c_str(),
                     picture::with_commas(count[object]).c_str());
     }
-    std::printf("\nwrote scan.ply, scan.png, names.json into %s\n", o.out.c_str());
+    out.report();
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-    try {
-        if (const auto o = options_from({argv + 1, argv + argc})) {
-            simulate_scan(*o);
-        } else {
-            std::fputs(usage, stdout);
-        }
-        if (std::fflush(stdout) != 0)
-            throw gnomon::error("standard output", "", "cannot be written");
-        return 0;
-    } catch (const usage_error& problem) {
-        std::fprintf(stderr, "simulate_scan: %s\n%s", problem.what(), usage);
-        return 2;
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "simulate_scan: %s\n", problem.what());
-        return 1;
-    }
+    return run_program("simulate_scan", usage, options_from, simulate_scan, argc, argv);
 }

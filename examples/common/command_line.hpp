@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <optional>
 #include <span>
@@ -56,9 +57,10 @@ inline Eigen::Vector3d vector_of(const std::string& option, std::string_view tex
     return v;
 }
 
-/// The number of threads.
-inline unsigned threads_of(const std::string& option, std::string_view text) {
-    return number_within(option, text, 0u, 1024u, "from 0 to 1,024");
+/// The seed of all that is random.
+inline std::uint64_t seed_of(const std::string& option, std::string_view text) {
+    constexpr std::uint64_t last = std::numeric_limits<std::uint64_t>::max();
+    return number_within<std::uint64_t>(option, text, 0, last, "0 or more");
 }
 
 /// An option, whether a value follows it, and what becomes of it.
@@ -72,7 +74,7 @@ struct option {
 /// Reads the words of the command line; values come as `--name VALUE` or `--name=VALUE`.
 /// @param positional  what becomes of a word that is no option
 /// @return nothing if the user asked for help
-/// @throws usage_error  if there is a word that makes no sense
+/// @throws usage_error  if there is a word that makes no sense, or nothing said where to write
 template <class Options>
 std::optional<Options> options_from(const std::vector<std::string>& words,
                                     std::span<const option<Options>> known,
@@ -102,5 +104,41 @@ std::optional<Options> options_from(const std::vector<std::string>& words,
             found->set(o, name, words[++i]);
         }
     }
+    if (o.out.empty()) throw usage_error("--out DIR is missing");
     return o;
 }
+
+/// A word that is no option, as the scan to read.
+template <class Options>
+void take_scan(Options& o, const std::string& word) {
+    if (!o.scan.empty()) throw usage_error("two scans: " + o.scan + " and " + word);
+    if (word.empty()) throw usage_error("the name of the scan is empty");
+    o.scan = word;
+}
+
+/// Options of several programs, each for those whose options have the member that it fills.
+namespace common {
+
+template <class Options>
+inline constexpr option<Options> out{
+    "--out", true, [](Options& o, const std::string&, const std::string& value) { o.out = value; }};
+
+template <class Options>
+inline constexpr option<Options> k{
+    "--k", true, [](Options& o, const std::string& name, const std::string& value) {
+        o.k = number_within<std::size_t>(name, value, 3, 10'000, "from 3 to 10,000");
+    }};
+
+template <class Options>
+inline constexpr option<Options> sigma{
+    "--sigma", true, [](Options& o, const std::string& name, const std::string& value) {
+        o.sigma = number_within(name, value, 1e-6, 10.0, "from 1e-6 to 10");
+    }};
+
+template <class Options>
+inline constexpr option<Options> threads{
+    "--threads", true, [](Options& o, const std::string& name, const std::string& value) {
+        o.threads.n = number_within(name, value, 0u, 1024u, "from 0 to 1,024");
+    }};
+
+}  // namespace common

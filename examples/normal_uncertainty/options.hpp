@@ -33,29 +33,14 @@ struct options {
 };
 
 inline constexpr option<options> known_options[] = {
-    {"--out", true,
-     [](options& o, const std::string&, const std::string& value) { o.out = value; }},
-    {"--k", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         o.k = number_within<std::size_t>(name, value, 3, 10'000, "from 3 to 10,000");
-     }},
-    {"--sigma", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         o.sigma = number_within(name, value, 1e-6, 10.0, "from 1e-6 to 10");
-     }},
-    {"--threads", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         o.threads.n = threads_of(name, value);
-     }},
+    common::out<options>,
+    common::k<options>,
+    common::sigma<options>,
+    common::threads<options>,
 };
 
 /// The options that the words say, or nothing if they ask for help.
 /// @throws usage_error  if there is a word that makes no sense
 inline std::optional<options> options_from(const std::vector<std::string>& words) {
-    auto o = options_from<options>(words, known_options, [](options& set, const std::string& word) {
-        if (!set.scan.empty()) throw usage_error("one scan at a time, please: " + word);
-        set.scan = word;
-    });
-    if (o && o->out.empty()) throw usage_error("--out DIR is missing");
-    return o;
+    return options_from<options>(words, known_options, take_scan<options>);
 }

@@ -43,8 +43,7 @@ struct options {
 };
 
 inline constexpr option<options> known_options[] = {
-    {"--out", true,
-     [](options& o, const std::string&, const std::string& value) { o.out = value; }},
+    common::out<options>,
     {"--k", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.neighborhood.k =
@@ -76,20 +75,11 @@ inline constexpr option<options> known_options[] = {
          o.up = vector_of(name, value).stableNormalized();
          if (!(o.up->norm() > 0.5)) throw usage_error("--up: 0,0,0 is no direction");
      }},
-    {"--threads", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         o.threads.n = threads_of(name, value);
-     }},
+    common::threads<options>,
 };
 
 /// The options that the words say, or nothing if they ask for help.
 /// @throws usage_error  if there is a word that makes no sense
 inline std::optional<options> options_from(const std::vector<std::string>& words) {
-    auto o = options_from<options>(words, known_options, [](options& to, const std::string& word) {
-        if (!to.scan.empty()) throw usage_error("two scans: " + to.scan + " and " + word);
-        if (word.empty()) throw usage_error("the name of the scan is empty");
-        to.scan = word;
-    });
-    if (o && o->out.empty()) throw usage_error("--out DIR is missing");
-    return o;
+    return options_from<options>(words, known_options, take_scan<options>);
 }

@@ -101,8 +101,7 @@ inline const option<options> known_options[] = {
      }},
     {"--seed", true,
      [](options& o, const std::string& name, const std::string& value) {
-         constexpr std::uint64_t last = ~std::uint64_t{0};
-         o.beam.seed = number_within<std::uint64_t>(name, value, 0, last, "0 or more");
+         o.beam.seed = seed_of(name, value);
      }},
     {"--sensor", true,
      [](options& o, const std::string& name, const std::string& value) {
@@ -116,20 +115,14 @@ inline const option<options> known_options[] = {
      [](options& o, const std::string& name, const std::string& value) {
          o.pitch = angle_of(name, value);
      }},
-    {"--threads", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         o.threads.n = threads_of(name, value);
-     }},
-    {"--out", true,
-     [](options& o, const std::string&, const std::string& value) { o.out = value; }},
+    common::threads<options>,
+    common::out<options>,
 };
 
 /// The options that the words say, or nothing if they ask for help.
 /// @throws usage_error  if there is a word that makes no sense
 inline std::optional<options> options_from(const std::vector<std::string>& words) {
-    auto o = options_from<options>(words, known_options, [](options&, const std::string& word) {
+    return options_from<options>(words, known_options, [](options&, const std::string& word) {
         throw usage_error("'" + word + "' is no option; a scene goes after --scene");
     });
-    if (o && o->out.empty()) throw usage_error("--out DIR is missing");
-    return o;
 }

@@ -84,7 +84,7 @@ namespace detail {
 
 /// Checks an argument at a public door, in constant time.
 /// @throws std::invalid_argument  with `message` unless `condition` holds
-inline void require(bool condition, const char* message) {
+constexpr void require(bool condition, const char* message) {
     if (!condition) throw std::invalid_argument(message);
 }
 
@@ -249,6 +249,15 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
     }
 }
 
+/// w outer, whole. By columns: by rows, g++ 12 at -O3 makes nonsense of it in some places.
+[[nodiscard]] inline Eigen::Matrix3d scaled_whole(const Eigen::Matrix3d& outer, double w) {
+    Eigen::Matrix3d c;
+    for (int j = 0; j < 3; ++j) {
+        for (int i = j; i < 3; ++i) c(i, j) = c(j, i) = w * outer(i, j);
+    }
+    return c;
+}
+
 /// w outer - (w sum) (w sum)^T, whole.
 [[nodiscard]] inline Eigen::Matrix3d covariance(const Eigen::Vector3d& sum,
                                                 const Eigen::Matrix3d& outer, double w) {
@@ -291,12 +300,7 @@ struct moments {
     /// The mean of the outer products [m^2]: second moments about the point, not about a mean.
     /// Precondition: count > 0.
     [[nodiscard]] Eigen::Matrix3d second_moments() const {
-        const double w = 1.0 / static_cast<double>(count);
-        Eigen::Matrix3d c;
-        for (int j = 0; j < 3; ++j) {
-            for (int i = j; i < 3; ++i) c(i, j) = c(j, i) = w * outer(i, j);
-        }
-        return c;
+        return detail::scaled_whole(outer, 1.0 / static_cast<double>(count));
     }
 
   private:
@@ -323,6 +327,12 @@ struct weighted_moments {
     /// The weighted covariance [m^2]. Precondition: weight > 0.
     [[nodiscard]] Eigen::Matrix3d covariance() const {
         return detail::covariance(sum, outer, 1.0 / weight);
+    }
+
+    /// The weighted mean of the outer products: second moments about the point, not about a mean.
+    /// Precondition: weight > 0.
+    [[nodiscard]] Eigen::Matrix3d second_moments() const {
+        return detail::scaled_whole(outer, 1.0 / weight);
     }
 };
 
@@ -1239,6 +1249,16 @@ template <std::size_t N>
     return e;
 }
 
+namespace detail {
+
+/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
+/// which whatever is not finite shows.
+[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
+    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
+}
+
+}  // namespace detail
+
 }  // namespace gnomon
 
 // -------- gnomon/core/trust.hpp ------------------------------------------------------------------
@@ -1359,6 +1379,14 @@ namespace gnomon::detail {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
+/// it rounds nothing.
+[[nodiscard]] inline double power_to_one(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, -std::max(exponent, -1000));
+}
+
 /// s a
 [[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
     return {s * a[0], s * a[1], s * a[2]};
@@ -1375,6 +1403,15 @@ namespace gnomon::detail {
                                               const Eigen::Vector3d& b, double u,
                                               const Eigen::Vector3d& c) {
     return combined(1.0, combined(s, a, t, b), u, c);
+}
+
+/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
+/// Precondition: a is finite and not zero.
+[[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
+    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    const double size = length(b);
+    return {b[0] / size, b[1] / size, b[2] / size};
 }
 
 /// M a
@@ -1976,6 +2013,40 @@ class kd_tree {
 
 }  // namespace gnomon
 
+// -------- gnomon/neighborhoods/detail/tree_search.hpp --------------------------------------------
+
+/// @file
+/// The search of all policies that ask a kd-tree. Such a policy has a member
+/// find(tree, points, i, ring), which replaces the content of `ring` by the neighbors of point i, a
+/// finite one of the `points` that the tree is of, and returns nothing or a `ring_note`.
+
+namespace gnomon::detail {
+
+/// Models `neighbor_search`, and `annotated_search` if the policy's `find` returns notes. What is
+/// not finite has no neighbors, and nothing certifies that.
+template <class Policy, class R, class Proj>
+class tree_search {
+  public:
+    tree_search(const Policy& policy, const R& points, Proj projection)
+        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
+
+    [[nodiscard]] std::size_t size() const { return points_.size(); }
+
+    auto operator()(std::size_t i, std::vector<neighbor>& ring) const {
+        if (is_finite(points_[i])) return policy_.find(tree_, points_, i, ring);
+        ring.clear();
+        using note = decltype(policy_.find(tree_, points_, i, ring));
+        if constexpr (!std::is_void_v<note>) return note{.open = true, .certified = false};
+    }
+
+  private:
+    Policy policy_;
+    position_view<R, Proj> points_;
+    kd_tree tree_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/adaptive_knn.hpp --------------------------------------------------
 
 /// @file
@@ -2061,67 +2132,46 @@ struct adaptive_knn {
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
+        detail::require(growth >= 1.1 && std::isfinite(growth),
+                        "adaptive_knn: growth must be at least 1.1");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
-};
 
-namespace detail {
-
-/// Models `neighbor_search`.
-template <class Policy, class R, class Proj>
-class adaptive_search {
-  public:
-    adaptive_search(const Policy& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return;
-        tree_.nearest(p, policy_.max_k, i, ring);
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
+              std::vector<neighbor>& ring) const {
+        const Eigen::Vector3d p = points[i];
+        tree.nearest(p, max_k, i, ring);
 
         moments m;
-        std::size_t best = std::min(policy_.min_k, ring.size());
+        std::size_t best = std::min(min_k, ring.size());
         double least = std::numeric_limits<double>::infinity();
-        double wanted = static_cast<double>(policy_.min_k);
+        double wanted = static_cast<double>(min_k);
         while (m.count < ring.size()) {
             wanted = std::min(wanted, static_cast<double>(ring.size()));
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
-            while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
+            while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
-            if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
-            const double cost = policy_.preference(neighborhood_shape{
+            if (!detail::has_finite_trace(covariance)) break;
+            const double cost = preference(neighborhood_shape{
                 k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
                 least = cost;
                 best = k;
             }
-            wanted = std::max(wanted * policy_.growth, wanted + 1.0);
+            wanted = std::max(wanted * growth, wanted + 1.0);
         }
         ring.resize(best, {});
     }
-
-  private:
-    Policy policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
 };
 
-}  // namespace detail
-
-template <size_preference Preference>
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto adaptive_knn<Preference>::search(const R& points, Proj projection) const {
-    detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
-    detail::require(growth >= 1.1 && std::isfinite(growth),
-                    "adaptive_knn: growth must be at least 1.1");
-    return detail::adaptive_search<adaptive_knn, R, Proj>(*this, points, std::move(projection));
-}
+template <class Preference>
+adaptive_knn(std::size_t, std::size_t, double, Preference) -> adaptive_knn<Preference>;
 
 }  // namespace gnomon
 
@@ -2453,9 +2503,7 @@ class tangent_plane {
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
         if (!exists_) return;
-        int exponent = 0;
-        std::frexp(largest, &exponent);
-        scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
+        scale_ = power_to_one(largest);
     }
 
     /// False where all points are one place, or too far apart for numbers.
@@ -2527,109 +2575,60 @@ struct delaunay {
     /// @throws std::invalid_argument  if k is under 3
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(k >= 3, "delaunay: k must be at least 3");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
+
+    /// The ring of the finite point i.
+    ring_note find(const kd_tree& tree, const auto& points, std::size_t i,
+                   std::vector<neighbor>& ring) const;
 };
 
-namespace detail {
-
-/// Models `annotated_search`.
-template <class R, class Proj>
-class delaunay_search {
-  public:
-    delaunay_search(const delaunay& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        // Kept between calls, so that no point costs an allocation.
-        static thread_local std::vector<planar_point> star;
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return {.open = true, .certified = false};
-        std::size_t k = policy_.k;
-        tree_.nearest(p, k, i, ring);
-        // Of neighbors that all coincide with the point there is no plane: look farther.
-        const auto all_seen = [&] { return ring.size() < k; };
-        tangent_plane plane(points_, p, ring);
-        int doubling = 0;
-        for (; !plane.exists() && !all_seen() && doubling < policy_.max_doublings; ++doubling) {
-            tree_.nearest(p, k *= 2, i, ring);
-            plane = tangent_plane(points_, p, ring);
-        }
-        if (!plane.exists()) {
-            ring.clear();
-            return {.open = true, .certified = false};
-        }
-        ring_note note;
-        for (;; ++doubling) {
-            star.clear();
-            for (const neighbor& q : ring) star.push_back(plane.project(points_[q.index], q.index));
-            note.open = reduce_to_star(static_cast<point_index>(i), star);
-            if (note.open) break;
-            constexpr double rounding = 1.0 + 1e-9;
-            note.certified = all_seen() || 4.0 * rounding * largest_squared_circumradius(star) <=
-                                               plane.projected(ring.back().squared_distance);
-            if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
-            tree_.nearest(p, k *= 2, i, ring);
-            plane.rescale(points_, ring);
-        }
-        note.certified = note.certified && !note.open && plane.is_determined();
-        ring.clear();
-        for (const planar_point& q : star)
-            ring.push_back({squared_distance(p, points_[q.index]), q.index});
-        return note;
+ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
+                         std::vector<neighbor>& ring) const {
+    // Kept between calls, so that no point costs an allocation.
+    static thread_local std::vector<detail::planar_point> star;
+    const Eigen::Vector3d p = points[i];
+    std::size_t wanted = k;
+    tree.nearest(p, wanted, i, ring);
+    // Of neighbors that all coincide with the point there is no plane: look farther.
+    const auto all_seen = [&] { return ring.size() < wanted; };
+    detail::tangent_plane plane(points, p, ring);
+    int doubling = 0;
+    for (; !plane.exists() && !all_seen() && doubling < max_doublings; ++doubling) {
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane = detail::tangent_plane(points, p, ring);
     }
-
-  private:
-    delaunay policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
-};
-
-}  // namespace detail
-
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto delaunay::search(const R& points, Proj projection) const {
-    detail::require(k >= 3, "delaunay: k must be at least 3");
-    return detail::delaunay_search<R, Proj>(*this, points, std::move(projection));
+    if (!plane.exists()) {
+        ring.clear();
+        return {.open = true, .certified = false};
+    }
+    ring_note note;
+    for (;; ++doubling) {
+        star.clear();
+        for (const neighbor& q : ring) star.push_back(plane.project(points[q.index], q.index));
+        note.open = detail::reduce_to_star(static_cast<point_index>(i), star);
+        if (note.open) break;
+        constexpr double rounding = 1.0 + 1e-9;
+        note.certified =
+            all_seen() || 4.0 * rounding * detail::largest_squared_circumradius(star) <=
+                              plane.projected(ring.back().squared_distance);
+        if (note.certified || all_seen() || doubling >= max_doublings) break;
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane.rescale(points, ring);
+    }
+    note.certified = note.certified && !note.open && plane.is_determined();
+    ring.clear();
+    for (const detail::planar_point& q : star)
+        ring.push_back({squared_distance(p, points[q.index]), q.index});
+    return note;
 }
 
 }  // namespace gnomon
-
-// -------- gnomon/neighborhoods/detail/tree_search.hpp --------------------------------------------
-
-/// @file
-/// What the tree-based policies share: points with a kd-tree over them.
-
-namespace gnomon::detail {
-
-/// Models `neighbor_search`: asks `policy.find` for the ring of each finite point.
-template <class Policy, class R, class Proj>
-class tree_search {
-  public:
-    tree_search(const Policy& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (is_finite(p)) policy_.find(tree_, p, i, ring);
-    }
-
-  private:
-    Policy policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
-};
-
-}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/hybrid.hpp --------------------------------------------------------
 
@@ -2660,16 +2659,16 @@ struct hybrid {
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "hybrid: k must be at least 1");
         detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
-        return detail::tree_search<hybrid, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring);
+        tree.nearest(points[i], k, i, ring);
         while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
     }
 };
@@ -2705,16 +2704,16 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        return detail::tree_search<knn, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring, ties);
+        tree.nearest(points[i], k, i, ring, ties);
     }
 };
 
@@ -2747,16 +2746,17 @@ struct radius {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
-        return detail::tree_search<radius, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.for_each_within(p, r, [&](const neighbor& q) {
+        ring.clear();
+        tree.for_each_within(points[i], r, [&](const neighbor& q) {
             if (q.index != i) ring.push_back(q);
         });
         std::sort(ring.begin(), ring.end());
@@ -3026,6 +3026,70 @@ using estimate_t =
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/detail/ring_gatherer.hpp ------------------------------------------------
+
+/// @file
+/// Rings for the loops over all points: the same from a graph that stores them and from a search
+/// that finds one at a time, and the positions of their members.
+
+namespace gnomon::detail {
+
+/// A ring as a graph or a search gives it (a view, or a reference), with what is known of it.
+template <class Ring>
+struct noted_ring {
+    Ring members;
+    ring_note note = {};
+};
+
+/// rings(i, buffer) gives the noted ring of point i in the graph, and leaves the buffer alone.
+template <neighborhood_graph G>
+[[nodiscard]] auto stored_rings(const G& graph) {
+    return [&graph](std::size_t i, std::vector<neighbor>&) {
+        return noted_ring<decltype(graph[i])>{graph[i], note_of(graph, i)};
+    };
+}
+
+/// rings(i, buffer) searches the ring of point i into the buffer, and gives it with its note.
+template <neighbor_search S>
+[[nodiscard]] auto found_rings(const S& search) {
+    return [&search](std::size_t i, std::vector<neighbor>& buffer) {
+        const ring_note note = search_noted(search, i, buffer);
+        return noted_ring<const std::vector<neighbor>&>{buffer, note};
+    };
+}
+
+[[nodiscard]] inline point_index index_in(point_index i) { return i; }
+[[nodiscard]] inline point_index index_in(const neighbor& q) { return q.index; }
+
+/// Looks up the members of rings in a position_view, ring by ring, through one buffer.
+template <class Points>
+class ring_gatherer {
+  public:
+    /// @param complaint  about an index of no point: "estimate_normals: the graph lists ..."
+    ring_gatherer(const Points& points, const char* complaint)
+        : points_(points), complaint_(complaint) {}
+
+    /// The positions of the ring's members, until the next call.
+    /// @throws std::invalid_argument  with the complaint, if an index is of no point
+    template <class Ring>
+    [[nodiscard]] ring_view operator()(const noted_ring<Ring>& ring) {
+        positions_.clear();
+        for (const auto& q : ring.members) {
+            const std::size_t i = index_in(q);
+            require(i < points_.size(), complaint_);
+            positions_.push_back(points_[i]);
+        }
+        return {positions_, ring.note.open};
+    }
+
+  private:
+    const Points& points_;
+    const char* complaint_;
+    std::vector<Eigen::Vector3d> positions_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/normals/estimate_normals.hpp ----------------------------------------------------
 
 /// @file
@@ -3042,26 +3106,19 @@ struct surfel : Estimate {
 
 namespace detail {
 
-[[nodiscard]] inline point_index index_in(point_index i) { return i; }
-[[nodiscard]] inline point_index index_in(const neighbor& q) { return q.index; }
-
-/// A ring as a graph or a search gives it (a view, or a reference), with what is known of it.
-template <class Ring>
-struct noted_ring {
-    Ring members;
-    ring_note note = {};
-};
-
 /// Makes surface elements of the points of a position_view one by one, through one buffer.
 template <estimator E, class Points>
 class surfel_maker {
   public:
     surfel_maker(const E& estimate, const Points& points, const viewpoint_table& viewpoints)
-        : estimate_(estimate), points_(points), viewpoints_(viewpoints) {}
+        : estimate_(estimate),
+          points_(points),
+          viewpoints_(viewpoints),
+          gather_(points, "estimate_normals: the graph lists a neighbor of no point") {}
 
-    /// The surface element of point i with the neighbors in `ring`.
+    /// The surface element of point i, whose ring `noted` is.
     template <class Ring>
-    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& ring) {
+    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& noted) {
         const Eigen::Vector3d p = points_[i];
         surfel<estimate_t<E>> s;
         if (!is_finite(p)) {
@@ -3069,22 +3126,17 @@ class surfel_maker {
             s.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
             return s;
         }
-        positions_.clear();
-        for (const auto& q : ring.members) {
-            const std::size_t j = index_in(q);
-            require(j < points_.size(), "estimate_normals: the graph lists a neighbor of no point");
-            positions_.push_back(points_[j]);
-        }
-        static_cast<estimate_t<E>&>(s) = checked(i, p, ring.note.open);
-        s.neighbors = static_cast<point_index>(positions_.size());
-        if (!positions_.empty()) {
-            for (const Eigen::Vector3d& q : positions_) {
+        const ring_view ring = gather_(noted);
+        static_cast<estimate_t<E>&>(s) = checked(i, p, ring);
+        s.neighbors = static_cast<point_index>(ring.size());
+        if (!ring.empty()) {
+            for (const Eigen::Vector3d& q : ring) {
                 s.mean_distance += std::sqrt(squared_distance(q, p));
             }
-            s.mean_distance /= static_cast<double>(positions_.size());
+            s.mean_distance /= static_cast<double>(ring.size());
         }
         const bool coarse = resolution(p) > coarseness * s.mean_distance;
-        if (s.trust == trust::good && (coarse || !ring.note.certified)) s.trust = trust::weak;
+        if (s.trust == trust::good && (coarse || !noted.note.certified)) s.trust = trust::weak;
         return s;
     }
 
@@ -3100,12 +3152,12 @@ class surfel_maker {
 
     /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
     /// unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, bool open) const {
+    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw(i, p, ring_view(positions_, open));
+            e = raw(i, p, ring);
         } else {
-            e.normal = position(raw(i, p, ring_view(positions_, open)));
+            e.normal = position(raw(i, p, ring));
             e.trust = trust::good;
         }
         if constexpr (ray_estimator<E>) {
@@ -3132,21 +3184,20 @@ class surfel_maker {
     const E& estimate_;
     const Points& points_;
     const viewpoint_table& viewpoints_;
-    std::vector<Eigen::Vector3d> positions_;
+    ring_gatherer<Points> gather_;
 };
 
-/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from the noted rings that
-/// ring_of(i, buffer) gives, which may use the buffer.
+/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
 template <execution X, estimator E, class Points>
 void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points,
-                 const viewpoint_table& viewpoints, auto&& ring_of, const E& estimate,
+                 const viewpoint_table& viewpoints, auto&& rings, const E& estimate,
                  std::vector<surfel<estimate_t<E>>>& surface) {
     for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
         surfel_maker<E, Points> make(estimate, points, viewpoints);
         std::vector<neighbor> buffer;
         for (std::size_t j = begin; j < end; ++j) {
             const std::size_t i = index_of(j);
-            surface[i] = make(i, ring_of(i, buffer));
+            surface[i] = make(i, rings(i, buffer));
         }
     });
 }
@@ -3177,11 +3228,8 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: the graph is of other points");
     std::vector<surfel<estimate_t<E>>> surface(p.size());
-    const auto ring_of = [&graph](std::size_t i, auto&) {
-        return detail::noted_ring<decltype(graph[i])>{graph[i], note_of(graph, i)};
-    };
-    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of, estimate,
-                        surface);
+    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+                        detail::stored_rings(graph), estimate, surface);
     return surface;
 }
 
@@ -3197,18 +3245,22 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
-        const auto ring_of = [&search](std::size_t i, std::vector<neighbor>& buffer) {
-            const ring_note note = search_noted(search, i, buffer);
-            return detail::noted_ring<const std::vector<neighbor>&>{buffer, note};
-        };
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of,
-                            estimate, surface);
+        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+                            detail::found_rings(search), estimate, surface);
         return surface;
     } else {
         return estimate_normals(points, policy(points, run, projection), estimate, run, projection);
     }
 }
+
+/// Refused: an estimator is called as e(point, ring) or e(point, ring, viewpoint) and gives a
+/// `normal_estimate` or a bare 3-vector. Without this, compilers would first complain that a policy
+/// is no graph.
+template <class R, class N, class E>
+    requires(!estimator<E>)
+void estimate_normals(const R& points, const N& neighborhood, const E& not_an_estimator,
+                      const auto&... others) = delete;
 
 }  // namespace gnomon
 
@@ -3271,7 +3323,7 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
         if (wider.k >= p.size()) break;  // there are no more neighbors to be had
         wider.k *= 2;
         const auto found = [&](std::size_t i, std::vector<neighbor>& buffer) {
-            wider.find(tree, p[i], i, buffer);
+            wider.find(tree, p, i, buffer);
             return detail::noted_ring<const std::vector<neighbor>&>{buffer, {}};
         };
         const auto index_of = [&flagged](std::size_t f) { return flagged[f]; };
@@ -3361,6 +3413,9 @@ struct averaging {
     }
 };
 
+template <class Weight>
+averaging(triangle_sign, Weight) -> averaging<Weight>;
+
 /// All triangles alike. Gouraud 1971.
 struct equal_weight {
     double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return 1.0; }
@@ -3442,12 +3497,6 @@ inline constexpr double smallest_gap = 1e-12;
     fit.normal = e.vectors.col(2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
-}
-
-/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
-/// which whatever is not finite shows.
-[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
-    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
 }
 
 /// The same from the second moments themselves.
@@ -3578,10 +3627,8 @@ struct surroundings {
                               0.5 * (here * here + there * there) + far * far;
         axes.add(other.fit.normal, decay(0.5 * unlike));
     }
-    Eigen::Matrix3d outer = axes.outer;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < i; ++j) outer(j, i) = outer(i, j);
-    return column(symmetric_eigen(outer).vectors, 0);
+    if (!(axes.weight > 0.0)) return own.fit.normal;  // of an outlier, with which nobody agrees
+    return column(symmetric_eigen(axes.second_moments()).vectors, 0);
 }
 
 }  // namespace gnomon::detail
@@ -3888,6 +3935,33 @@ template <normal_range Surface, indexed_range Truth>
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/detail/range_of_plane.hpp -----------------------------------------------
+
+/// @file
+/// The measurement of all filters of planes: the range at which a ray meets the plane
+/// n . (x - c) = distance, and how it changes with n, which may have any length.
+///
+/// Klasing 2010, Sec. 3.2.7, Eqs. (3.17) and (3.18), where the distance is zero.
+
+namespace gnomon::detail {
+
+/// h(n), Eq. (3.17): the range [m] along the unit ray u.
+[[nodiscard]] inline double range_of_plane(const Eigen::Vector3d& c, const Eigen::Vector3d& n,
+                                           const Eigen::Vector3d& u, double distance = 0.0) {
+    return (dot(c, n) + distance) / dot(u, n);
+}
+
+/// dh/dn, Eq. (3.18).
+[[nodiscard]] inline Eigen::Vector3d range_gradient(const Eigen::Vector3d& c,
+                                                    const Eigen::Vector3d& n,
+                                                    const Eigen::Vector3d& u,
+                                                    double distance = 0.0) {
+    const double un = dot(u, n);
+    return combined(1.0 / un, c, -(dot(c, n) + distance) / (un * un), u);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/normals/detail/require_sigma.hpp ------------------------------------------------
 
 /// @file
@@ -4004,6 +4078,7 @@ using normal_belief = with_covariance_of<normal_fit>;
 /// The normalized estimation error squared, delta^T P^-1 delta, of an estimate whose truth is
 /// known: delta [rad] is the rotation from the estimated normal to the true one, in its two
 /// directions across. For an honest covariance its mean is 2, and it exceeds 5.991 in 5 % of cases.
+/// Of a singular covariance, which allows no error, it is infinite if there is one and else zero.
 ///
 /// @param truth  the true unit normal; its sign does not matter
 /// Precondition: the estimate is usable. Source: Bar-Shalom et al. 2001, Sec. 5.4.
@@ -4014,11 +4089,15 @@ template <normal_estimate Estimate>
     const Eigen::Vector3d d = frame.towards(truth);
     const auto& [n, b1, b2] = frame;
     const Eigen::Vector3d p1 = detail::product(estimate.covariance, b1);
-    const double p11 = detail::dot(b1, p1);
-    const double p12 = detail::dot(b2, p1);
-    const double p22 = detail::dot(b2, detail::product(estimate.covariance, b2));
-    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) /
-           (p11 * p22 - p12 * p12);
+    double p11 = detail::dot(b1, p1);
+    double p12 = detail::dot(b2, p1);
+    double p22 = detail::dot(b2, detail::product(estimate.covariance, b2));
+    const double scale = detail::power_to_one(std::max(p11, p22));  // products must be numbers
+    for (double* p : {&p11, &p12, &p22}) *p *= scale;
+    const double determinant = p11 * p22 - p12 * p12;
+    if (determinant <= 0.0)
+        return d[0] == 0.0 && d[1] == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) / determinant * scale;
 }
 
 }  // namespace gnomon
@@ -4033,21 +4112,6 @@ template <normal_estimate Estimate>
 /// Klasing 2010, Sec. 3.2.7, Alg. 3.2, Eqs. (3.16)-(3.18).
 
 namespace gnomon {
-
-/// h(x) of Eq. (3.17): the range [m] at which the unit ray u meets the plane through `centroid` [m]
-/// with the normal x of any length.
-[[nodiscard]] inline double predicted_range(const Eigen::Vector3d& centroid,
-                                            const Eigen::Vector3d& x, const Eigen::Vector3d& u) {
-    return detail::dot(centroid, x) / detail::dot(u, x);
-}
-
-/// dh/dx of Eq. (3.18).
-[[nodiscard]] inline Eigen::Vector3d range_jacobian(const Eigen::Vector3d& centroid,
-                                                    const Eigen::Vector3d& x,
-                                                    const Eigen::Vector3d& u) {
-    const double ux = detail::dot(u, x);
-    return detail::combined(1.0 / ux, centroid, -detail::dot(centroid, x) / (ux * ux), u);
-}
 
 /// Models `ray_estimator`. Needs two neighbors. O(passes k). The covariance is that of the
 /// algorithm, made one of the unit normal.
@@ -4083,8 +4147,8 @@ struct literal_plane_ekf {
         const auto take_in = [&](const Eigen::Vector3d& q) {
             const double range = length(q);
             const Eigen::Vector3d u = scaled(1.0 / range, q);                 // line 4
-            const double h = predicted_range(centroid, x, u);                 // line 5
-            const Eigen::Vector3d jacobian = range_jacobian(centroid, x, u);  // line 6
+            const double h = range_of_plane(centroid, x, u);                  // line 5
+            const Eigen::Vector3d jacobian = range_gradient(centroid, x, u);  // line 6
             const Eigen::Vector3d ph = product(covariance, jacobian);
             const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
             x = combined(1.0, x, (range - h) * gain, ph);                   // line 8
@@ -4386,6 +4450,33 @@ struct ray_fit : normal_fit {
     [[nodiscard]] double aspect_ratio() const { return ray_aspect_ratio; }
 };
 
+namespace detail {
+
+/// The regression of a ring of at least two on the rays from the view point.
+[[nodiscard]] inline ray_regression regression_of(const Eigen::Vector3d& p, ring_view ring,
+                                                  const Eigen::Vector3d& viewpoint) {
+    ray_regression r(difference(p, viewpoint));
+    for (const Eigen::Vector3d& q : ring) r.add(difference(q, p));
+    r.solve();
+    return r;
+}
+
+/// The plane that a regression found, weak under the given aspect ratio of the rays.
+[[nodiscard]] inline ray_fit plane_seen(const ray_regression& r, double min_aspect_ratio) {
+    ray_fit fit;
+    fit.trust = r.status();
+    if (!usable(fit.trust)) return fit;
+    const Eigen::Vector3d m = r.solution();
+    const double size = length(m);
+    fit.normal = scaled(1.0 / size, m);
+    fit.distance = r.range() / size;
+    fit.ray_aspect_ratio = r.aspect_ratio();
+    fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
+    return fit;
+}
+
+}  // namespace detail
+
 /// Models `ray_estimator`. Needs two neighbors. O(k), about the time of `plane_pca` or less.
 ///
 /// Trust: `weak` under `min_aspect_ratio`; `degenerate` where all rays lie in one plane, neighbors
@@ -4397,28 +4488,7 @@ struct ray_ls {
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         if (ring.size() < 2) return {};
-        return result_of(regression(p, ring, viewpoint));
-    }
-
-    /// The two steps of it, for those who want to know more of the regression.
-    [[nodiscard]] detail::ray_regression regression(const Eigen::Vector3d& p, ring_view ring,
-                                                    const Eigen::Vector3d& viewpoint) const {
-        detail::ray_regression r(detail::difference(p, viewpoint));
-        for (const Eigen::Vector3d& q : ring) r.add(detail::difference(q, p));
-        r.solve();
-        return r;
-    }
-    [[nodiscard]] ray_fit result_of(const detail::ray_regression& r) const {
-        ray_fit fit;
-        fit.trust = r.status();
-        if (!usable(fit.trust)) return fit;
-        const Eigen::Vector3d m = r.solution();
-        const double length = detail::length(m);
-        fit.normal = detail::scaled(1.0 / length, m);
-        fit.distance = r.range() / length;
-        fit.ray_aspect_ratio = r.aspect_ratio();
-        fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
-        return fit;
+        return detail::plane_seen(detail::regression_of(p, ring, viewpoint), min_aspect_ratio);
     }
 };
 
@@ -4448,8 +4518,8 @@ struct plane_eif {
         detail::require_sigma(sigma);
         with_covariance_of<ray_fit> belief;
         if (ring.size() < 3) return belief;
-        const detail::ray_regression regression = fit.regression(p, ring, viewpoint);
-        static_cast<ray_fit&>(belief) = fit.result_of(regression);
+        const detail::ray_regression regression = detail::regression_of(p, ring, viewpoint);
+        static_cast<ray_fit&>(belief) = detail::plane_seen(regression, fit.min_aspect_ratio);
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of M's error across n turns n.
         const detail::tangent_basis frame(belief.normal);
@@ -4531,7 +4601,7 @@ struct plane_state {
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
     [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
-        return (detail::dot(anchor, frame.normal) + distance) / detail::dot(u, frame.normal);
+        return detail::range_of_plane(anchor, frame.normal, u, distance);
     }
 };
 
@@ -4542,6 +4612,14 @@ struct linear_range {
     double variance = 0.0;  ///< of what is not linear [m^2]
 };
 
+/// Made of a state and the anchor point of its plane, it linearizes the range along unit rays.
+template <class L>
+concept range_linearization =
+    std::constructible_from<L, const plane_state&, const Eigen::Vector3d&> &&
+    requires(const L& linearize, const Eigen::Vector3d& u) {
+        { linearize(u) } -> std::same_as<linear_range>;
+    };
+
 /// Linearizes by the derivative, Eq. (3.18).
 class by_derivative {
   public:
@@ -4550,12 +4628,10 @@ class by_derivative {
 
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
-        const double h = state_.range(anchor_, u);
-        const double un = detail::dot(u, state_.frame.normal);
-        const Eigen::Vector3d gradient = detail::combined(1.0 / un, anchor_, -h / un, u);
-        return {h,
-                {detail::dot(gradient, state_.frame.b1), detail::dot(gradient, state_.frame.b2),
-                 1.0 / un}};
+        const auto& [n, b1, b2] = state_.frame;
+        const Eigen::Vector3d gradient = detail::range_gradient(anchor_, n, u, state_.distance);
+        return {state_.range(anchor_, u),
+                {detail::dot(gradient, b1), detail::dot(gradient, b2), 1.0 / detail::dot(u, n)}};
     }
 
   private:
@@ -4607,7 +4683,7 @@ class by_sigma_points {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
 /// graze the plane so that their ranges say nothing and the covariance is that of the prior.
-template <class Linearization>
+template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
@@ -5299,14 +5375,31 @@ struct robust_pca {
 
 namespace gnomon {
 
-/// How well points agree with a plane: cost(distances), smaller is better, where distances(visit)
-/// calls visit(signed distance [m]) for every point.
-///
-/// RANSAC: the number of points that are not within 2.5 sigma.
+/// Where inliers end, in standard deviations: 99 % of them lie within.
+inline constexpr double inlier_limit = 2.5;
+
+namespace detail {
+
+/// Distances as costs are given them: of one point, in its plane.
+struct one_distance {
+    void operator()(auto&& visit) const { visit(0.0); }
+};
+
+}  // namespace detail
+
+/// How badly points agree with a plane: cost(sigma, distances), smaller is better, where
+/// distances(visit) calls visit(signed distance [m]) for every point.
+template <class C>
+concept consensus_cost =
+    requires(const C& cost, double sigma, const detail::one_distance& distances) {
+        { cost(sigma, distances) } -> std::convertible_to<double>;
+    };
+
+/// RANSAC: the number of points that are not inliers.
 struct count_outliers {
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
         double outliers = 0.0;
-        distances([&](double d) { outliers += std::abs(d) > 2.5 * sigma; });
+        distances([&](double d) { outliers += std::abs(d) > inlier_limit * sigma; });
         return outliers;
     }
 };
@@ -5344,8 +5437,8 @@ struct mixture_likelihood {
 
 /// Models `estimator`. Needs three neighbors. O(trials k).
 ///
-/// Trust: that of PlanePCA on the points within 2.5 sigma of the best plane.
-template <class Cost>
+/// Trust: that of PlanePCA on the inliers of the best plane.
+template <consensus_cost Cost>
 struct sample_consensus {
     static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
 
@@ -5392,7 +5485,7 @@ struct sample_consensus {
         weighted_moments inliers;
         for (std::size_t j = 0; j < n; ++j) {
             const Eigen::Vector3d d = offset(j);
-            if (std::abs(best.signed_distance(d)) <= 2.5 * sigma) inliers.add(d, 1.0);
+            if (std::abs(best.signed_distance(d)) <= inlier_limit * sigma) inliers.add(d, 1.0);
         }
         return detail::plane_of_least_spread(inliers.covariance(), min_aspect_ratio);
     }
@@ -5595,12 +5688,141 @@ struct with_covariance {
     }
 };
 
+template <class E>
+with_covariance(double, E) -> with_covariance<E>;
+
 }  // namespace gnomon
 
 // -------- gnomon/normals.hpp ---------------------------------------------------------------------
 
 /// @file
 /// What the surface is at a point. normals/registry.hpp stays outside, as it needs Boost.Hana.
+
+// -------- gnomon/features/detail/eigen_2x2.hpp ---------------------------------------------------
+
+/// @file
+/// Eigenvalues and eigenvectors of a symmetric 2x2 matrix, in closed form.
+
+namespace gnomon::detail {
+
+/// Of a symmetric 2x2 matrix: its eigenvalues and the unit eigenvector (c, s) of the larger one;
+/// (-s, c) is that of the smaller. Of equal eigenvalues the eigenvector is (1, 0).
+struct eigen_2x2 {
+    double larger;
+    double smaller;
+    double c = 1.0;
+    double s = 0.0;
+
+    /// Of [[xx, xy], [xy, yy]].
+    eigen_2x2(double xx, double xy, double yy) {
+        const double mean = 0.5 * (xx + yy);
+        const double half = 0.5 * (xx - yy);
+        const double radius = std::sqrt(half * half + xy * xy);
+        larger = mean + radius;
+        smaller = mean - radius;
+        // Of the two rows of A - larger I, the one without cancellation.
+        const double x = half >= 0.0 ? half + radius : xy;
+        const double y = half >= 0.0 ? xy : radius - half;
+        const double length = std::sqrt(x * x + y * y);
+        if (length > 0.0) {
+            c = x / length;
+            s = y / length;
+        }
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/height_frame.hpp ------------------------------------------------
+
+/// @file
+/// The frame in which a surface near a point is a height over its tangent plane: z along the
+/// normal, x and y along the principal components of the neighbors across it (Klasing 2010,
+/// Sec. 3.3.2). Plain sums: once per point, and nothing on the heap.
+
+namespace gnomon::detail {
+
+/// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
+struct height_frame {
+    Eigen::Vector3d origin;
+    Eigen::Vector3d x;  ///< the direction of larger spread
+    Eigen::Vector3d y;
+    Eigen::Vector3d z;          ///< the normal, of unit length
+    double rms_x = 0.0;         ///< root of the mean square of the neighbors' x [m]
+    double rms_y = 0.0;         ///< the same of y [m]
+    double aspect_ratio = 0.0;  ///< sigma_ar in the tangent plane, Eq. (3.19)
+    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
+
+    /// @param min_aspect_ratio  below which the trust is weak
+    height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
+                 std::size_t min_neighbors, double min_aspect_ratio)
+        : origin(p) {
+        if (!is_finite(p) || !normal.allFinite()) {
+            trust = gnomon::trust::not_finite;
+            return;
+        }
+        if (is_missing(normal)) {
+            trust = gnomon::trust::degenerate;
+            return;
+        }
+        if (ring.size() < min_neighbors) return;
+        z = direction_of(normal);
+        x = orthogonal(z);
+        y = cross(z, x);
+        trust = align(ring, min_aspect_ratio);
+    }
+
+    /// The coordinates of q [m].
+    [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
+        const Eigen::Vector3d d = difference(q, origin);
+        return {dot(x, d), dot(y, d), dot(z, d)};
+    }
+
+    /// The direction of (a, b, c), not normalised.
+    [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
+        return combined(a, x, b, y, c, z);
+    }
+
+  private:
+    /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
+    gnomon::trust align(ring_view ring, double min_aspect_ratio) {
+        double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
+        for (const Eigen::Vector3d& q : ring) {
+            const auto [a, b, c] = (*this)(q);
+            sum_x += a;
+            sum_y += b;
+            xx += a * a;
+            xy += a * b;
+            yy += b * b;
+            zz += c * c;
+        }
+        if (!std::isfinite(xx + yy + zz)) return gnomon::trust::not_finite;
+        // A radius whose square's inverse is no number has no curvature.
+        const double k = static_cast<double>(ring.size());
+        constexpr double epsilon = std::numeric_limits<double>::epsilon();
+        if (xx + yy < k * std::numeric_limits<double>::min() / epsilon) {
+            return gnomon::trust::degenerate;
+        }
+        const double w = 1.0 / (k + 1.0);
+        const eigen_2x2 spread(w * xx - (w * sum_x) * (w * sum_x),
+                               w * xy - (w * sum_x) * (w * sum_y),
+                               w * yy - (w * sum_y) * (w * sum_y));
+        // On one line, up to the same gap as in plane_pca.
+        if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
+        aspect_ratio = std::sqrt(spread.smaller / spread.larger);
+
+        const double c = spread.c;
+        const double s = spread.s;
+        const Eigen::Vector3d u = x;
+        x = combined(c, u, s, y);
+        y = combined(c, y, -s, u);
+        rms_x = std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy) / k);
+        rms_y = std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy) / k);
+        return aspect_ratio < min_aspect_ratio ? gnomon::trust::weak : gnomon::trust::good;
+    }
+};
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/features/detail/quadric_fit.hpp -------------------------------------------------
 
@@ -5665,8 +5887,8 @@ class least_squares_quadric {
     }
 
   private:
-    std::array<std::array<double, 6>, 6> left_{};  // its lower half
-    std::array<double, 6> right_{};
+    square_array<6> left_ = {};  // its lower half
+    std::array<double, 6> right_ = {};
 };
 
 /// The unit vector [a' b' c' d'] for which the sum of squares of a' x^2 + b' x y + c' y^2 + d' z is
@@ -5686,214 +5908,16 @@ class homogeneous_quadric {
         double trace = 0.0;
         for (std::size_t i = 0; i < 4; ++i) trace += products_[i][i];
         if (!(trace > 0.0) || !std::isfinite(trace)) return std::nullopt;
-        matrix m = products_;
-        for (auto& row : m) {
-            for (double& element : row) element /= trace;
-        }
-        matrix v{};
-        for (std::size_t i = 0; i < 4; ++i) v[i][i] = 1.0;
-        diagonalise(m, v);
-
-        std::array<std::size_t, 4> order{0, 1, 2, 3};
-        std::sort(order.begin(), order.end(),
-                  [&m](std::size_t i, std::size_t j) { return m[i][i] < m[j][j]; });
-        const std::size_t last = order[0];
+        const auto [values, vectors] = symmetric_eigen<4>(products_);
         constexpr double rounding = 1e-14;
-        if (m[order[1]][order[1]] - m[last][last] <= rounding) return std::nullopt;
-        const double d = v[3][last];
+        if (values[2] - values[3] <= rounding * trace) return std::nullopt;
+        const double d = vectors[3][3];
         if (std::abs(d) < 1e-12) return std::nullopt;
-        return quadric{-v[0][last] / d, -v[1][last] / d, -v[2][last] / d, 0.0, 0.0};
+        return quadric{-vectors[0][3] / d, -vectors[1][3] / d, -vectors[2][3] / d, 0.0, 0.0};
     }
 
   private:
-    using matrix = std::array<std::array<double, 4>, 4>;
-
-    /// Cyclic Jacobi rotations, as in symmetric_eigen: columns of v become eigenvectors.
-    static void diagonalise(matrix& m, matrix& v) {
-        constexpr int max_sweeps = 16;
-        for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-            bool done = true;
-            for (std::size_t p = 0; p < 3; ++p) {
-                for (std::size_t q = p + 1; q < 4; ++q) {
-                    // Negligible beside both: keeps small eigenvalues of graded matrices.
-                    if (std::abs(m[p][q]) <= 1e-18 * std::sqrt(std::abs(m[p][p] * m[q][q]))) {
-                        continue;
-                    }
-                    done = false;
-                    rotate_away(m, v, p, q);
-                }
-            }
-            if (done) break;
-        }
-    }
-
-    static void rotate_away(matrix& m, matrix& v, std::size_t p, std::size_t q) {
-        const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-        const double t =
-            std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(1.0 + theta * theta));
-        const double c = 1.0 / std::sqrt(1.0 + t * t);
-        const double s = t * c;
-        const double pq = m[p][q];
-        m[p][p] -= t * pq;
-        m[q][q] += t * pq;
-        m[p][q] = m[q][p] = 0.0;
-        for (std::size_t r = 0; r < 4; ++r) {
-            const double vp = v[r][p];
-            const double vq = v[r][q];
-            v[r][p] = c * vp - s * vq;
-            v[r][q] = s * vp + c * vq;
-            if (r == p || r == q) continue;
-            const double rp = m[r][p];
-            const double rq = m[r][q];
-            m[r][p] = m[p][r] = c * rp - s * rq;
-            m[r][q] = m[q][r] = s * rp + c * rq;
-        }
-    }
-
-    matrix products_{};
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/features/detail/tangent_frame.hpp -----------------------------------------------
-
-/// @file
-/// The frame in which a surface near a point is a height over its tangent plane: z along the
-/// normal, x and y along the principal components of the neighbors across it (Klasing 2010,
-/// Sec. 3.3.2). Plain sums: once per point, and nothing on the heap.
-
-namespace gnomon::detail {
-
-/// Of a symmetric 2x2 matrix: its eigenvalues and the unit eigenvector (c, s) of the larger one;
-/// (-s, c) is that of the smaller. Of equal eigenvalues the eigenvector is (1, 0).
-struct eigen_2x2 {
-    double larger;
-    double smaller;
-    double c = 1.0;
-    double s = 0.0;
-
-    /// Of [[xx, xy], [xy, yy]].
-    eigen_2x2(double xx, double xy, double yy) {
-        const double mean = 0.5 * (xx + yy);
-        const double half = 0.5 * (xx - yy);
-        const double radius = std::sqrt(half * half + xy * xy);
-        larger = mean + radius;
-        smaller = mean - radius;
-        // Of the two rows of A - larger I, the one without cancellation.
-        const double x = half >= 0.0 ? half + radius : xy;
-        const double y = half >= 0.0 ? xy : radius - half;
-        const double length = std::sqrt(x * x + y * y);
-        if (length > 0.0) {
-            c = x / length;
-            s = y / length;
-        }
-    }
-};
-
-/// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
-struct tangent_frame {
-    Eigen::Vector3d origin;
-    Eigen::Vector3d x;  ///< the direction of larger spread
-    Eigen::Vector3d y;
-    Eigen::Vector3d z;          ///< the normal, of unit length
-    double rms_x = 0.0;         ///< root of the mean square of the neighbors' x [m]
-    double rms_y = 0.0;         ///< the same of y [m]
-    double aspect_ratio = 0.0;  ///< sigma_ar in the tangent plane, Eq. (3.19)
-    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
-
-    /// @param min_aspect_ratio  below which the trust is weak
-    tangent_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
-                  std::size_t min_neighbors, double min_aspect_ratio)
-        : origin(p) {
-        const double length = std::sqrt(normal.dot(normal));
-        if (!is_finite(p) || !std::isfinite(length)) {
-            trust = gnomon::trust::not_finite;
-            return;
-        }
-        if (length == 0.0) {  // a missing normal
-            trust = gnomon::trust::degenerate;
-            return;
-        }
-        if (ring.size() < min_neighbors) return;
-        for (int i = 0; i < 3; ++i) z[i] = normal[i] / length;
-        span_tangent_plane();
-        trust = align(ring, min_aspect_ratio);
-    }
-
-    /// The coordinates of q [m].
-    [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
-        std::array<double, 3> r{0.0, 0.0, 0.0};
-        for (int i = 0; i < 3; ++i) {
-            const double d = q[i] - origin[i];
-            r[0] += x[i] * d;
-            r[1] += y[i] * d;
-            r[2] += z[i] * d;
-        }
-        return r;
-    }
-
-    /// The direction of (a, b, c), not normalised.
-    [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
-        Eigen::Vector3d d;
-        for (int i = 0; i < 3; ++i) d[i] = a * x[i] + b * y[i] + c * z[i];
-        return d;
-    }
-
-  private:
-    /// Some x and y: the coordinate axis farthest from the normal, made perpendicular to it.
-    void span_tangent_plane() {
-        int least = 0;
-        for (int i = 1; i < 3; ++i) {
-            if (std::abs(z[i]) < std::abs(z[least])) least = i;
-        }
-        const double height = z[least];
-        const double length = std::sqrt(1.0 - height * height);  // at least sqrt(2/3)
-        for (int i = 0; i < 3; ++i) x[i] = ((i == least ? 1.0 : 0.0) - height * z[i]) / length;
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            const int k = (i + 2) % 3;
-            y[i] = z[j] * x[k] - z[k] * x[j];
-        }
-    }
-
-    /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
-    gnomon::trust align(ring_view ring, double min_aspect_ratio) {
-        double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
-        for (const Eigen::Vector3d& q : ring) {
-            const auto [a, b, c] = (*this)(q);
-            sum_x += a;
-            sum_y += b;
-            xx += a * a;
-            xy += a * b;
-            yy += b * b;
-            zz += c * c;
-        }
-        if (!std::isfinite(xx + yy + zz)) return gnomon::trust::not_finite;
-        // A radius whose square's inverse is no number has no curvature.
-        const double k = static_cast<double>(ring.size());
-        constexpr double epsilon = std::numeric_limits<double>::epsilon();
-        if (xx + yy < k * std::numeric_limits<double>::min() / epsilon) {
-            return gnomon::trust::degenerate;
-        }
-        const double w = 1.0 / (k + 1.0);
-        const eigen_2x2 spread(w * xx - (w * sum_x) * (w * sum_x),
-                               w * xy - (w * sum_x) * (w * sum_y),
-                               w * yy - (w * sum_y) * (w * sum_y));
-        // On one line, up to the same gap as in plane_pca.
-        if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
-        aspect_ratio = std::sqrt(spread.smaller / spread.larger);
-
-        const double c = spread.c;
-        const double s = spread.s;
-        for (int i = 0; i < 3; ++i) {
-            const double u = x[i];
-            x[i] = c * u + s * y[i];
-            y[i] = c * y[i] - s * u;
-        }
-        rms_x = std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy) / k);
-        rms_y = std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy) / k);
-        return aspect_ratio < min_aspect_ratio ? gnomon::trust::weak : gnomon::trust::good;
-    }
+    square_array<4> products_ = {};
 };
 
 }  // namespace gnomon::detail
@@ -5954,7 +5978,7 @@ namespace detail {
 /// The curvature of the surface z = e x + f y + a x^2 + b x y + c y^2 of a frame above its origin.
 /// Where the surface is inclined to the frame, its own tangent plane counts: S is the second
 /// fundamental form in an orthonormal basis of that plane, t1 up the gradient and t2 across.
-[[nodiscard]] inline curvature curvature_of(const quadric& q, const tangent_frame& frame) {
+[[nodiscard]] inline curvature curvature_of(const quadric& q, const height_frame& frame) {
     const double slope = std::sqrt(q.e * q.e + q.f * q.f);
     const double gx = slope > 0.0 ? q.e / slope : 1.0;
     const double gy = slope > 0.0 ? q.f / slope : 0.0;
@@ -5975,10 +5999,8 @@ namespace detail {
     result.kappa2 = s.smaller;
     const Eigen::Vector3d t1 = frame.direction(gx / w, gy / w, slope / w);
     const Eigen::Vector3d t2 = frame.direction(-gy, gx, 0.0);
-    for (int i = 0; i < 3; ++i) {
-        result.direction1[i] = s.c * t1[i] + s.s * t2[i];
-        result.direction2[i] = s.c * t2[i] - s.s * t1[i];
-    }
+    result.direction1 = combined(s.c, t1, s.s, t2);
+    result.direction2 = combined(s.c, t2, -s.s, t1);
     result.trust = frame.trust;
     return result;
 }
@@ -6004,7 +6026,7 @@ struct shape_operator_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        detail::tangent_frame frame(p, normal, ring, 5, min_aspect_ratio);
+        detail::height_frame frame(p, normal, ring, 5, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
@@ -6044,7 +6066,7 @@ struct thesis_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        const detail::tangent_frame frame(p, normal, ring, 3, min_aspect_ratio);
+        const detail::height_frame frame(p, normal, ring, 3, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
@@ -6104,25 +6126,19 @@ template <curvature_estimator C>
     return none;
 }
 
-/// One curvature per point, from the rings that ring_of(i, buffer) gives, which may use the buffer.
+/// One curvature per point, from `rings`, stored or found.
 template <execution X, class Points, curvature_estimator C>
-[[nodiscard]] auto curvatures_of(const X& run, const Points& points, auto&& ring_of,
+[[nodiscard]] auto curvatures_of(const X& run, const Points& points, auto&& rings,
                                  const auto& surface, const C& estimate) {
     require(std::ranges::size(surface) == points.size(),
             "estimate_curvature: the surface is of other points");
     std::vector<curvature_result_t<C>> result(points.size());
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         std::vector<neighbor> buffer;
-        std::vector<Eigen::Vector3d> positions;
+        ring_gatherer gather(points, "estimate_curvature: the graph lists a neighbor of no point");
         for (std::size_t i = begin; i < end; ++i) {
-            positions.clear();
-            for (const auto& q : ring_of(i, buffer)) {
-                const std::size_t j = index_in(q);
-                require(j < points.size(),
-                        "estimate_curvature: the graph lists a neighbor of no point");
-                positions.push_back(points[j]);
-            }
-            result[i] = checked_curvature(estimate, points[i], surface[i], positions);
+            const ring_view ring = gather(rings(i, buffer));
+            result[i] = checked_curvature(estimate, points[i], surface[i], ring);
         }
     });
     return result;
@@ -6152,8 +6168,7 @@ template <class R, neighborhood_graph G, normal_range Surface,
                                       Proj projection = {}) -> std::vector<curvature_result_t<C>> {
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_curvature: the graph is of other points");
-    const auto listed = [&graph](std::size_t i, auto&) -> decltype(auto) { return graph[i]; };
-    return detail::curvatures_of(run, p, listed, surface, estimate);
+    return detail::curvatures_of(run, p, detail::stored_rings(graph), surface, estimate);
 }
 
 /// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
@@ -6169,11 +6184,7 @@ template <class R, class N, normal_range Surface, curvature_estimator C = shape_
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
-        const auto found = [&search](std::size_t i, std::vector<neighbor>& ring) -> auto& {
-            search(i, ring);
-            return ring;
-        };
-        return detail::curvatures_of(run, p, found, surface, estimate);
+        return detail::curvatures_of(run, p, detail::found_rings(search), surface, estimate);
     } else {
         return estimate_curvature(points, policy(points, run, projection), surface, estimate, run,
                                   projection);
@@ -6313,7 +6324,10 @@ struct besl_jain {
 
     /// From K [1/m^2] and H [1/m]. Since K <= H^2, K > 0 tells that H is not zero, and then its
     /// sign decides even within the tolerance; `unknown` if K > 0 and H = 0, or either is NaN.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] constexpr surface_type operator()(double K, double H) const {
+        detail::require(gaussian_tolerance >= 0.0 && mean_tolerance >= 0.0,
+                        "besl_jain: the tolerances must not be negative");
         if (K != K || H != H) return surface_type::unknown;
         if (K > gaussian_tolerance) {
             if (H == 0.0) return surface_type::unknown;
@@ -6326,8 +6340,10 @@ struct besl_jain {
     }
 
     /// `unknown` if the curvature is not usable.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] surface_type operator()(const curvature& c) const {
-        return usable(c.trust) ? (*this)(c.gaussian(), c.mean()) : surface_type::unknown;
+        const surface_type type = (*this)(c.gaussian(), c.mean());
+        return usable(c.trust) ? type : surface_type::unknown;
     }
 };
 

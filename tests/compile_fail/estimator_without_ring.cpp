@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// expect: constraints? not satisfied(.|\n)*estimator|no matching function(.|\n)*estimator
+// expect: \A(?![\s\S]*neighborhood_graph)[\s\S]*deleted function[\s\S]*\bnot_an_estimator\b
+// The message must name what is wrong, the estimator, and not what is right, the neighborhood.
 #include <vector>
 
 #include <gnomon/neighborhoods/knn.hpp>

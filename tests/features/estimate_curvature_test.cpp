@@ -9,6 +9,7 @@
 
 #include "features/patches.hpp"
 #include "laws/clouds.hpp"
+#include "laws/curvature_laws.hpp"
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/estimate_curvature.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
@@ -21,12 +22,7 @@ namespace {
 
 using gnomon::curvature, gnomon::knn, gnomon::trust;
 
-using patches::zero;
-
-/// The least that a surface may consist of.
-struct only_normal {
-    Eigen::Vector3d normal;
-};
+using laws::only_normal, patches::zero;
 
 /// Gauss and Bonnet: over a closed surface like a sphere K sums up to 4 pi, however it is dented.
 /// @param axes  of an ellipsoid [m]
@@ -219,47 +215,11 @@ TEST(estimate_curvature, keeps_the_promises_that_an_estimator_breaks) {
     }
 }
 
-/// Usable is finite, with perpendicular unit directions; unusable is zero. Whatever the points and
-/// whatever the normals.
-template <class C>
-void survives_every_cloud(const C& estimate) {
-    auto all = clouds::degenerate();
-    all.push_back({"sheet", clouds::sheet(500, 1)});
-    for (const auto& [name, points] : all) {
-        SCOPED_TRACE(name);
-        for (const std::size_t k : {1u, 2u, 3u, 5u, 9u, 50u}) {
-            const auto estimated = gnomon::estimate_normals(points, knn{k}, gnomon::plane_pca{});
-            std::vector<only_normal> pca;
-            for (const auto& s : estimated) pca.push_back({s.normal});
-            const std::vector<only_normal> upright(points.size(), {patches::up});
-            const std::vector<only_normal> oblique(points.size(), {{0.6, 0.0, -0.8}});
-            for (const auto& surface : {pca, upright, oblique}) {
-                const auto result = gnomon::estimate_curvature(points, knn{k}, surface, estimate);
-                ASSERT_EQ(result.size(), points.size());
-                for (std::size_t i = 0; i < points.size(); ++i) {
-                    const curvature& c = result[i];
-                    ASSERT_TRUE(std::isfinite(c.gaussian()) && std::isfinite(c.mean()));
-                    ASSERT_GE(c.kappa1, c.kappa2);
-                    ASSERT_TRUE(c.trust == trust::not_finite || gnomon::is_finite(points[i]));
-                    const double length = gnomon::usable(c.trust) ? 1.0 : 0.0;
-                    ASSERT_NEAR(c.direction1.norm(), length, 1e-12);
-                    ASSERT_NEAR(c.direction2.norm(), length, 1e-12);
-                    ASSERT_NEAR(c.direction1.dot(c.direction2), 0.0, 1e-12);
-                    if (!gnomon::usable(c.trust)) {
-                        ASSERT_EQ(c.kappa1, 0.0);
-                        ASSERT_EQ(c.kappa2, 0.0);
-                    }
-                }
-            }
-        }
-    }
-}
-
 TEST(estimate_curvature, survives_every_cloud) {
-    survives_every_cloud(gnomon::shape_operator_curvature{});
+    laws::curvatures_are_finite_or_zero(gnomon::shape_operator_curvature{});
 }
 TEST(estimate_curvature, survives_every_cloud_by_the_thesis) {
-    survives_every_cloud(gnomon::thesis_curvature{});
+    laws::curvatures_are_finite_or_zero(gnomon::thesis_curvature{});
 }
 
 TEST(estimate_curvature, refuses_what_is_of_other_points) {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <set>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -68,6 +69,20 @@ TEST(surface_type, of_an_unusable_curvature_is_unknown) {
     gnomon::curvature flat;
     flat.trust = gnomon::trust::weak;
     EXPECT_EQ(besl_jain{}(flat), surface_type::flat);
+}
+
+TEST(surface_type, refuses_tolerances_that_are_none) {
+    for (const double t : {-1e-300, -1.0, clouds::nan}) {
+        for (const besl_jain& broken :
+             {besl_jain{.gaussian_tolerance = t}, {.mean_tolerance = t}}) {
+            EXPECT_THROW((void)broken(0.0, 0.0), std::invalid_argument);
+            EXPECT_THROW((void)broken(clouds::nan, 0.0), std::invalid_argument);
+            EXPECT_THROW((void)broken(gnomon::curvature{}), std::invalid_argument);
+        }
+    }
+    const besl_jain all_is_flat{.gaussian_tolerance = clouds::infinity,
+                                .mean_tolerance = clouds::infinity};
+    EXPECT_EQ(all_is_flat(1.0, -1.0), surface_type::flat);
 }
 
 /// Each of the eight from its patch, and from its other side the opposite one.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <limits>
 #include <stdexcept>
@@ -12,6 +13,10 @@
 #include <gnomon/neighborhoods/knn.hpp>
 
 namespace {
+
+/// Every compiler deduces the preference, though not from designated initialisers.
+static_assert(std::same_as<decltype(gnomon::adaptive_knn{5, 40, 2.0, gnomon::prefer_low_entropy{}}),
+                           gnomon::adaptive_knn<gnomon::prefer_low_entropy>>);
 
 /// Scan lines 10 cm apart with a point every 2 mm, as a vertical sweep leaves them on a wall.
 clouds::cloud scan_lines() {

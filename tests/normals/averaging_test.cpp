@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <numbers>
 
@@ -15,6 +16,11 @@ namespace {
 
 using gnomon::angle_weighted, gnomon::area_weighted, gnomon::ring_view, gnomon::triangle_sign,
     gnomon::trust;
+
+/// Every compiler deduces the weight, though not from designated initialisers.
+static_assert(
+    std::same_as<decltype(gnomon::averaging{triangle_sign::from_order, gnomon::area_weight{}}),
+                 area_weighted>);
 
 /// Eqs. (3.9)-(3.11) as they stand, in long double.
 template <class Weight>

@@ -40,6 +40,18 @@ inline laws::neighborhood_sample random_neighborhood(std::uint64_t seed,
     return {all[0], {all.begin() + 1, all.end()}, place - Eigen::Vector3d(0.3, 0.4, 2.0)};
 }
 
+/// Where few digits are left for a neighborhood [m]: UTM coordinates for doubles, a few metres from
+/// the origin for floats.
+inline Eigen::Vector3d place_of_few_digits(bool in_float) {
+    return in_float ? Eigen::Vector3d(1, 2, 0.5) : Eigen::Vector3d(6e5, 4.8e6, 100);
+}
+
+/// A random neighborhood there, in doubles for even seeds, in floats for odd ones.
+inline laws::neighborhood_sample neighborhood_of_few_digits(std::uint64_t seed) {
+    const bool in_float = seed % 2 == 1;
+    return random_neighborhood(seed, place_of_few_digits(in_float), in_float);
+}
+
 /// The rows that `row` makes of the ring, and of the point before them if `with_point`.
 inline matrix rows_of(const laws::neighborhood_sample& sample, bool with_point,
                       Eigen::Index columns, auto&& row) {
@@ -83,8 +95,7 @@ void expect_agrees_with(const E& estimate, auto&& oracle, std::size_t min_k = 3,
     int wide_gaps = 0;
     int usable = 0;
     for (const bool in_float : {false, true}) {
-        const Eigen::Vector3d place =
-            in_float ? Eigen::Vector3d(1, 2, 0.5) : Eigen::Vector3d(6e5, 4.8e6, 100);
+        const Eigen::Vector3d place = place_of_few_digits(in_float);
         for (int trial = 0; trial < trials; ++trial) {
             const auto seed = static_cast<std::uint64_t>(trial);
             // Every other one near the origin.

@@ -11,11 +11,13 @@
 
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/feature_preserving.hpp>
+#include <gnomon/normals/normal_quality.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 
 namespace {
@@ -141,6 +143,25 @@ TEST(feature_preserving, is_the_same_bytes_on_any_number_of_threads) {
             ASSERT_EQ(surface[i].neighbors, expected[i].neighbors);
         }
     }
+}
+
+/// A point off its own plane, and off everybody else's, keeps its normal.
+TEST(feature_preserving, makes_up_no_normal_for_outliers) {
+    gnomon::random_stream random(10);
+    clouds::cloud points;
+    for (int i = 0; i < 4000; ++i) points.emplace_back(random.uniform(), random.uniform(), 0.0);
+    for (int i = 0; i < 80; ++i)
+        points.emplace_back(random.uniform(), random.uniform(), random.uniform(-0.3, 0.3));
+    for (const auto& s : estimate_normals(points, feature_preserving{}))
+        ASSERT_NE(s.normal, Eigen::Vector3d(1.0, 0.0, 0.0));
+}
+
+TEST(feature_preserving, is_near_on_a_sphere) {
+    gnomon::random_stream random(11);
+    clouds::cloud points;
+    for (int i = 0; i < 4000; ++i) points.push_back(clouds::gaussian_vector(random).normalized());
+    const auto surface = estimate_normals(points, feature_preserving{});
+    EXPECT_LT(gnomon::quality_of(surface, points).rms, gnomon::degrees(2));
 }
 
 TEST(feature_preserving, survives_degenerate_clouds) {

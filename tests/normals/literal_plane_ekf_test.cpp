@@ -8,6 +8,7 @@
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
 #include <gnomon/core/random.hpp>
+#include <gnomon/normals/detail/range_of_plane.hpp>
 #include <gnomon/normals/literal_plane_ekf.hpp>
 
 namespace {
@@ -22,12 +23,12 @@ TEST(literal_plane_ekf, jacobian_agrees_with_finite_differences) {
         const Eigen::Vector3d x = clouds::gaussian_vector(random).normalized();
         const Eigen::Vector3d u = clouds::gaussian_vector(random).normalized();
         if (std::abs(u.dot(x)) < 0.2) continue;
-        const Eigen::Vector3d jacobian = gnomon::range_jacobian(centroid, x, u);
+        const Eigen::Vector3d jacobian = gnomon::detail::range_gradient(centroid, x, u);
         constexpr double h = 1e-5;
         for (int j = 0; j < 3; ++j) {
             const Eigen::Vector3d step = h * Eigen::Vector3d::Unit(j);
-            const double slope = (gnomon::predicted_range(centroid, x + step, u) -
-                                  gnomon::predicted_range(centroid, x - step, u)) /
+            const double slope = (gnomon::detail::range_of_plane(centroid, x + step, u) -
+                                  gnomon::detail::range_of_plane(centroid, x - step, u)) /
                                  (2.0 * h);
             EXPECT_NEAR(jacobian[j], slope, 1e-6 * (1.0 + std::abs(slope)));
         }

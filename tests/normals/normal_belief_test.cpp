@@ -42,6 +42,19 @@ TEST(normal_belief, nees_is_the_squared_distance_in_deviations) {
     EXPECT_EQ(nees(belief, Eigen::Vector3d::UnitZ()), 0.0);
 }
 
+/// A covariance that allows no error: as the limit of small ones.
+TEST(normal_belief, nees_of_certainty) {
+    const Eigen::Vector3d off(std::sin(1e-3), 0.0, std::cos(1e-3));
+    for (const auto& certain : {belief_in_z(0.0, 0.0, 0.0), belief_in_z(0.0, 0.1, 0.0)}) {
+        EXPECT_EQ(nees(certain, off), clouds::infinity);
+        EXPECT_EQ(nees(certain, Eigen::Vector3d::UnitZ()), 0.0);
+    }
+    const Eigen::Vector3d u(std::cos(0.7), std::sin(0.7), 0.0);
+    EXPECT_NEAR(nees(belief_in_z(2e-90, 5e-90, 0.7), Eigen::Vector3d::UnitZ() + 4e-90 * u), 4.0,
+                1e-12);
+    EXPECT_TRUE(std::isnan(nees(belief_in_z(clouds::nan, 0.1, 0.7), off)));
+}
+
 /// Drawn from its own covariance, an error has a mean NEES of two, and 5.991 is exceeded in 5 %.
 TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
     gnomon::random_stream random(1);

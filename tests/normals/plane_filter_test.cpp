@@ -16,6 +16,13 @@ namespace {
 
 using gnomon::plane_ekf, gnomon::plane_ukf, gnomon::trust;
 
+struct of_no_state {
+    gnomon::linear_range operator()(const Eigen::Vector3d& u) const;
+};
+static_assert(gnomon::range_linearization<gnomon::by_derivative>);
+static_assert(gnomon::range_linearization<gnomon::by_sigma_points>);
+static_assert(!gnomon::range_linearization<of_no_state>);
+
 /// A plane and rays that see it, at random.
 struct view {
     gnomon::plane_state state;

@@ -49,10 +49,7 @@ TEST(quad_trans_svd, agrees_with_a_dense_svd) {
     for (const int rank : {3, 6}) {
         int compared = 0;
         for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
-            const bool in_float = seed % 2 == 1;
-            const Eigen::Vector3d place =
-                in_float ? Eigen::Vector3d(1, 2, 0.5) : Eigen::Vector3d(6e5, 4.8e6, 100);
-            const auto sample = oracles::random_neighborhood(seed, place, in_float);
+            const auto sample = oracles::neighborhood_of_few_digits(seed);
             if (sample.ring.size() < 6) continue;
             const auto found = laws::estimate_one(quad_trans_svd{.rank = rank}, sample);
             const auto expected = literal_quad_trans_svd(sample, rank);

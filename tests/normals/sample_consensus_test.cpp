@@ -15,6 +15,13 @@ namespace {
 
 using gnomon::mlesac_plane, gnomon::plane_pca, gnomon::ransac_plane, gnomon::trust;
 
+struct no_cost {
+    double operator()(double sigma) const;
+};
+static_assert(gnomon::consensus_cost<gnomon::count_outliers>);
+static_assert(gnomon::consensus_cost<gnomon::mixture_likelihood>);
+static_assert(!gnomon::consensus_cost<no_cost> && !gnomon::consensus_cost<plane_pca>);
+
 /// With 30 % of outliers (specification F3).
 TEST(sample_consensus, turns_away_from_outliers) {
     const double pca = outliers::mean_gamma_with(plane_pca{}, 0.3);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <concepts>
 #include <cstdint>
 #include <stdexcept>
 #include <vector>
@@ -18,6 +19,10 @@
 namespace {
 
 using gnomon::plane_pca, gnomon::trust, gnomon::with_covariance;
+
+/// Every compiler deduces the estimator, though not from designated initialisers.
+static_assert(
+    std::same_as<decltype(with_covariance{0.01, plane_pca{}}), with_covariance<plane_pca>>);
 
 /// Against the spread of the normals themselves under many draws of the noise.
 TEST(with_covariance, is_the_spread_of_the_normals) {
@@ -46,6 +51,39 @@ TEST(with_covariance, is_the_spread_of_the_normals) {
             spread += d * d.transpose() / draws;
         }
         EXPECT_LT((expected.covariance - spread).norm(), 0.05 * spread.norm());
+    }
+}
+
+/// Oracle: the derivative of PlanePCA's normal by the range of each point, by differences. The
+/// points lie up to a third as far across their plane as within it, so that the variance across
+/// counts; all rays are parallel to the normal, so that nothing else does.
+TEST(with_covariance, is_the_derivative_of_the_normal) {
+    constexpr double sigma = 1e-4;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        SCOPED_TRACE(seed);
+        gnomon::random_stream random(seed, 8);
+        clouds::cloud points;
+        for (int i = 0; i < 30; ++i) {
+            const Eigen::Vector3d d = clouds::gaussian_vector(random);
+            points.push_back({0.1 * d.x(), 0.08 * d.y(), 0.025 * d.z()});
+        }
+        const auto normal_of = [](const clouds::cloud& q) {
+            return plane_pca{}(q[0], std::span(q).subspan(1)).normal;
+        };
+        const Eigen::Vector3d n = normal_of(points);
+        Eigen::Matrix3d expected = Eigen::Matrix3d::Zero();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            constexpr double h = 1e-5;
+            clouds::cloud farther = points;
+            clouds::cloud nearer = points;
+            farther[i] += h * n;
+            nearer[i] -= h * n;
+            const Eigen::Vector3d slope = (normal_of(farther) - normal_of(nearer)) / (2.0 * h);
+            expected += sigma * sigma * slope * slope.transpose();
+        }
+        const auto belief = with_covariance<plane_pca>{.sigma = sigma}(
+            points[0], std::span(points).subspan(1), points[0] - 1e6 * n);
+        EXPECT_LT((belief.covariance - expected).norm(), 1e-5 * expected.norm());
     }
 }
 

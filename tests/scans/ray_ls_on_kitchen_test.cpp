@@ -3,11 +3,10 @@
 // does not, on dense scans of the kitchen, whichever way the scanner moves. The whole table is
 // printed by benchmarks/normals/ray_ls_against_plane_pca.
 #include <cstddef>
-#include <cstdint>
-#include <vector>
 
 #include <gtest/gtest.h>
 
+#include "scans/sampled_rings.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -17,23 +16,11 @@ namespace {
 void expect_ahead(const auto& trajectory, const gnomon::scene& world, double sigma) {
     const auto truth =
         gnomon::simulate(world, trajectory, gnomon::densities::high(), {.sigma = sigma, .seed = 1});
-    const auto& points = truth.scan.points;
-    const auto search = gnomon::knn{.k = 50}.search(points);
+    const auto rings = sampled::rings_of(truth.scan, gnomon::knn{.k = 50}, 8);
     for (const std::size_t k : {15u, 30u, 50u}) {
-        double ray = 0.0;
-        double pca = 0.0;
-        std::vector<gnomon::neighbor> found;
-        std::vector<Eigen::Vector3d> ring;
-        for (std::size_t i = 0; i < points.size(); i += 8) {
-            search(i, found);
-            ring.clear();
-            for (std::size_t j = 0; j < k; ++j) ring.push_back(points[found[j].index]);
-            const auto& n = truth.normals[i];
-            ray += gnomon::gamma(gnomon::ray_ls{}(points[i], ring, truth.scan.viewpoints[i]).normal,
-                                 n);
-            pca += gnomon::gamma(gnomon::plane_pca{}(points[i], ring).normal, n);
-        }
-        EXPECT_GT(ray, pca) << "k = " << k << " sigma = " << sigma;
+        EXPECT_GT(sampled::mean_gamma(gnomon::ray_ls{}, truth, rings, k),
+                  sampled::mean_gamma(gnomon::plane_pca{}, truth, rings, k))
+            << "k = " << k << " sigma = " << sigma;
     }
 }
 

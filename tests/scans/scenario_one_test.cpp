@@ -8,18 +8,17 @@
 #include <cstdio>
 #include <map>
 #include <string>
-#include <vector>
 
 #include <boost/hana/for_each.hpp>
 #include <gtest/gtest.h>
 
+#include "scans/sampled_rings.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/normals/registry.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace {
 
-constexpr std::size_t every = 5;
 constexpr int seeds = 5;
 
 /// Mean gamma by method: of the seven of the thesis.
@@ -31,30 +30,9 @@ ranking rank(const auto& policy, double sigma) {
     for (int seed = 1; seed <= seeds; ++seed) {
         const auto truth = gnomon::simulate(
             gnomon::box_and_cylinder{.sigma = sigma, .seed = static_cast<std::uint64_t>(seed)});
-        const auto search = policy.search(truth.scan);
-        std::vector<std::vector<gnomon::neighbor>> rings(truth.scan.size());
-        std::vector<gnomon::ring_note> notes(truth.scan.size());
-        for (std::size_t i = 0; i < rings.size(); i += every)
-            notes[i] = gnomon::search_noted(search, i, rings[i]);
+        const auto rings = sampled::rings_of(truth.scan, policy, 5);
         boost::hana::for_each(gnomon::thesis_estimators, [&](const auto& e) {
-            double sum = 0.0;
-            std::size_t n = 0;
-            std::vector<Eigen::Vector3d> ring;
-            for (std::size_t i = 0; i < rings.size(); i += every) {
-                ring.clear();
-                for (const auto& q : rings[i]) ring.push_back(truth.scan.points[q.index]);
-                const gnomon::ring_view view(ring, notes[i].open);
-                const Eigen::Vector3d& p = truth.scan.points[i];
-                Eigen::Vector3d normal;
-                if constexpr (gnomon::ray_estimator<std::remove_cvref_t<decltype(e.policy)>>) {
-                    normal = e.policy(p, view, truth.scan.viewpoints[i]).normal;
-                } else {
-                    normal = e.policy(p, view).normal;
-                }
-                sum += gnomon::gamma(normal, truth.normals[i]);
-                ++n;
-            }
-            gammas[e.name] += sum / static_cast<double>(n) / seeds;
+            gammas[e.name] += sampled::mean_gamma(e.policy, truth, rings) / seeds;
         });
     }
     return gammas;

@@ -2,13 +2,13 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <numbers>
 #include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "simulation/beams.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/detail/instrument.hpp>
@@ -16,127 +16,10 @@
 
 namespace {
 
+using beams::ahead, beams::readings, beams::step, beams::wall;
 using gnomon::beam;
-using gnomon::beam_footprint;
 using gnomon::echo;
 using gnomon::echo_rule;
-using gnomon::detail::instrument;
-
-/// A wall across the x axis.
-struct wall {
-    double range;
-    double cosine = 1.0;  ///< of the incidence, as its normal says
-
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
-        const double t = (range - r.origin.x()) / r.direction.x();
-        if (!(t > 0.0 && t <= r.reach)) return std::nullopt;
-        return gnomon::ray_hit{t, {-cosine, std::sqrt(1 - cosine * cosine), 0}, 0};
-    }
-};
-
-/// Two walls: the near one where y > edge.
-struct step {
-    double near;
-    double far;
-    double edge = 0.0;
-
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
-        const double t = (near - r.origin.x()) / r.direction.x();
-        if (r.origin.y() + t * r.direction.y() > edge) return gnomon::ray_hit{t, {-1, 0, 0}, 0};
-        return gnomon::ray_hit{(far - r.origin.x()) / r.direction.x(), {-1, 0, 0}, 1};
-    }
-};
-
-const gnomon::ray ahead{{0, 0, 0}, {1, 0, 0}};
-
-template <class C>
-auto readings(const C& caster, const beam& b, std::size_t n, double max_range = 10.0) {
-    const instrument<C> read(caster, b, 0.0, max_range);
-    std::vector<typename instrument<C>::reading> all;
-    for (std::size_t i = 0; i < n; ++i)
-        all.push_back(read(ahead, gnomon::random_stream(b.seed, i)));
-    return all;
-}
-
-double deviation(const auto& all, double truth) {
-    double sum = 0.0;
-    for (const auto& r : all) sum += (r.range - truth) * (r.range - truth);
-    return std::sqrt(sum / static_cast<double>(all.size()));
-}
-
-TEST(instrument, tells_the_truth_by_default) {
-    for (const auto& r : readings(wall{3.3}, {}, 100)) {
-        EXPECT_EQ(r.range, 3.3);
-        EXPECT_EQ(r.kind, echo::surface);
-    }
-}
-
-TEST(instrument, scatters_by_sigma) {
-    for (const double sigma : {0.005, 0.015, 0.030}) {
-        EXPECT_NEAR(deviation(readings(wall{3.3}, {.sigma = sigma}, 100'000), 3.3), sigma,
-                    0.02 * sigma);
-    }
-}
-
-TEST(instrument, scatters_more_far_away_and_at_grazing_incidence) {
-    const beam with_range{.sigma = 0.003, .sigma_per_meter = 0.002};
-    EXPECT_NEAR(deviation(readings(wall{4.0}, with_range, 100'000), 4.0), std::hypot(0.003, 0.008),
-                0.02 * 0.0085);
-    // w = 4 mm; tan(incidence) = sqrt(3).
-    const beam grazing{
-        .sigma = 0.001,
-        .grazing = 1.0,
-        .footprint = {.divergence = gnomon::radians(2 * std::atan(0.001)), .sub_rays = 1}};
-    const double expected = std::hypot(0.001, 0.5 * 0.004 * std::sqrt(3.0));
-    EXPECT_NEAR(deviation(readings(wall{4.0, 0.5}, grazing, 100'000), 4.0), expected,
-                0.02 * expected);
-}
-
-/// Fig. 2.13: the histogram of readings against the mixture, by chi-square with 40 bins and one
-/// more for the maximum range. With twenty tests one falls below p = 0.01 now and then; none may
-/// fall below 0.01 / 20 (76.09 with 40 degrees of freedom), nor the sum of ten below 0.01 (468.7
-/// with 400).
-TEST(instrument, readings_follow_the_mixture) {
-    constexpr double max_range = 10.0;
-    constexpr int n = 20'000;
-    constexpr int bins = 40;
-    for (const double truth : {2.0, 6.5}) {
-        double sum = 0.0;
-        for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-            const beam b{.sigma = 0.3, .clutter = 0.2, .failure = 0.1, .seed = seed};
-            std::vector<double> count(bins + 1, 0.0);
-            for (const auto& r : readings(wall{truth}, b, n, max_range)) {
-                if (r.kind == echo::none) {
-                    EXPECT_EQ(r.range, max_range);
-                    ++count[bins];
-                } else {
-                    const auto cell = static_cast<std::size_t>(r.range / max_range * bins);
-                    ++count[std::min<std::size_t>(cell, bins - 1)];
-                }
-            }
-            const auto below = [&](double r) {
-                const double gauss = 0.5 * std::erfc((truth - r) / (0.3 * std::numbers::sqrt2));
-                return 0.2 * r / max_range + 0.7 * gauss;
-            };
-            double chi_square = std::pow(count[bins] - 0.1 * n, 2) / (0.1 * n);
-            for (int k = 0; k < bins; ++k) {
-                const double expected =
-                    n * (below(max_range * (k + 1) / bins) - below(max_range * k / bins));
-                chi_square += std::pow(count[static_cast<std::size_t>(k)] - expected, 2) / expected;
-            }
-            EXPECT_LT(chi_square, 76.09) << "seed " << seed << ", range " << truth;
-            sum += chi_square;
-        }
-        EXPECT_LT(sum, 468.7) << "range " << truth;
-    }
-}
-
-TEST(instrument, fails_where_nothing_is) {
-    for (const auto& r : readings(wall{20.0}, {.sigma = 0.01}, 10)) {
-        EXPECT_EQ(r.kind, echo::none);
-        EXPECT_FALSE(r.hit);
-    }
-}
 
 beam wide(echo_rule rule, int sub_rays = 37) {
     return {.footprint = {.divergence = gnomon::radians(2 * std::atan(0.003)),
@@ -303,23 +186,6 @@ TEST(instrument, footprint_is_as_wide_as_it_says) {
             static_cast<std::size_t>((1.0 - std::exp(-2.0)) * static_cast<double>(off_axis.size()));
         EXPECT_NEAR(off_axis[within], b.footprint.radius(range), 0.01 * b.footprint.radius(range));
     }
-}
-
-/// Noise does not carry a reading beyond what the scanner sees.
-TEST(instrument, reports_no_range_that_the_scanner_cannot_see) {
-    const wall w{2.0};
-    const instrument<wall> read(w, {.sigma = 0.3}, 1.8, 2.1);
-    int failed = 0;
-    for (std::uint64_t i = 0; i < 2000; ++i) {
-        const auto r = read(ahead, gnomon::random_stream(1, i));
-        if (r.kind == echo::none) {
-            ++failed;
-            continue;
-        }
-        EXPECT_GE(r.range, 1.8);
-        EXPECT_LE(r.range, 2.1);
-    }
-    EXPECT_NEAR(failed, 2000 * 0.62, 100);  // Phi(-2/3) + 1 - Phi(1/3)
 }
 
 }  // namespace

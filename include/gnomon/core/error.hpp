@@ -34,7 +34,7 @@ namespace detail {
 
 /// Checks an argument at a public door, in constant time.
 /// @throws std::invalid_argument  with `message` unless `condition` holds
-inline void require(bool condition, const char* message) {
+constexpr void require(bool condition, const char* message) {
     if (!condition) throw std::invalid_argument(message);
 }
 

@@ -121,4 +121,14 @@ template <std::size_t N>
     return e;
 }
 
+namespace detail {
+
+/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
+/// which whatever is not finite shows.
+[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
+    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
+}
+
+}  // namespace detail
+
 }  // namespace gnomon

@@ -27,8 +27,9 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/trust.hpp>
+#include <gnomon/features/detail/eigen_2x2.hpp>
+#include <gnomon/features/detail/height_frame.hpp>
 #include <gnomon/features/detail/quadric_fit.hpp>
-#include <gnomon/features/detail/tangent_frame.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -67,7 +68,7 @@ namespace detail {
 /// The curvature of the surface z = e x + f y + a x^2 + b x y + c y^2 of a frame above its origin.
 /// Where the surface is inclined to the frame, its own tangent plane counts: S is the second
 /// fundamental form in an orthonormal basis of that plane, t1 up the gradient and t2 across.
-[[nodiscard]] inline curvature curvature_of(const quadric& q, const tangent_frame& frame) {
+[[nodiscard]] inline curvature curvature_of(const quadric& q, const height_frame& frame) {
     const double slope = std::sqrt(q.e * q.e + q.f * q.f);
     const double gx = slope > 0.0 ? q.e / slope : 1.0;
     const double gy = slope > 0.0 ? q.f / slope : 0.0;
@@ -88,10 +89,8 @@ namespace detail {
     result.kappa2 = s.smaller;
     const Eigen::Vector3d t1 = frame.direction(gx / w, gy / w, slope / w);
     const Eigen::Vector3d t2 = frame.direction(-gy, gx, 0.0);
-    for (int i = 0; i < 3; ++i) {
-        result.direction1[i] = s.c * t1[i] + s.s * t2[i];
-        result.direction2[i] = s.c * t2[i] - s.s * t1[i];
-    }
+    result.direction1 = combined(s.c, t1, s.s, t2);
+    result.direction2 = combined(s.c, t2, -s.s, t1);
     result.trust = frame.trust;
     return result;
 }
@@ -117,7 +116,7 @@ struct shape_operator_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        detail::tangent_frame frame(p, normal, ring, 5, min_aspect_ratio);
+        detail::height_frame frame(p, normal, ring, 5, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
@@ -157,7 +156,7 @@ struct thesis_curvature {
 
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                        ring_view ring) const {
-        const detail::tangent_frame frame(p, normal, ring, 3, min_aspect_ratio);
+        const detail::height_frame frame(p, normal, ring, 3, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;

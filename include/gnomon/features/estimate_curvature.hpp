@@ -21,7 +21,7 @@
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/curvature.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/detail/ring_gatherer.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -58,25 +58,19 @@ template <curvature_estimator C>
     return none;
 }
 
-/// One curvature per point, from the rings that ring_of(i, buffer) gives, which may use the buffer.
+/// One curvature per point, from `rings`, stored or found.
 template <execution X, class Points, curvature_estimator C>
-[[nodiscard]] auto curvatures_of(const X& run, const Points& points, auto&& ring_of,
+[[nodiscard]] auto curvatures_of(const X& run, const Points& points, auto&& rings,
                                  const auto& surface, const C& estimate) {
     require(std::ranges::size(surface) == points.size(),
             "estimate_curvature: the surface is of other points");
     std::vector<curvature_result_t<C>> result(points.size());
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         std::vector<neighbor> buffer;
-        std::vector<Eigen::Vector3d> positions;
+        ring_gatherer gather(points, "estimate_curvature: the graph lists a neighbor of no point");
         for (std::size_t i = begin; i < end; ++i) {
-            positions.clear();
-            for (const auto& q : ring_of(i, buffer)) {
-                const std::size_t j = index_in(q);
-                require(j < points.size(),
-                        "estimate_curvature: the graph lists a neighbor of no point");
-                positions.push_back(points[j]);
-            }
-            result[i] = checked_curvature(estimate, points[i], surface[i], positions);
+            const ring_view ring = gather(rings(i, buffer));
+            result[i] = checked_curvature(estimate, points[i], surface[i], ring);
         }
     });
     return result;
@@ -106,8 +100,7 @@ template <class R, neighborhood_graph G, normal_range Surface,
                                       Proj projection = {}) -> std::vector<curvature_result_t<C>> {
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_curvature: the graph is of other points");
-    const auto listed = [&graph](std::size_t i, auto&) -> decltype(auto) { return graph[i]; };
-    return detail::curvatures_of(run, p, listed, surface, estimate);
+    return detail::curvatures_of(run, p, detail::stored_rings(graph), surface, estimate);
 }
 
 /// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
@@ -123,11 +116,7 @@ template <class R, class N, normal_range Surface, curvature_estimator C = shape_
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
-        const auto found = [&search](std::size_t i, std::vector<neighbor>& ring) -> auto& {
-            search(i, ring);
-            return ring;
-        };
-        return detail::curvatures_of(run, p, found, surface, estimate);
+        return detail::curvatures_of(run, p, detail::found_rings(search), surface, estimate);
     } else {
         return estimate_curvature(points, policy(points, run, projection), surface, estimate, run,
                                   projection);

@@ -14,6 +14,7 @@
 
 #include <cstdint>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/curvature.hpp>
 
@@ -68,7 +69,10 @@ struct besl_jain {
 
     /// From K [1/m^2] and H [1/m]. Since K <= H^2, K > 0 tells that H is not zero, and then its
     /// sign decides even within the tolerance; `unknown` if K > 0 and H = 0, or either is NaN.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] constexpr surface_type operator()(double K, double H) const {
+        detail::require(gaussian_tolerance >= 0.0 && mean_tolerance >= 0.0,
+                        "besl_jain: the tolerances must not be negative");
         if (K != K || H != H) return surface_type::unknown;
         if (K > gaussian_tolerance) {
             if (H == 0.0) return surface_type::unknown;
@@ -81,8 +85,10 @@ struct besl_jain {
     }
 
     /// `unknown` if the curvature is not usable.
+    /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] surface_type operator()(const curvature& c) const {
-        return usable(c.trust) ? (*this)(c.gaussian(), c.mean()) : surface_type::unknown;
+        const surface_type type = (*this)(c.gaussian(), c.mean());
+        return usable(c.trust) ? type : surface_type::unknown;
     }
 };
 

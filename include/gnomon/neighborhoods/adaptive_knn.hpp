@@ -25,6 +25,7 @@
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/tree_search.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
@@ -105,66 +106,45 @@ struct adaptive_knn {
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
+        detail::require(growth >= 1.1 && std::isfinite(growth),
+                        "adaptive_knn: growth must be at least 1.1");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
-};
 
-namespace detail {
-
-/// Models `neighbor_search`.
-template <class Policy, class R, class Proj>
-class adaptive_search {
-  public:
-    adaptive_search(const Policy& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    void operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return;
-        tree_.nearest(p, policy_.max_k, i, ring);
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
+              std::vector<neighbor>& ring) const {
+        const Eigen::Vector3d p = points[i];
+        tree.nearest(p, max_k, i, ring);
 
         moments m;
-        std::size_t best = std::min(policy_.min_k, ring.size());
+        std::size_t best = std::min(min_k, ring.size());
         double least = std::numeric_limits<double>::infinity();
-        double wanted = static_cast<double>(policy_.min_k);
+        double wanted = static_cast<double>(min_k);
         while (m.count < ring.size()) {
             wanted = std::min(wanted, static_cast<double>(ring.size()));
             const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
-            while (m.count < k) m.add(detail::difference(points_[ring[m.count].index], p));
+            while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
-            if (!std::isfinite(covariance(0, 0) + covariance(1, 1) + covariance(2, 2))) break;
-            const double cost = policy_.preference(neighborhood_shape{
+            if (!detail::has_finite_trace(covariance)) break;
+            const double cost = preference(neighborhood_shape{
                 k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
             if (cost < least) {
                 least = cost;
                 best = k;
             }
-            wanted = std::max(wanted * policy_.growth, wanted + 1.0);
+            wanted = std::max(wanted * growth, wanted + 1.0);
         }
         ring.resize(best, {});
     }
-
-  private:
-    Policy policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
 };
 
-}  // namespace detail
-
-template <size_preference Preference>
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto adaptive_knn<Preference>::search(const R& points, Proj projection) const {
-    detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
-    detail::require(growth >= 1.1 && std::isfinite(growth),
-                    "adaptive_knn: growth must be at least 1.1");
-    return detail::adaptive_search<adaptive_knn, R, Proj>(*this, points, std::move(projection));
-}
+template <class Preference>
+adaptive_knn(std::size_t, std::size_t, double, Preference) -> adaptive_knn<Preference>;
 
 }  // namespace gnomon

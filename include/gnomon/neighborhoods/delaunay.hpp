@@ -26,6 +26,7 @@
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/delaunay_star.hpp>
 #include <gnomon/neighborhoods/detail/tangent_plane.hpp>
+#include <gnomon/neighborhoods/detail/tree_search.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
@@ -49,76 +50,57 @@ struct delaunay {
     /// @throws std::invalid_argument  if k is under 3
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const;
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        detail::require(k >= 3, "delaunay: k must be at least 3");
+        return detail::tree_search(*this, points, std::move(projection));
+    }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
+
+    /// The ring of the finite point i.
+    ring_note find(const kd_tree& tree, const auto& points, std::size_t i,
+                   std::vector<neighbor>& ring) const;
 };
 
-namespace detail {
-
-/// Models `annotated_search`.
-template <class R, class Proj>
-class delaunay_search {
-  public:
-    delaunay_search(const delaunay& policy, const R& points, Proj projection)
-        : policy_(policy), points_(points, projection), tree_(points, std::move(projection)) {}
-
-    [[nodiscard]] std::size_t size() const { return points_.size(); }
-
-    ring_note operator()(std::size_t i, std::vector<neighbor>& ring) const {
-        // Kept between calls, so that no point costs an allocation.
-        static thread_local std::vector<planar_point> star;
-        ring.clear();
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p)) return {.open = true, .certified = false};
-        std::size_t k = policy_.k;
-        tree_.nearest(p, k, i, ring);
-        // Of neighbors that all coincide with the point there is no plane: look farther.
-        const auto all_seen = [&] { return ring.size() < k; };
-        tangent_plane plane(points_, p, ring);
-        int doubling = 0;
-        for (; !plane.exists() && !all_seen() && doubling < policy_.max_doublings; ++doubling) {
-            tree_.nearest(p, k *= 2, i, ring);
-            plane = tangent_plane(points_, p, ring);
-        }
-        if (!plane.exists()) {
-            ring.clear();
-            return {.open = true, .certified = false};
-        }
-        ring_note note;
-        for (;; ++doubling) {
-            star.clear();
-            for (const neighbor& q : ring) star.push_back(plane.project(points_[q.index], q.index));
-            note.open = reduce_to_star(static_cast<point_index>(i), star);
-            if (note.open) break;
-            constexpr double rounding = 1.0 + 1e-9;
-            note.certified = all_seen() || 4.0 * rounding * largest_squared_circumradius(star) <=
-                                               plane.projected(ring.back().squared_distance);
-            if (note.certified || all_seen() || doubling >= policy_.max_doublings) break;
-            tree_.nearest(p, k *= 2, i, ring);
-            plane.rescale(points_, ring);
-        }
-        note.certified = note.certified && !note.open && plane.is_determined();
-        ring.clear();
-        for (const planar_point& q : star)
-            ring.push_back({squared_distance(p, points_[q.index]), q.index});
-        return note;
+ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
+                         std::vector<neighbor>& ring) const {
+    // Kept between calls, so that no point costs an allocation.
+    static thread_local std::vector<detail::planar_point> star;
+    const Eigen::Vector3d p = points[i];
+    std::size_t wanted = k;
+    tree.nearest(p, wanted, i, ring);
+    // Of neighbors that all coincide with the point there is no plane: look farther.
+    const auto all_seen = [&] { return ring.size() < wanted; };
+    detail::tangent_plane plane(points, p, ring);
+    int doubling = 0;
+    for (; !plane.exists() && !all_seen() && doubling < max_doublings; ++doubling) {
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane = detail::tangent_plane(points, p, ring);
     }
-
-  private:
-    delaunay policy_;
-    position_view<R, Proj> points_;
-    kd_tree tree_;
-};
-
-}  // namespace detail
-
-template <class R, class Proj>
-    requires point_range<R, Proj>
-auto delaunay::search(const R& points, Proj projection) const {
-    detail::require(k >= 3, "delaunay: k must be at least 3");
-    return detail::delaunay_search<R, Proj>(*this, points, std::move(projection));
+    if (!plane.exists()) {
+        ring.clear();
+        return {.open = true, .certified = false};
+    }
+    ring_note note;
+    for (;; ++doubling) {
+        star.clear();
+        for (const neighbor& q : ring) star.push_back(plane.project(points[q.index], q.index));
+        note.open = detail::reduce_to_star(static_cast<point_index>(i), star);
+        if (note.open) break;
+        constexpr double rounding = 1.0 + 1e-9;
+        note.certified =
+            all_seen() || 4.0 * rounding * detail::largest_squared_circumradius(star) <=
+                              plane.projected(ring.back().squared_distance);
+        if (note.certified || all_seen() || doubling >= max_doublings) break;
+        tree.nearest(p, wanted *= 2, i, ring);
+        plane.rescale(points, ring);
+    }
+    note.certified = note.certified && !note.open && plane.is_determined();
+    ring.clear();
+    for (const detail::planar_point& q : star)
+        ring.push_back({squared_distance(p, points[q.index]), q.index});
+    return note;
 }
 
 }  // namespace gnomon

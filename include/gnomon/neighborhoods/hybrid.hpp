@@ -10,8 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -43,16 +41,16 @@ struct hybrid {
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "hybrid: k must be at least 1");
         detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
-        return detail::tree_search<hybrid, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring);
+        tree.nearest(points[i], k, i, ring);
         while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
     }
 };

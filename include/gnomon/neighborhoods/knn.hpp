@@ -9,8 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -42,16 +40,16 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        return detail::tree_search<knn, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.nearest(p, k, i, ring, ties);
+        tree.nearest(points[i], k, i, ring, ties);
     }
 };
 

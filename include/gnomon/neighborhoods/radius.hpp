@@ -11,8 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -42,16 +40,17 @@ struct radius {
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
         detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
-        return detail::tree_search<radius, R, Proj>(*this, points, std::move(projection));
+        return detail::tree_search(*this, points, std::move(projection));
     }
 
     template <class R, class Proj = std::identity>
     void search(const R&& points, Proj projection = {}) const = delete;
 
-    /// The ring of point i at p.
-    void find(const kd_tree& tree, const Eigen::Vector3d& p, std::size_t i,
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
-        tree.for_each_within(p, r, [&](const neighbor& q) {
+        ring.clear();
+        tree.for_each_within(points[i], r, [&](const neighbor& q) {
             if (q.index != i) ring.push_back(q);
         });
         std::sort(ring.begin(), ring.end());

@@ -24,6 +24,7 @@
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/normals/detail/ring_gatherer.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
 
@@ -76,7 +77,7 @@ std::size_t repair_anisotropic(const R& points, std::vector<surfel<estimate_t<E>
         if (wider.k >= p.size()) break;  // there are no more neighbors to be had
         wider.k *= 2;
         const auto found = [&](std::size_t i, std::vector<neighbor>& buffer) {
-            wider.find(tree, p[i], i, buffer);
+            wider.find(tree, p, i, buffer);
             return detail::noted_ring<const std::vector<neighbor>&>{buffer, {}};
         };
         const auto index_of = [&flagged](std::size_t f) { return flagged[f]; };

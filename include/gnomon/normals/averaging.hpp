@@ -86,6 +86,9 @@ struct averaging {
     }
 };
 
+template <class Weight>
+averaging(triangle_sign, Weight) -> averaging<Weight>;
+
 /// All triangles alike. Gouraud 1971.
 struct equal_weight {
     double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return 1.0; }

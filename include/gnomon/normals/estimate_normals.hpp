@@ -22,6 +22,7 @@
 #include <gnomon/core/trust.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/normals/detail/ring_gatherer.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
@@ -35,26 +36,19 @@ struct surfel : Estimate {
 
 namespace detail {
 
-[[nodiscard]] inline point_index index_in(point_index i) { return i; }
-[[nodiscard]] inline point_index index_in(const neighbor& q) { return q.index; }
-
-/// A ring as a graph or a search gives it (a view, or a reference), with what is known of it.
-template <class Ring>
-struct noted_ring {
-    Ring members;
-    ring_note note = {};
-};
-
 /// Makes surface elements of the points of a position_view one by one, through one buffer.
 template <estimator E, class Points>
 class surfel_maker {
   public:
     surfel_maker(const E& estimate, const Points& points, const viewpoint_table& viewpoints)
-        : estimate_(estimate), points_(points), viewpoints_(viewpoints) {}
+        : estimate_(estimate),
+          points_(points),
+          viewpoints_(viewpoints),
+          gather_(points, "estimate_normals: the graph lists a neighbor of no point") {}
 
-    /// The surface element of point i with the neighbors in `ring`.
+    /// The surface element of point i, whose ring `noted` is.
     template <class Ring>
-    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& ring) {
+    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& noted) {
         const Eigen::Vector3d p = points_[i];
         surfel<estimate_t<E>> s;
         if (!is_finite(p)) {
@@ -62,22 +56,17 @@ class surfel_maker {
             s.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
             return s;
         }
-        positions_.clear();
-        for (const auto& q : ring.members) {
-            const std::size_t j = index_in(q);
-            require(j < points_.size(), "estimate_normals: the graph lists a neighbor of no point");
-            positions_.push_back(points_[j]);
-        }
-        static_cast<estimate_t<E>&>(s) = checked(i, p, ring.note.open);
-        s.neighbors = static_cast<point_index>(positions_.size());
-        if (!positions_.empty()) {
-            for (const Eigen::Vector3d& q : positions_) {
+        const ring_view ring = gather_(noted);
+        static_cast<estimate_t<E>&>(s) = checked(i, p, ring);
+        s.neighbors = static_cast<point_index>(ring.size());
+        if (!ring.empty()) {
+            for (const Eigen::Vector3d& q : ring) {
                 s.mean_distance += std::sqrt(squared_distance(q, p));
             }
-            s.mean_distance /= static_cast<double>(positions_.size());
+            s.mean_distance /= static_cast<double>(ring.size());
         }
         const bool coarse = resolution(p) > coarseness * s.mean_distance;
-        if (s.trust == trust::good && (coarse || !ring.note.certified)) s.trust = trust::weak;
+        if (s.trust == trust::good && (coarse || !noted.note.certified)) s.trust = trust::weak;
         return s;
     }
 
@@ -93,12 +82,12 @@ class surfel_maker {
 
     /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
     /// unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, bool open) const {
+    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw(i, p, ring_view(positions_, open));
+            e = raw(i, p, ring);
         } else {
-            e.normal = position(raw(i, p, ring_view(positions_, open)));
+            e.normal = position(raw(i, p, ring));
             e.trust = trust::good;
         }
         if constexpr (ray_estimator<E>) {
@@ -125,21 +114,20 @@ class surfel_maker {
     const E& estimate_;
     const Points& points_;
     const viewpoint_table& viewpoints_;
-    std::vector<Eigen::Vector3d> positions_;
+    ring_gatherer<Points> gather_;
 };
 
-/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from the noted rings that
-/// ring_of(i, buffer) gives, which may use the buffer.
+/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
 template <execution X, estimator E, class Points>
 void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points,
-                 const viewpoint_table& viewpoints, auto&& ring_of, const E& estimate,
+                 const viewpoint_table& viewpoints, auto&& rings, const E& estimate,
                  std::vector<surfel<estimate_t<E>>>& surface) {
     for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
         surfel_maker<E, Points> make(estimate, points, viewpoints);
         std::vector<neighbor> buffer;
         for (std::size_t j = begin; j < end; ++j) {
             const std::size_t i = index_of(j);
-            surface[i] = make(i, ring_of(i, buffer));
+            surface[i] = make(i, rings(i, buffer));
         }
     });
 }
@@ -170,11 +158,8 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: the graph is of other points");
     std::vector<surfel<estimate_t<E>>> surface(p.size());
-    const auto ring_of = [&graph](std::size_t i, auto&) {
-        return detail::noted_ring<decltype(graph[i])>{graph[i], note_of(graph, i)};
-    };
-    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of, estimate,
-                        surface);
+    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+                        detail::stored_rings(graph), estimate, surface);
     return surface;
 }
 
@@ -190,17 +175,21 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
-        const auto ring_of = [&search](std::size_t i, std::vector<neighbor>& buffer) {
-            const ring_note note = search_noted(search, i, buffer);
-            return detail::noted_ring<const std::vector<neighbor>&>{buffer, note};
-        };
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points), ring_of,
-                            estimate, surface);
+        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+                            detail::found_rings(search), estimate, surface);
         return surface;
     } else {
         return estimate_normals(points, policy(points, run, projection), estimate, run, projection);
     }
 }
+
+/// Refused: an estimator is called as e(point, ring) or e(point, ring, viewpoint) and gives a
+/// `normal_estimate` or a bare 3-vector. Without this, compilers would first complain that a policy
+/// is no graph.
+template <class R, class N, class E>
+    requires(!estimator<E>)
+void estimate_normals(const R& points, const N& neighborhood, const E& not_an_estimator,
+                      const auto&... others) = delete;
 
 }  // namespace gnomon

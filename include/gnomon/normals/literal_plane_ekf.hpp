@@ -18,26 +18,12 @@
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/range_of_plane.hpp>
 #include <gnomon/normals/detail/require_sigma.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 
 namespace gnomon {
-
-/// h(x) of Eq. (3.17): the range [m] at which the unit ray u meets the plane through `centroid` [m]
-/// with the normal x of any length.
-[[nodiscard]] inline double predicted_range(const Eigen::Vector3d& centroid,
-                                            const Eigen::Vector3d& x, const Eigen::Vector3d& u) {
-    return detail::dot(centroid, x) / detail::dot(u, x);
-}
-
-/// dh/dx of Eq. (3.18).
-[[nodiscard]] inline Eigen::Vector3d range_jacobian(const Eigen::Vector3d& centroid,
-                                                    const Eigen::Vector3d& x,
-                                                    const Eigen::Vector3d& u) {
-    const double ux = detail::dot(u, x);
-    return detail::combined(1.0 / ux, centroid, -detail::dot(centroid, x) / (ux * ux), u);
-}
 
 /// Models `ray_estimator`. Needs two neighbors. O(passes k). The covariance is that of the
 /// algorithm, made one of the unit normal.
@@ -73,8 +59,8 @@ struct literal_plane_ekf {
         const auto take_in = [&](const Eigen::Vector3d& q) {
             const double range = length(q);
             const Eigen::Vector3d u = scaled(1.0 / range, q);                 // line 4
-            const double h = predicted_range(centroid, x, u);                 // line 5
-            const Eigen::Vector3d jacobian = range_jacobian(centroid, x, u);  // line 6
+            const double h = range_of_plane(centroid, x, u);                  // line 5
+            const Eigen::Vector3d jacobian = range_gradient(centroid, x, u);  // line 6
             const Eigen::Vector3d ph = product(covariance, jacobian);
             const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
             x = combined(1.0, x, (range - h) * gain, ph);                   // line 8

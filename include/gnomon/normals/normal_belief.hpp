@@ -7,7 +7,9 @@
 /// Klasing 2010, Sec. 3.2.7 proposes trace and determinant as scalar measures.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <Eigen/Core>
 
@@ -108,6 +110,7 @@ using normal_belief = with_covariance_of<normal_fit>;
 /// The normalized estimation error squared, delta^T P^-1 delta, of an estimate whose truth is
 /// known: delta [rad] is the rotation from the estimated normal to the true one, in its two
 /// directions across. For an honest covariance its mean is 2, and it exceeds 5.991 in 5 % of cases.
+/// Of a singular covariance, which allows no error, it is infinite if there is one and else zero.
 ///
 /// @param truth  the true unit normal; its sign does not matter
 /// Precondition: the estimate is usable. Source: Bar-Shalom et al. 2001, Sec. 5.4.
@@ -118,11 +121,15 @@ template <normal_estimate Estimate>
     const Eigen::Vector3d d = frame.towards(truth);
     const auto& [n, b1, b2] = frame;
     const Eigen::Vector3d p1 = detail::product(estimate.covariance, b1);
-    const double p11 = detail::dot(b1, p1);
-    const double p12 = detail::dot(b2, p1);
-    const double p22 = detail::dot(b2, detail::product(estimate.covariance, b2));
-    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) /
-           (p11 * p22 - p12 * p12);
+    double p11 = detail::dot(b1, p1);
+    double p12 = detail::dot(b2, p1);
+    double p22 = detail::dot(b2, detail::product(estimate.covariance, b2));
+    const double scale = detail::power_to_one(std::max(p11, p22));  // products must be numbers
+    for (double* p : {&p11, &p12, &p22}) *p *= scale;
+    const double determinant = p11 * p22 - p12 * p12;
+    if (determinant <= 0.0)
+        return d[0] == 0.0 && d[1] == 0.0 ? 0.0 : std::numeric_limits<double>::infinity();
+    return (p22 * d[0] * d[0] - 2.0 * p12 * d[0] * d[1] + p11 * d[1] * d[1]) / determinant * scale;
 }
 
 }  // namespace gnomon

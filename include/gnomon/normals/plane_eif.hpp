@@ -32,8 +32,8 @@ struct plane_eif {
         detail::require_sigma(sigma);
         with_covariance_of<ray_fit> belief;
         if (ring.size() < 3) return belief;
-        const detail::ray_regression regression = fit.regression(p, ring, viewpoint);
-        static_cast<ray_fit&>(belief) = fit.result_of(regression);
+        const detail::ray_regression regression = detail::regression_of(p, ring, viewpoint);
+        static_cast<ray_fit&>(belief) = detail::plane_seen(regression, fit.min_aspect_ratio);
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of M's error across n turns n.
         const detail::tangent_basis frame(belief.normal);

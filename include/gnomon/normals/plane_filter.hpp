@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <concepts>
 
 #include <Eigen/Core>
 
@@ -26,6 +27,7 @@
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/normals/detail/range_of_plane.hpp>
 #include <gnomon/normals/detail/require_sigma.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
@@ -48,7 +50,7 @@ struct plane_state {
 
     /// The range [m] at which the unit ray u from the view point meets the plane, Eq. (3.17).
     [[nodiscard]] double range(const Eigen::Vector3d& anchor, const Eigen::Vector3d& u) const {
-        return (detail::dot(anchor, frame.normal) + distance) / detail::dot(u, frame.normal);
+        return detail::range_of_plane(anchor, frame.normal, u, distance);
     }
 };
 
@@ -59,6 +61,14 @@ struct linear_range {
     double variance = 0.0;  ///< of what is not linear [m^2]
 };
 
+/// Made of a state and the anchor point of its plane, it linearizes the range along unit rays.
+template <class L>
+concept range_linearization =
+    std::constructible_from<L, const plane_state&, const Eigen::Vector3d&> &&
+    requires(const L& linearize, const Eigen::Vector3d& u) {
+        { linearize(u) } -> std::same_as<linear_range>;
+    };
+
 /// Linearizes by the derivative, Eq. (3.18).
 class by_derivative {
   public:
@@ -67,12 +77,10 @@ class by_derivative {
 
     /// The range along the unit ray u.
     [[nodiscard]] linear_range operator()(const Eigen::Vector3d& u) const {
-        const double h = state_.range(anchor_, u);
-        const double un = detail::dot(u, state_.frame.normal);
-        const Eigen::Vector3d gradient = detail::combined(1.0 / un, anchor_, -h / un, u);
-        return {h,
-                {detail::dot(gradient, state_.frame.b1), detail::dot(gradient, state_.frame.b2),
-                 1.0 / un}};
+        const auto& [n, b1, b2] = state_.frame;
+        const Eigen::Vector3d gradient = detail::range_gradient(anchor_, n, u, state_.distance);
+        return {state_.range(anchor_, u),
+                {detail::dot(gradient, b1), detail::dot(gradient, b2), 1.0 / detail::dot(u, n)}};
     }
 
   private:
@@ -124,7 +132,7 @@ class by_sigma_points {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not settle, or the rays
 /// graze the plane so that their ranges say nothing and the covariance is that of the prior.
-template <class Linearization>
+template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 

@@ -4,8 +4,6 @@
 /// least, and how it spreads. The result of all estimators that decompose a 3x3 matrix.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
 #include <gnomon/core/spectrum.hpp>
@@ -41,12 +39,6 @@ inline constexpr double smallest_gap = 1e-12;
     fit.normal = e.vectors.col(2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
-}
-
-/// Whether the eigenvectors of second moments can be asked for: their trace is a sum of squares, in
-/// which whatever is not finite shows.
-[[nodiscard]] inline bool has_finite_trace(const Eigen::Matrix3d& m) {
-    return std::isfinite(m(0, 0) + m(1, 1) + m(2, 2));
 }
 
 /// The same from the second moments themselves.

@@ -28,6 +28,33 @@ struct ray_fit : normal_fit {
     [[nodiscard]] double aspect_ratio() const { return ray_aspect_ratio; }
 };
 
+namespace detail {
+
+/// The regression of a ring of at least two on the rays from the view point.
+[[nodiscard]] inline ray_regression regression_of(const Eigen::Vector3d& p, ring_view ring,
+                                                  const Eigen::Vector3d& viewpoint) {
+    ray_regression r(difference(p, viewpoint));
+    for (const Eigen::Vector3d& q : ring) r.add(difference(q, p));
+    r.solve();
+    return r;
+}
+
+/// The plane that a regression found, weak under the given aspect ratio of the rays.
+[[nodiscard]] inline ray_fit plane_seen(const ray_regression& r, double min_aspect_ratio) {
+    ray_fit fit;
+    fit.trust = r.status();
+    if (!usable(fit.trust)) return fit;
+    const Eigen::Vector3d m = r.solution();
+    const double size = length(m);
+    fit.normal = scaled(1.0 / size, m);
+    fit.distance = r.range() / size;
+    fit.ray_aspect_ratio = r.aspect_ratio();
+    fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
+    return fit;
+}
+
+}  // namespace detail
+
 /// Models `ray_estimator`. Needs two neighbors. O(k), about the time of `plane_pca` or less.
 ///
 /// Trust: `weak` under `min_aspect_ratio`; `degenerate` where all rays lie in one plane, neighbors
@@ -39,28 +66,7 @@ struct ray_ls {
         const Eigen::Vector3d& p, ring_view ring,
         const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
         if (ring.size() < 2) return {};
-        return result_of(regression(p, ring, viewpoint));
-    }
-
-    /// The two steps of it, for those who want to know more of the regression.
-    [[nodiscard]] detail::ray_regression regression(const Eigen::Vector3d& p, ring_view ring,
-                                                    const Eigen::Vector3d& viewpoint) const {
-        detail::ray_regression r(detail::difference(p, viewpoint));
-        for (const Eigen::Vector3d& q : ring) r.add(detail::difference(q, p));
-        r.solve();
-        return r;
-    }
-    [[nodiscard]] ray_fit result_of(const detail::ray_regression& r) const {
-        ray_fit fit;
-        fit.trust = r.status();
-        if (!usable(fit.trust)) return fit;
-        const Eigen::Vector3d m = r.solution();
-        const double length = detail::length(m);
-        fit.normal = detail::scaled(1.0 / length, m);
-        fit.distance = r.range() / length;
-        fit.ray_aspect_ratio = r.aspect_ratio();
-        fit.trust = fit.ray_aspect_ratio < min_aspect_ratio ? trust::weak : trust::good;
-        return fit;
+        return detail::plane_seen(detail::regression_of(p, ring, viewpoint), min_aspect_ratio);
     }
 };
 

@@ -8,6 +8,7 @@
 #pragma once
 
 #include <cmath>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,14 +28,31 @@
 
 namespace gnomon {
 
-/// How well points agree with a plane: cost(distances), smaller is better, where distances(visit)
-/// calls visit(signed distance [m]) for every point.
-///
-/// RANSAC: the number of points that are not within 2.5 sigma.
+/// Where inliers end, in standard deviations: 99 % of them lie within.
+inline constexpr double inlier_limit = 2.5;
+
+namespace detail {
+
+/// Distances as costs are given them: of one point, in its plane.
+struct one_distance {
+    void operator()(auto&& visit) const { visit(0.0); }
+};
+
+}  // namespace detail
+
+/// How badly points agree with a plane: cost(sigma, distances), smaller is better, where
+/// distances(visit) calls visit(signed distance [m]) for every point.
+template <class C>
+concept consensus_cost =
+    requires(const C& cost, double sigma, const detail::one_distance& distances) {
+        { cost(sigma, distances) } -> std::convertible_to<double>;
+    };
+
+/// RANSAC: the number of points that are not inliers.
 struct count_outliers {
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
         double outliers = 0.0;
-        distances([&](double d) { outliers += std::abs(d) > 2.5 * sigma; });
+        distances([&](double d) { outliers += std::abs(d) > inlier_limit * sigma; });
         return outliers;
     }
 };
@@ -72,8 +90,8 @@ struct mixture_likelihood {
 
 /// Models `estimator`. Needs three neighbors. O(trials k).
 ///
-/// Trust: that of PlanePCA on the points within 2.5 sigma of the best plane.
-template <class Cost>
+/// Trust: that of PlanePCA on the inliers of the best plane.
+template <consensus_cost Cost>
 struct sample_consensus {
     static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
 
@@ -120,7 +138,7 @@ struct sample_consensus {
         weighted_moments inliers;
         for (std::size_t j = 0; j < n; ++j) {
             const Eigen::Vector3d d = offset(j);
-            if (std::abs(best.signed_distance(d)) <= 2.5 * sigma) inliers.add(d, 1.0);
+            if (std::abs(best.signed_distance(d)) <= inlier_limit * sigma) inliers.add(d, 1.0);
         }
         return detail::plane_of_least_spread(inliers.covariance(), min_aspect_ratio);
     }

@@ -113,4 +113,7 @@ struct with_covariance {
     }
 };
 
+template <class E>
+with_covariance(double, E) -> with_covariance<E>;
+
 }  // namespace gnomon

@@ -4,6 +4,7 @@
 /// expressions, each new combination costs everybody who includes it some 50 ms of compile time.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include <Eigen/Core>
@@ -25,6 +26,14 @@ namespace gnomon::detail {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
+/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
+/// it rounds nothing.
+[[nodiscard]] inline double power_to_one(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, -std::max(exponent, -1000));
+}
+
 /// s a
 [[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
     return {s * a[0], s * a[1], s * a[2]};
@@ -41,6 +50,15 @@ namespace gnomon::detail {
                                               const Eigen::Vector3d& b, double u,
                                               const Eigen::Vector3d& c) {
     return combined(1.0, combined(s, a, t, b), u, c);
+}
+
+/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
+/// Precondition: a is finite and not zero.
+[[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
+    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    const double size = length(b);
+    return {b[0] / size, b[1] / size, b[2] / size};
 }
 
 /// M a

@@ -10,6 +10,9 @@
 #include <cstddef>
 #include <optional>
 
+#include <gnomon/core/square_array.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+
 namespace gnomon::detail {
 
 /// z = a x^2 + b x y + c y^2 + e x + f y + constant.
@@ -67,8 +70,8 @@ class least_squares_quadric {
     }
 
   private:
-    std::array<std::array<double, 6>, 6> left_{};  // its lower half
-    std::array<double, 6> right_{};
+    square_array<6> left_ = {};  // its lower half
+    std::array<double, 6> right_ = {};
 };
 
 /// The unit vector [a' b' c' d'] for which the sum of squares of a' x^2 + b' x y + c' y^2 + d' z is
@@ -88,71 +91,16 @@ class homogeneous_quadric {
         double trace = 0.0;
         for (std::size_t i = 0; i < 4; ++i) trace += products_[i][i];
         if (!(trace > 0.0) || !std::isfinite(trace)) return std::nullopt;
-        matrix m = products_;
-        for (auto& row : m) {
-            for (double& element : row) element /= trace;
-        }
-        matrix v{};
-        for (std::size_t i = 0; i < 4; ++i) v[i][i] = 1.0;
-        diagonalise(m, v);
-
-        std::array<std::size_t, 4> order{0, 1, 2, 3};
-        std::sort(order.begin(), order.end(),
-                  [&m](std::size_t i, std::size_t j) { return m[i][i] < m[j][j]; });
-        const std::size_t last = order[0];
+        const auto [values, vectors] = symmetric_eigen<4>(products_);
         constexpr double rounding = 1e-14;
-        if (m[order[1]][order[1]] - m[last][last] <= rounding) return std::nullopt;
-        const double d = v[3][last];
+        if (values[2] - values[3] <= rounding * trace) return std::nullopt;
+        const double d = vectors[3][3];
         if (std::abs(d) < 1e-12) return std::nullopt;
-        return quadric{-v[0][last] / d, -v[1][last] / d, -v[2][last] / d, 0.0, 0.0};
+        return quadric{-vectors[0][3] / d, -vectors[1][3] / d, -vectors[2][3] / d, 0.0, 0.0};
     }
 
   private:
-    using matrix = std::array<std::array<double, 4>, 4>;
-
-    /// Cyclic Jacobi rotations, as in symmetric_eigen: columns of v become eigenvectors.
-    static void diagonalise(matrix& m, matrix& v) {
-        constexpr int max_sweeps = 16;
-        for (int sweep = 0; sweep < max_sweeps; ++sweep) {
-            bool done = true;
-            for (std::size_t p = 0; p < 3; ++p) {
-                for (std::size_t q = p + 1; q < 4; ++q) {
-                    // Negligible beside both: keeps small eigenvalues of graded matrices.
-                    if (std::abs(m[p][q]) <= 1e-18 * std::sqrt(std::abs(m[p][p] * m[q][q]))) {
-                        continue;
-                    }
-                    done = false;
-                    rotate_away(m, v, p, q);
-                }
-            }
-            if (done) break;
-        }
-    }
-
-    static void rotate_away(matrix& m, matrix& v, std::size_t p, std::size_t q) {
-        const double theta = (m[q][q] - m[p][p]) / (2.0 * m[p][q]);
-        const double t =
-            std::copysign(1.0, theta) / (std::abs(theta) + std::sqrt(1.0 + theta * theta));
-        const double c = 1.0 / std::sqrt(1.0 + t * t);
-        const double s = t * c;
-        const double pq = m[p][q];
-        m[p][p] -= t * pq;
-        m[q][q] += t * pq;
-        m[p][q] = m[q][p] = 0.0;
-        for (std::size_t r = 0; r < 4; ++r) {
-            const double vp = v[r][p];
-            const double vq = v[r][q];
-            v[r][p] = c * vp - s * vq;
-            v[r][q] = s * vp + c * vq;
-            if (r == p || r == q) continue;
-            const double rp = m[r][p];
-            const double rq = m[r][q];
-            m[r][p] = m[p][r] = c * rp - s * rq;
-            m[r][q] = m[q][r] = s * rp + c * rq;
-        }
-    }
-
-    matrix products_{};
+    square_array<4> products_ = {};
 };
 
 }  // namespace gnomon::detail

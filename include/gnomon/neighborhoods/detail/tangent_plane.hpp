@@ -48,9 +48,7 @@ class tangent_plane {
         }
         exists_ = largest > 0.0 && std::isfinite(largest);
         if (!exists_) return;
-        int exponent = 0;
-        std::frexp(largest, &exponent);
-        scale_ = std::ldexp(1.0, -std::max(exponent, -1000));
+        scale_ = power_to_one(largest);
     }
 
     /// False where all points are one place, or too far apart for numbers.

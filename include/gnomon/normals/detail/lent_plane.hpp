@@ -127,10 +127,8 @@ struct surroundings {
                               0.5 * (here * here + there * there) + far * far;
         axes.add(other.fit.normal, decay(0.5 * unlike));
     }
-    Eigen::Matrix3d outer = axes.outer;
-    for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < i; ++j) outer(j, i) = outer(i, j);
-    return column(symmetric_eigen(outer).vectors, 0);
+    if (!(axes.weight > 0.0)) return own.fit.normal;  // of an outlier, with which nobody agrees
+    return column(symmetric_eigen(axes.second_moments()).vectors, 0);
 }
 
 }  // namespace gnomon::detail

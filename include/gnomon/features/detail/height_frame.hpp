@@ -13,41 +13,18 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
+#include <gnomon/features/detail/eigen_2x2.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon::detail {
 
-/// Of a symmetric 2x2 matrix: its eigenvalues and the unit eigenvector (c, s) of the larger one;
-/// (-s, c) is that of the smaller. Of equal eigenvalues the eigenvector is (1, 0).
-struct eigen_2x2 {
-    double larger;
-    double smaller;
-    double c = 1.0;
-    double s = 0.0;
-
-    /// Of [[xx, xy], [xy, yy]].
-    eigen_2x2(double xx, double xy, double yy) {
-        const double mean = 0.5 * (xx + yy);
-        const double half = 0.5 * (xx - yy);
-        const double radius = std::sqrt(half * half + xy * xy);
-        larger = mean + radius;
-        smaller = mean - radius;
-        // Of the two rows of A - larger I, the one without cancellation.
-        const double x = half >= 0.0 ? half + radius : xy;
-        const double y = half >= 0.0 ? xy : radius - half;
-        const double length = std::sqrt(x * x + y * y);
-        if (length > 0.0) {
-            c = x / length;
-            s = y / length;
-        }
-    }
-};
-
 /// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
-struct tangent_frame {
+struct height_frame {
     Eigen::Vector3d origin;
     Eigen::Vector3d x;  ///< the direction of larger spread
     Eigen::Vector3d y;
@@ -58,60 +35,36 @@ struct tangent_frame {
     gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
 
     /// @param min_aspect_ratio  below which the trust is weak
-    tangent_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
-                  std::size_t min_neighbors, double min_aspect_ratio)
+    height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
+                 std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
-        const double length = std::sqrt(normal.dot(normal));
-        if (!is_finite(p) || !std::isfinite(length)) {
+        if (!is_finite(p) || !normal.allFinite()) {
             trust = gnomon::trust::not_finite;
             return;
         }
-        if (length == 0.0) {  // a missing normal
+        if (is_missing(normal)) {
             trust = gnomon::trust::degenerate;
             return;
         }
         if (ring.size() < min_neighbors) return;
-        for (int i = 0; i < 3; ++i) z[i] = normal[i] / length;
-        span_tangent_plane();
+        z = direction_of(normal);
+        x = orthogonal(z);
+        y = cross(z, x);
         trust = align(ring, min_aspect_ratio);
     }
 
     /// The coordinates of q [m].
     [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
-        std::array<double, 3> r{0.0, 0.0, 0.0};
-        for (int i = 0; i < 3; ++i) {
-            const double d = q[i] - origin[i];
-            r[0] += x[i] * d;
-            r[1] += y[i] * d;
-            r[2] += z[i] * d;
-        }
-        return r;
+        const Eigen::Vector3d d = difference(q, origin);
+        return {dot(x, d), dot(y, d), dot(z, d)};
     }
 
     /// The direction of (a, b, c), not normalised.
     [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
-        Eigen::Vector3d d;
-        for (int i = 0; i < 3; ++i) d[i] = a * x[i] + b * y[i] + c * z[i];
-        return d;
+        return combined(a, x, b, y, c, z);
     }
 
   private:
-    /// Some x and y: the coordinate axis farthest from the normal, made perpendicular to it.
-    void span_tangent_plane() {
-        int least = 0;
-        for (int i = 1; i < 3; ++i) {
-            if (std::abs(z[i]) < std::abs(z[least])) least = i;
-        }
-        const double height = z[least];
-        const double length = std::sqrt(1.0 - height * height);  // at least sqrt(2/3)
-        for (int i = 0; i < 3; ++i) x[i] = ((i == least ? 1.0 : 0.0) - height * z[i]) / length;
-        for (int i = 0; i < 3; ++i) {
-            const int j = (i + 1) % 3;
-            const int k = (i + 2) % 3;
-            y[i] = z[j] * x[k] - z[k] * x[j];
-        }
-    }
-
     /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
     gnomon::trust align(ring_view ring, double min_aspect_ratio) {
         double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
@@ -141,11 +94,9 @@ struct tangent_frame {
 
         const double c = spread.c;
         const double s = spread.s;
-        for (int i = 0; i < 3; ++i) {
-            const double u = x[i];
-            x[i] = c * u + s * y[i];
-            y[i] = c * y[i] - s * u;
-        }
+        const Eigen::Vector3d u = x;
+        x = combined(c, u, s, y);
+        y = combined(c, y, -s, u);
         rms_x = std::sqrt(std::max(0.0, c * c * xx + 2.0 * c * s * xy + s * s * yy) / k);
         rms_y = std::sqrt(std::max(0.0, s * s * xx - 2.0 * c * s * xy + c * c * yy) / k);
         return aspect_ratio < min_aspect_ratio ? gnomon::trust::weak : gnomon::trust::good;
