@@ -57,7 +57,7 @@ class surfel_maker {
             return s;
         }
         const ring_view ring = gather_(noted);
-        static_cast<estimate_t<E>&>(s) = checked(i, p, ring);
+        static_cast<estimate_t<E>&>(s) = checked(i, raw(i, p, ring));
         s.neighbors = static_cast<point_index>(ring.size());
         if (!ring.empty()) {
             for (const Eigen::Vector3d& q : ring) {
@@ -65,29 +65,46 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(ring.size());
         }
-        const bool coarse = resolution(p) > coarseness * s.mean_distance;
-        if (s.trust == trust::good && (coarse || !noted.note.certified)) s.trust = trust::weak;
+        if (s.trust == trust::good && (is_coarse(p, s.mean_distance) || !noted.note.certified))
+            s.trust = trust::weak;
         return s;
     }
 
-  private:
-    /// Coordinates whose ulp exceeds this part of the mean neighbor distance are too coarse.
-    static constexpr double coarseness = 0.05;
-
-    /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
-    static double resolution(const Eigen::Vector3d& p) {
-        return static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
-               std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    /// The surface element of point i with what a sweep has found.
+    surfel<estimate_t<E>> from_sweep(std::size_t i, const auto& found) {
+        if constexpr (moment_estimator<E> && !ray_estimator<E>) {
+            surfel<estimate_t<E>> s;
+            static_cast<estimate_t<E>&>(s) =
+                checked(i, std::invoke(estimate_, found.moments_about_point()));
+            s.neighbors = static_cast<point_index>(found.size());
+            s.mean_distance = found.mean_distance();
+            if (s.trust == trust::good && is_coarse(points_[i], s.mean_distance))
+                s.trust = trust::weak;
+            return s;
+        } else {
+            found.sort_into(sorted_);
+            return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
+        }
     }
 
-    /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
-    /// unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
+  private:
+    /// Whether an ulp of the coordinates at p, in the scalar that the points came in, exceeds 5 %
+    /// of the mean distance to the neighbors [m].
+    static bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
+        const double ulp =
+            static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
+            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+        return ulp > 0.05 * mean_distance;
+    }
+
+    /// An estimate for point i, with the promises kept that an estimator may have broken: a usable
+    /// normal has unit length, an unusable one is zero.
+    estimate_t<E> checked(std::size_t i, const estimator_result_t<E>& raw) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw(i, p, ring);
+            e = raw;
         } else {
-            e.normal = position(raw(i, p, ring));
+            e.normal = position(raw);
             e.trust = trust::good;
         }
         if constexpr (ray_estimator<E>) {
@@ -115,6 +132,7 @@ class surfel_maker {
     const Points& points_;
     const viewpoint_table& viewpoints_;
     ring_gatherer<Points> gather_;
+    std::vector<neighbor> sorted_;
 };
 
 /// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
@@ -172,8 +190,24 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
 [[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
+    const position_view<R, Proj> p(points, projection);
+    if constexpr (sweeping_neighborhood<N, R, Proj>) {
+        std::vector<surfel<estimate_t<E>>> surface(p.size());
+        const viewpoint_table viewpoints = viewpoints_of(points);
+        const auto make_visitor = [&] {
+            return [&, make = detail::surfel_maker(estimate, p, viewpoints)](
+                       std::size_t i, const auto& found) mutable {
+                surface[i] = make.from_sweep(i, found);
+            };
+        };
+        if (policy.sweep(points, run, projection, make_visitor)) {
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
+            }
+            return surface;
+        }
+    }
     if constexpr (streaming_neighborhood<N, R, Proj>) {
-        const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
         std::vector<surfel<estimate_t<E>>> surface(p.size());
         detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),

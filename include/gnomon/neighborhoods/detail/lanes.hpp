@@ -13,8 +13,10 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__AVX512F__) || defined(__AVX__) || defined(__SSE2__)
+#if defined(__AVX__)
 #include <immintrin.h>
+#elif defined(__SSE2__)
+#include <emmintrin.h>
 #endif
 
 namespace gnomon::detail {
@@ -194,5 +196,5 @@ struct lane_boxes {
     }
 };
 
-}  // inline namespace
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

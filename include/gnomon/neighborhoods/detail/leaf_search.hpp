@@ -27,6 +27,8 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
@@ -51,6 +53,53 @@ class found_neighbors {
     /// Canonical squared distances [m^2].
     [[nodiscard]] const double* squared_distance() const { return way(3); }
     [[nodiscard]] const point_index* index() const { return index_.data(); }
+
+    /// Of them about the point.
+    [[nodiscard]] moments moments_about_point() const {
+        // Four at a time, in Eigen's vectors.
+        std::array<Eigen::Array4d, 9> sums;
+        for (auto& sum : sums) sum.setZero();
+        for (std::size_t j = 0; j < capacity(); j += 4) {
+            const Eigen::Array4d x = Eigen::Array4d::Map(way(0) + j);
+            const Eigen::Array4d y = Eigen::Array4d::Map(way(1) + j);
+            const Eigen::Array4d z = Eigen::Array4d::Map(way(2) + j);
+            sums[0] += x;
+            sums[1] += y;
+            sums[2] += z;
+            sums[3] += x * x;
+            sums[4] += y * x;
+            sums[5] += z * x;
+            sums[6] += y * y;
+            sums[7] += z * y;
+            sums[8] += z * z;
+        }
+        moments m;
+        m.count = count_;
+        m.sum = {sums[0].sum(), sums[1].sum(), sums[2].sum()};
+        m.outer(0, 0) = sums[3].sum();
+        m.outer(1, 0) = sums[4].sum();
+        m.outer(2, 0) = sums[5].sum();
+        m.outer(1, 1) = sums[6].sum();
+        m.outer(2, 1) = sums[7].sum();
+        m.outer(2, 2) = sums[8].sum();
+        return m;
+    }
+
+    /// The mean distance from the point [m]; 0 if there are none.
+    [[nodiscard]] double mean_distance() const {
+        if (count_ == 0) return 0.0;
+        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        for (std::size_t j = 0; j < capacity(); j += 4)
+            sum += Eigen::Array4d::Map(squared_distance() + j).sqrt();
+        return sum.sum() / static_cast<double>(count_);
+    }
+
+    /// Replaces the content of `ring` by them in canonical order.
+    void sort_into(std::vector<neighbor>& ring) const {
+        ring.clear();
+        for (std::size_t j = 0; j < count_; ++j) ring.push_back({squared_distance()[j], index_[j]});
+        std::sort(ring.begin(), ring.end());
+    }
 
     /// Takes the points at the given places of the tree, seen from that at `from`.
     void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
@@ -191,7 +240,7 @@ class leaf_search {
     /// Leaves as candidates the k nearest of point q of the leaf, as far as they are listed.
     /// @return how far the k-th is [m]; infinity if fewer are listed
     double select(std::size_t q) {
-        if (k_ == 0) return 0.0;  // a lonely point
+        if (k_ == 0) return 0.0;             // a lonely point
         constexpr float everything = 16.0f;  // beyond all that is within reach of all
         auto limit = static_cast<float>(guess_ * scale_ * scale_);
         if (!(limit > 0.0f && limit < everything)) limit = everything;
@@ -310,7 +359,8 @@ class leaf_search {
         const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain);
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (wanted < std::ssize(doubtful_))
-            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(), nearer);
+            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
+                             nearer);
         for (std::ptrdiff_t c = 0; c < wanted; ++c)
             candidate_[certain + static_cast<std::size_t>(c)] =
                 doubtful_[static_cast<std::size_t>(c)].second;
@@ -325,9 +375,9 @@ class leaf_search {
     double diagonal_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
     double guess_ = 0.0;                                     // of the next one
-    double reach_ = 0.0;                         // within which leaves are listed [m]
-    bool complete_ = false;                      // whether that is all of them
-    std::array<double, lane_count> reached_{};   // the k-th distances in a leaf [m]
+    double reach_ = 0.0;                                     // within which leaves are listed [m]
+    bool complete_ = false;                                  // whether that is all of them
+    std::array<double, lane_count> reached_{};               // the k-th distances in a leaf [m]
     std::array<double, 3> origin_{};
     double half_ = 0.0, scale_ = 1.0;
     std::size_t first_ = 0;  // of the points that are asked for
@@ -342,5 +392,20 @@ class leaf_search {
     found_neighbors found_;
 };
 
-}  // inline namespace
+/// Calls visit(i, found_neighbors) for every point i of the tree, with its k nearest neighbors.
+/// Each chunk of work has a visitor of its own, which make_visitor() gives.
+template <execution X>
+void for_each_nearest(const leaf_tree& tree, std::size_t k, const X& run, auto&& make_visitor) {
+    constexpr std::size_t leaves_per_chunk = 64;
+    if (tree.size() == 0) return;
+    run((tree.leaves() + leaves_per_chunk - 1) / leaves_per_chunk, [&](std::size_t chunk) {
+        leaf_search search(tree, k);
+        auto visit = make_visitor();
+        const std::size_t first = chunk * leaves_per_chunk;
+        const std::size_t last = std::min(first + leaves_per_chunk, tree.leaves());
+        for (std::size_t leaf = first; leaf < last; ++leaf) search(leaf, visit);
+    });
+}
+
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

@@ -59,8 +59,7 @@ class leaf_tree {
         entries.reserve(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Eigen::Vector3d p = points[i];
-            if (is_finite(p))
-                entries.push_back({{p[0], p[1], p[2]}, static_cast<point_index>(i)});
+            if (is_finite(p)) entries.push_back({{p[0], p[1], p[2]}, static_cast<point_index>(i)});
         }
         if (entries.empty()) return;
         size_ = entries.size();
@@ -69,6 +68,13 @@ class leaf_tree {
         index_.resize(leaves_ * leaf_size);
         boxes_.resize(2 * leaves() - 1);
         build(entries, run);
+        for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
+            const std::size_t first = l * leaf_size;
+            crowded_ = std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
+                return std::all_of(c.data() + first, c.data() + first + leaf_size,
+                                   [&](double x) { return x == c[first]; });
+            });
+        }
     }
 
     /// The number of finite points.
@@ -82,6 +88,9 @@ class leaf_tree {
     [[nodiscard]] std::size_t size_of(std::size_t l) const {
         return std::min(leaf_size, size_ - l * leaf_size);
     }
+    /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
+    /// them then takes too long.
+    [[nodiscard]] bool crowded() const { return crowded_; }
     /// The box of all. Precondition: there are points.
     [[nodiscard]] const leaf_box& box() const { return boxes_[0]; }
 
@@ -173,6 +182,7 @@ class leaf_tree {
     }
 
     std::size_t size_ = 0;
+    bool crowded_ = false;
     std::size_t leaves_ = 0;
     std::array<std::vector<double>, 3> at_;
     std::vector<point_index> index_;
