@@ -108,10 +108,32 @@ template <std::size_t N>
     return e;
 }
 
+namespace detail {
+
+/// Decomposes a matrix of second moments whose smallest eigenvalue stands apart.
+/// @return whether it was one
+[[nodiscard]] inline bool decompose_if_separated(const Eigen::Matrix3d& a, eigen_decomposition& e) {
+    const double trace = a(0, 0) + a(1, 1) + a(2, 2);
+    if (!has_scale(trace)) return false;
+    const double s = 1.0 / trace;
+    const separated_eigen<double> found(symmetric_3x3<double>{
+        s * a(0, 0), s * a(1, 1), s * a(2, 2), s * a(1, 0), s * a(2, 0), s * a(2, 1)});
+    if (!is_accurate(found.values[1], found.values[2], found.squared_residual)) return false;
+    for (int i = 0; i < 3; ++i) {
+        e.values[i] = trace * found.values[i];
+        e.vectors(0, i) = found.vectors[i].x;
+        e.vectors(1, i) = found.vectors[i].y;
+        e.vectors(2, i) = found.vectors[i].z;
+    }
+    return true;
+}
+
+}  // namespace detail
+
 /// The same of a 3x3 matrix, and faster if it is one of second moments whose
 /// smallest eigenvalue stands apart.
 [[nodiscard]] inline eigen_decomposition symmetric_eigen(const Eigen::Matrix3d& a) {
-    if (detail::separated_eigen e; e.decompose(a)) return {e.values, e.vectors};
+    if (eigen_decomposition e; detail::decompose_if_separated(a, e)) return e;
     square_array<3> rows;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) rows[i][j] = a.data()[3 * j + i];

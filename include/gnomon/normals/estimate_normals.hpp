@@ -4,17 +4,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -70,21 +73,22 @@ class surfel_maker {
         return s;
     }
 
-    /// The surface element of point i with what a sweep has found.
+    /// That of point i from what a sweep has found.
     surfel<estimate_t<E>> from_sweep(std::size_t i, const auto& found) {
-        if constexpr (moment_estimator<E> && !ray_estimator<E>) {
-            surfel<estimate_t<E>> s;
-            static_cast<estimate_t<E>&>(s) =
-                checked(i, std::invoke(estimate_, found.moments_about_point()));
-            s.neighbors = static_cast<point_index>(found.size());
-            s.mean_distance = found.mean_distance();
-            if (s.trust == trust::good && is_coarse(points_[i], s.mean_distance))
-                s.trust = trust::weak;
-            return s;
-        } else {
-            found.sort_into(sorted_);
-            return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
-        }
+        found.sort_into(sorted_);
+        return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
+    }
+
+    /// The same from the estimate for point i, the number of its neighbors and the mean distance to
+    /// them.
+    surfel<estimate_t<E>> finished(std::size_t i, const estimator_result_t<E>& raw,
+                                   std::size_t neighbors, double mean_distance) const {
+        surfel<estimate_t<E>> s;
+        static_cast<estimate_t<E>&>(s) = checked(i, raw);
+        s.neighbors = static_cast<point_index>(neighbors);
+        s.mean_distance = mean_distance;
+        if (s.trust == trust::good && is_coarse(points_[i], mean_distance)) s.trust = trust::weak;
+        return s;
     }
 
   private:
@@ -111,13 +115,18 @@ class surfel_maker {
             if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
         }
         if (usable(e.trust)) {
-            const double length = e.normal.norm();
-            if (!std::isfinite(length)) e.trust = trust::not_finite;
-            if (length < 1e-150) e.trust = trust::degenerate;
-            if (usable(e.trust) && length != 1.0) e.normal /= length;
+            const bool is_unit = std::abs(dot(e.normal, e.normal) - 1.0) <= 1e-15;
+            if (!is_unit) normalise(e);
         }
         if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;
+    }
+
+    static void normalise(estimate_t<E>& e) {
+        const double length = e.normal.norm();
+        if (!std::isfinite(length)) e.trust = trust::not_finite;
+        if (length < 1e-150) e.trust = trust::degenerate;
+        if (usable(e.trust)) e.normal /= length;
     }
 
     estimator_result_t<E> raw(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
@@ -133,6 +142,55 @@ class surfel_maker {
     const viewpoint_table& viewpoints_;
     ring_gatherer<Points> gather_;
     std::vector<neighbor> sorted_;
+};
+
+/// Visits what a sweep finds and makes surface elements of it, several at once if the estimator
+/// can.
+template <estimator E, class Points>
+class sweep_visitor {
+  public:
+    sweep_visitor(const E& estimate, const Points& points, const viewpoint_table& viewpoints,
+                  std::vector<surfel<estimate_t<E>>>& surface)
+        : estimate_(estimate), make_(estimate, points, viewpoints), surface_(surface) {}
+
+    void operator()(std::size_t i, const auto& found) {
+        if constexpr (batch_estimator<E>) {
+            waiting_[count_] = i;
+            moments_[count_] = found.moments_about_point();
+            mean_distances_[count_] = found.mean_distance();
+            if (++count_ == batch) finish();
+        } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
+            surface_[i] = make_.finished(i, std::invoke(estimate_, found.moments_about_point()),
+                                         found.size(), found.mean_distance());
+        } else {
+            surface_[i] = make_.from_sweep(i, found);
+        }
+    }
+
+    /// Called when nothing more comes.
+    void finish() {
+        if constexpr (batch_estimator<E>) {
+            const std::span waiting(moments_.data(), count_);
+            std::invoke(estimate_, waiting, std::span(results_.data(), count_));
+            for (std::size_t w = 0; w < count_; ++w) {
+                surface_[waiting_[w]] =
+                    make_.finished(waiting_[w], results_[w], waiting[w].count, mean_distances_[w]);
+            }
+            count_ = 0;
+        }
+    }
+
+  private:
+    static constexpr std::size_t batch = batch_estimator<E> ? 32 : 0;
+
+    const E& estimate_;
+    surfel_maker<E, Points> make_;
+    std::vector<surfel<estimate_t<E>>>& surface_;
+    std::size_t count_ = 0;
+    std::array<std::size_t, batch> waiting_{};
+    std::array<moments, batch> moments_{};
+    std::array<double, batch> mean_distances_{};
+    std::array<estimator_result_t<E>, batch> results_{};
 };
 
 /// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
@@ -195,10 +253,7 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
         std::vector<surfel<estimate_t<E>>> surface(p.size());
         const viewpoint_table viewpoints = viewpoints_of(points);
         const auto make_visitor = [&] {
-            return [&, make = detail::surfel_maker(estimate, p, viewpoints)](
-                       std::size_t i, const auto& found) mutable {
-                surface[i] = make.from_sweep(i, found);
-            };
+            return detail::sweep_visitor(estimate, p, viewpoints, surface);
         };
         if (policy.sweep(points, run, projection, make_visitor)) {
             for (std::size_t i = 0; i < p.size(); ++i) {

@@ -1,119 +1,156 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Eigenvectors of a symmetric 3x3 matrix whose smallest eigenvalue stands apart from the others,
-/// as that of a neighborhood on a surface does: three times as fast as rotations, and as accurate.
+/// Eigenvectors of symmetric 3x3 matrices whose smallest eigenvalue stands apart from the others,
+/// as that of a neighborhood on a surface does: faster than rotations, and as accurate. No step
+/// depends on a comparison, but for leaving early, so that the number type may as well be a vector
+/// of numbers, one for each of several matrices.
 ///
 /// Newton's method finds the eigenvalue from below. The columns of the adjugate of A - x I are
-/// multiples of its eigenvector v, and v^T A v is a far better eigenvalue, so that two or three
-/// rounds reach the last bit. In the plane across v, the other two are a 2x2 problem. Whether all
-/// went well, the residual A v - x v tells.
+/// multiples of its eigenvector v, and v^T A v is a far better eigenvalue, so that two rounds reach
+/// the last bit. In the plane across v, the other two are a 2x2 problem. Whether all went well, the
+/// residual A v - x v tells.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cmath>
+#include <cstddef>
+#include <type_traits>
 
 #include <Eigen/Core>
 
 namespace gnomon::detail {
 
-/// The eigenvalues, descending, and the eigenvectors of a symmetric matrix [[xx, xy, xz], [xy, yy,
-/// yz], [xz, yz, zz]], in columns.
+/// Several numbers, which are calculated with as one.
+inline constexpr std::size_t pack_size = 8;
+using pack = Eigen::Array<double, pack_size, 1>;
+
+inline double root(double x) { return std::sqrt(x); }
+inline pack root(const pack& x) { return x.sqrt(); }
+inline double magnitude(double x) { return std::abs(x); }
+inline pack magnitude(const pack& x) { return x.abs(); }
+/// Whether that is certain: of several numbers it is not asked for.
+inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
+inline bool at_most(const pack&, double) { return false; }
+/// a where x >= y, and b elsewhere.
+inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
+inline pack where_at_least(const pack& x, const pack& y, const pack& a, const pack& b) {
+    return (x >= y).select(a, b);
+}
+
+/// A vector whose coordinates are T.
+template <class T>
+struct triple {
+    T x, y, z;
+};
+
+template <class T>
+[[nodiscard]] T inner(const triple<T>& a, const triple<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The symmetric matrices [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], of which `trace` is one.
+template <class T>
+struct symmetric_3x3 {
+    T xx, yy, zz, xy, xz, yz;
+
+    [[nodiscard]] triple<T> times(const triple<T>& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
+    }
+};
+
+/// Eigenvalues, descending, and eigenvectors of such matrices.
+template <class T>
 struct separated_eigen {
-    Eigen::Vector3d values;
-    Eigen::Matrix3d vectors;
+    T values[3];
+    triple<T> vectors[3];
+    T squared_residual;  ///< of the smallest
 
-    /// @return whether they were found: else the smallest eigenvalue is too near to the next one,
-    ///         or the matrix is not one of second moments
-    [[nodiscard]] bool decompose(const Eigen::Matrix3d& m) {
-        const double trace = m(0, 0) + m(1, 1) + m(2, 2);
-        if (!(trace > 1e-290 && trace < 1e290)) return false;
-        const double s = 1.0 / trace;
-        const double xx = s * m(0, 0), yy = s * m(1, 1), zz = s * m(2, 2);
-        const double xy = s * m(1, 0), xz = s * m(2, 0), yz = s * m(2, 1);
-
-        // det(x I - A) = x^3 - x^2 + c1 x - c0, which has no root below 1/3 - 2 p.
-        const double c1 = xx * yy + yy * zz + zz * xx - xy * xy - xz * xz - yz * yz;
-        const double c0 =
-            xx * (yy * zz - yz * yz) - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-        double x = 1.0 / 3.0 - 2.0 * std::sqrt(std::max(0.0, 1.0 / 9.0 - c1 / 3.0));
-        for (int i = 0; i < 6; ++i) {
-            const double step = (((x - 1.0) * x + c1) * x - c0) / ((3.0 * x - 2.0) * x + c1);
-            x -= step;
-            if (!(std::abs(step) > 1e-6)) break;
+    explicit separated_eigen(const symmetric_3x3<T>& a) {
+        T x = smallest_root(a);
+        triple<T>& v = vectors[2];
+        for (int round = 0; round < rounds; ++round) {
+            v = null_vector(a, x);
+            const triple<T> p = a.times(v);
+            x = inner(v, p);
+            const triple<T> r{p.x - x * v.x, p.y - x * v.y, p.z - x * v.z};
+            squared_residual = inner(r, r);
+            if (at_most(squared_residual, 1e-31)) break;
         }
-
-        double vx = 0.0, vy = 0.0, vz = 0.0;
-        for (int i = 0;; ++i) {
-            const double ax = xx - x, ay = yy - x, az = zz - x;
-            const double mx = ay * az - yz * yz, my = ax * az - xz * xz, mz = ax * ay - xy * xy;
-            const double mxy = xz * yz - xy * az, mxz = xy * yz - xz * ay, myz = xy * xz - ax * yz;
-            if (mx >= my && mx >= mz)
-                vx = mx, vy = mxy, vz = mxz;
-            else if (my >= mz)
-                vx = mxy, vy = my, vz = myz;
-            else
-                vx = mxz, vy = myz, vz = mz;
-            const double norm = 1.0 / std::sqrt(vx * vx + vy * vy + vz * vz);
-            vx *= norm, vy *= norm, vz *= norm;
-            const double px = xx * vx + xy * vy + xz * vz, py = xy * vx + yy * vy + yz * vz,
-                         pz = xz * vx + yz * vy + zz * vz;
-            x = vx * px + vy * py + vz * pz;
-            const double rx = px - x * vx, ry = py - x * vy, rz = pz - x * vz;
-            if (rx * rx + ry * ry + rz * rz < 1e-30) break;
-            if (i == 3) return false;
-        }
-        span(vx, vy, vz);
-        decompose_across(xx, yy, zz, xy, xz, yz);
-        const bool apart = values[1] - x > 1e-4;
-        values = {trace * values[0], trace * values[1], trace * x};
-        return apart;
+        values[2] = x;
+        decompose_across(a);
     }
 
   private:
-    /// Completes the unit vector v to an orthonormal basis (Duff et al. 2017).
-    void span(double vx, double vy, double vz) {
-        const double sign = std::copysign(1.0, vz);
-        const double a = -1.0 / (sign + vz), b = vx * vy * a;
-        vectors(0, 0) = 1.0 + sign * vx * vx * a;
-        vectors(1, 0) = sign * b;
-        vectors(2, 0) = -sign * vx;
-        vectors(0, 1) = b;
-        vectors(1, 1) = sign + vy * vy * a;
-        vectors(2, 1) = -vy;
-        vectors(0, 2) = vx;
-        vectors(1, 2) = vy;
-        vectors(2, 2) = vz;
+    static constexpr bool one = std::is_same_v<T, double>;
+    static constexpr int newton_steps = one ? 6 : 4;
+    static constexpr int rounds = one ? 4 : 2;
+
+    /// The smallest root of x^3 - x^2 + c1 x - c0, from where all are above.
+    static T smallest_root(const symmetric_3x3<T>& a) {
+        const T c1 =
+            a.xx * a.yy + a.yy * a.zz + a.zz * a.xx - a.xy * a.xy - a.xz * a.xz - a.yz * a.yz;
+        const T c0 = a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
+                     a.xz * (a.xy * a.yz - a.yy * a.xz);
+        T x = 1.0 / 3.0 - 2.0 * root(magnitude(T(1.0 / 9.0 - c1 / 3.0)));
+        for (int i = 0; i < newton_steps; ++i) {
+            const T value = ((x - 1.0) * x + c1) * x - c0;
+            const T slope = (3.0 * x - 2.0) * x + c1;
+            const T step = value / slope;
+            x = x - step;
+            if (at_most(step, 1e-6)) break;
+        }
+        return x;
     }
 
-    /// Turns the first two vectors of the basis to the eigenvectors.
-    void decompose_across(double xx, double yy, double zz, double xy, double xz, double yz) {
-        std::array<double, 3> u{}, w{};
-        for (int i = 0; i < 3; ++i) {
-            u[static_cast<std::size_t>(i)] = vectors(i, 0);
-            w[static_cast<std::size_t>(i)] = vectors(i, 1);
-        }
-        const double ux = xx * u[0] + xy * u[1] + xz * u[2], uy = xy * u[0] + yy * u[1] + yz * u[2],
-                     uz = xz * u[0] + yz * u[1] + zz * u[2];
-        const double wx = xx * w[0] + xy * w[1] + xz * w[2], wy = xy * w[0] + yy * w[1] + yz * w[2],
-                     wz = xz * w[0] + yz * w[1] + zz * w[2];
-        const double uu = u[0] * ux + u[1] * uy + u[2] * uz;
-        const double uw = w[0] * ux + w[1] * uy + w[2] * uz;
-        const double ww = w[0] * wx + w[1] * wy + w[2] * wz;
-        const double half = 0.5 * (uu - ww), radius = std::sqrt(half * half + uw * uw);
+    /// A unit vector that A - x I all but annihilates: of the columns of the adjugate, which is
+    /// v v^T but for a factor, the one with the largest element on the diagonal.
+    static triple<T> null_vector(const symmetric_3x3<T>& a, const T& x) {
+        const T ax = a.xx - x, ay = a.yy - x, az = a.zz - x;
+        const T xx = ay * az - a.yz * a.yz, yy = ax * az - a.xz * a.xz, zz = ax * ay - a.xy * a.xy;
+        const T xy = a.xz * a.yz - a.xy * az, xz = a.xy * a.yz - a.xz * ay,
+                yz = a.xy * a.xz - ax * a.yz;
+        const T xx_or_yy = where_at_least(xx, yy, xx, yy);
+        triple<T> v{where_at_least(xx, yy, xx, xy), where_at_least(xx, yy, xy, yy),
+                    where_at_least(xx, yy, xz, yz)};
+        v = {where_at_least(xx_or_yy, zz, v.x, xz), where_at_least(xx_or_yy, zz, v.y, yz),
+             where_at_least(xx_or_yy, zz, v.z, zz)};
+        const T norm = 1.0 / root(inner(v, v));
+        return {v.x * norm, v.y * norm, v.z * norm};
+    }
+
+    /// The other two, in an orthonormal basis u, w of the plane across v (Duff et al. 2017).
+    void decompose_across(const symmetric_3x3<T>& a) {
+        const triple<T>& v = vectors[2];
+        const T zero = T(v.z * 0.0);
+        const T sign = where_at_least(v.z, zero, T(zero + 1.0), T(zero - 1.0));
+        const T f = -1.0 / (sign + v.z), g = v.x * v.y * f;
+        const triple<T> u{1.0 + sign * v.x * v.x * f, sign * g, -sign * v.x};
+        const triple<T> w{g, sign + v.y * v.y * f, -v.y};
+        const triple<T> au = a.times(u);
+        const T uu = inner(u, au), uw = inner(w, au), ww = inner(w, a.times(w));
+        const T half = 0.5 * (uu - ww), radius = root(T(half * half + uw * uw));
         values[0] = 0.5 * (uu + ww) + radius;
         values[1] = 0.5 * (uu + ww) - radius;
-        if (!(radius > 0.0)) return;
-        // Half the angle of (half, uw), without loss of digits.
-        const double t = std::abs(half) + radius, norm = 1.0 / std::sqrt(t * t + uw * uw);
-        const double c = half >= 0.0 ? t * norm : std::abs(uw) * norm;
-        const double s = half >= 0.0 ? uw * norm : std::copysign(t * norm, uw);
-        for (int i = 0; i < 3; ++i) {
-            const auto a = static_cast<std::size_t>(i);
-            vectors(i, 0) = c * u[a] + s * w[a];
-            vectors(i, 1) = c * w[a] - s * u[a];
-        }
+        // Half the angle of (half, uw), without loss of digits; none if they are zero.
+        const T tiny = T(zero + 1e-300);
+        const T t = magnitude(half) + radius + tiny;
+        const T norm = 1.0 / root(T(t * t + uw * uw) + tiny);
+        const T along = where_at_least(half, zero, t, magnitude(uw));
+        const T across = where_at_least(half, zero, uw, where_at_least(uw, zero, t, T(-t)));
+        const T c = where_at_least(radius, tiny, T(along * norm), T(zero + 1.0));
+        const T s = where_at_least(radius, tiny, T(across * norm), zero);
+        vectors[0] = {c * u.x + s * w.x, c * u.y + s * w.y, c * u.z + s * w.z};
+        vectors[1] = {c * w.x - s * u.x, c * w.y - s * u.y, c * w.z - s * u.z};
     }
 };
+
+/// Whether eigenvalues and residual, of a matrix of trace one, are as good as rotations would make
+/// them: not if the smallest does not stand apart, nor for NaN.
+[[nodiscard]] inline bool is_accurate(double middle, double smallest, double squared_residual) {
+    return middle - smallest > 1e-4 && squared_residual < 1e-30;
+}
+
+/// Whether a matrix of this trace can be brought to trace one.
+[[nodiscard]] inline bool has_scale(double trace) { return trace > 1e-290 && trace < 1e290; }
 
 }  // namespace gnomon::detail

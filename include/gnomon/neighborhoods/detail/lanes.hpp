@@ -59,6 +59,7 @@ struct alignas(64) lanes {
 #elif defined(__SSE2__)
     const __m128 t = _mm_set1_ps(limit);
     std::uint32_t bits = 0;
+#pragma GCC unroll 8
     for (int l = 0; l < 32; l += 4) {
         const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
         bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
@@ -89,56 +90,69 @@ inline constexpr auto members_table = [] {
 }
 #endif
 
-/// Writes the values of those of 32 lanes whose bits are set, one after the other. What follows
-/// them, up to 32 values in all, may be overwritten.
+/// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to 32
+/// in all, may be overwritten.
 /// @return the end of what was written
-template <class T>
-    requires(sizeof(T) == 4)
-[[gnu::always_inline]] inline T* compress(const T* values, std::uint32_t bits, T* out) {
+[[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
+                                                      std::uint32_t bits, std::uint32_t* out) {
 #if defined(__AVX512F__)
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
         const auto set = static_cast<__mmask16>(bits);
-        const __m512i all = _mm512_loadu_si512(values + l);
+        const __m512i all = _mm512_loadu_si512(numbers + l);
         _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
         out += std::popcount(bits & 0xffffu);
     }
 #elif defined(__AVX2__)
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
-        const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(values + l));
+        const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + l));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
                             _mm256_permutevar8x32_epi32(all, members_of(bits & 0xffu)));
         out += std::popcount(bits & 0xffu);
     }
 #else
-    for (; bits != 0; bits &= bits - 1) *out++ = values[std::countr_zero(bits)];
+    for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
 #endif
     return out;
 }
 
-/// The same with first, first + 1, ... for values.
-[[gnu::always_inline]] inline std::uint32_t* compress_from(std::uint32_t first, std::uint32_t bits,
-                                                           std::uint32_t* out) {
+/// The same of 32 values and of the numbers first, first + 1, ... beside them.
+/// @return how many were written
+[[gnu::always_inline]] inline std::size_t compress(const lanes& values, std::uint32_t first,
+                                                   std::uint32_t bits, float* out,
+                                                   std::uint32_t* out_numbers) {
+    const float* const begin = out;
 #if defined(__AVX512F__)
-    __m512i all = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    all = _mm512_add_epi32(all, _mm512_set1_epi32(static_cast<int>(first)));
+    __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
-        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(static_cast<__mmask16>(bits), all));
-        all = _mm512_add_epi32(all, _mm512_set1_epi32(16));
-        out += std::popcount(bits & 0xffffu);
+        const auto set = static_cast<__mmask16>(bits);
+        _mm512_storeu_ps(out, _mm512_maskz_compress_ps(set, _mm512_load_ps(values.at + l)));
+        _mm512_storeu_si512(out_numbers, _mm512_maskz_compress_epi32(set, numbers));
+        numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(16));
+        const auto n = std::popcount(bits & 0xffffu);
+        out += n;
+        out_numbers += n;
     }
 #elif defined(__AVX2__)
     __m256i start = _mm256_set1_epi32(static_cast<int>(first));
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                            _mm256_add_epi32(start, members_of(bits & 0xffu)));
+        const __m256i members = members_of(bits & 0xffu);
+        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(_mm256_load_ps(values.at + l), members));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out_numbers),
+                            _mm256_add_epi32(start, members));
         start = _mm256_add_epi32(start, _mm256_set1_epi32(8));
-        out += std::popcount(bits & 0xffu);
+        const auto n = std::popcount(bits & 0xffu);
+        out += n;
+        out_numbers += n;
     }
 #else
-    for (; bits != 0; bits &= bits - 1)
-        *out++ = first + static_cast<std::uint32_t>(std::countr_zero(bits));
+    for (; bits != 0; bits &= bits - 1) {
+        const auto l = static_cast<std::uint32_t>(std::countr_zero(bits));
+        *out++ = values[l];
+        *out_numbers++ = first + l;
+    }
 #endif
-    return out;
+    return static_cast<std::size_t>(out - begin);
 }
 
 /// How many of the 32 are at most `limit`.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The k nearest neighbors of all points of a leaf at once. Their neighborhoods overlap, so one
-/// walk through the tree lists the leaves that matter for any of them, and what follows is done in
-/// the nearest cache, in floats relative to the leaf's middle, 32 points at a time:
+/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
+/// so one walk through the tree lists the leaves that matter for any of them, and what follows is
+/// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
 ///     bit more than that of the point before)? A third more points than needed pass.
@@ -136,7 +136,7 @@ class found_neighbors {
 
 inline namespace GNOMON_LANES {
 
-/// Searches leaf by leaf. It learns from one what to expect of the next: one for each thread.
+/// Searches group by group. It learns from one what to expect of the next: one for each thread.
 class leaf_search {
   public:
     /// Precondition: the tree is not empty.
@@ -146,52 +146,56 @@ class leaf_search {
           diagonal_(std::sqrt(tree.box().squared_diagonal())),
           found_(k_) {}
 
-    /// Calls visit(index, found_neighbors) for each point of leaf number `leaf`.
+    /// Calls visit(index, found_neighbors) for each point of the group number `group`.
     template <class Visit>
-    void operator()(std::size_t leaf, Visit&& visit) {
-        std::uint32_t waiting = ~std::uint32_t{0} >> (lane_count - tree_.size_of(leaf));
-        std::size_t answered = 0;
-        while (waiting != 0) {
-            list_around(leaf);
+    void operator()(std::size_t group, Visit&& visit) {
+        const std::size_t first = group * group_size;
+        waiting_.clear();
+        for (std::size_t p = first; p < std::min(first + group_size, tree_.size()); ++p)
+            waiting_.push_back(p);
+        reached_.clear();
+        while (!waiting_.empty()) {
+            list_around(group);
             double farther = 0.0;
-            std::uint32_t left = 0;
-            for (; waiting != 0; waiting &= waiting - 1) {
-                const auto q = static_cast<std::size_t>(std::countr_zero(waiting));
-                const double reached = select(q);
+            std::size_t left = 0;
+            for (const std::size_t p : waiting_) {
+                const double reached = select(p);
                 if (reached <= reach_ || complete_) {
-                    found_.look_up(tree_, first_ + q, candidate_);
-                    visit(tree_.index()[leaf * lane_count + q], found_);
-                    reached_[answered++] = reached;
+                    found_.look_up(tree_, p, candidate_);
+                    visit(tree_.index()[p], found_);
+                    reached_.push_back(reached);
                 } else {
                     farther = std::max(farther, reached);
-                    left |= std::uint32_t{1} << q;
+                    waiting_[left++] = p;
                 }
             }
-            waiting = left;
+            waiting_.resize(left);
             if (left != 0) reach_ = std::min(1.001 * farther, 4.0 * reach_);
         }
         // Stragglers would make the next list too long for all the others.
-        const auto end = reached_.begin() + static_cast<std::ptrdiff_t>(answered);
-        const auto most = reached_.begin() + static_cast<std::ptrdiff_t>(answered * 7 / 8);
-        std::nth_element(reached_.begin(), most, end);
-        reach_ = 1.1 * std::min(*std::max_element(most, end), 1.5 * *most);
+        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
+        std::nth_element(reached_.begin(), most, reached_.end());
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
     }
 
   private:
-    /// Lists the leaves within `reach_` of the leaf, itself among them.
-    void list_around(std::size_t leaf) {
-        first_ = leaf * lane_count;
-        leaf_box box{position(first_), position(first_)};
-        for (std::size_t l = 1; l < tree_.size_of(leaf); ++l) box.add(position(first_ + l));
+    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+
+    /// Lists the leaves within `reach_` of the group, its own among them.
+    void list_around(std::size_t group) {
+        const std::size_t first = group * group_size;
+        const std::size_t last = std::min(first + group_size, tree_.size());
+        leaf_box box{position(first), position(first)};
+        for (std::size_t p = first + 1; p < last; ++p) box.add(position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
         half_ = 0.5 * std::sqrt(box.squared_diagonal());
         if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
         complete_ = reach_ >= diagonal_;
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
-        tree_.for_each_leaf_near(box, reach_, [&](std::size_t other, const leaf_box& b) {
-            if (other == leaf) own_ = listed_;
-            list(other, b);
+        tree_.for_each_leaf_near(box, reach_, [&](std::size_t leaf, const leaf_box& b) {
+            if (leaf == group * leaf_tree::group_size) own_ = listed_;  // the others come next
+            list(leaf, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
             boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
@@ -224,7 +228,7 @@ class leaf_search {
         for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
         for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
         for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
-        for (std::size_t l = tree_.size_of(leaf); l < lane_count; ++l)
+        for (std::size_t l = std::min(lane_count, tree_.size() - start); l < lane_count; ++l)
             block.set(l, {far_, far_, far_});
     }
 
@@ -232,20 +236,22 @@ class leaf_search {
         return {tree_.at(0)[at], tree_.at(1)[at], tree_.at(2)[at]};
     }
 
-    /// A coordinate in floats from the middle of the leaf, in units in which the list reaches to 1.
+    /// A coordinate in floats from the middle of the group, in units in which the list reaches
+    /// to 1.
     [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
         return static_cast<float>((coordinate - origin_[axis]) * scale_);
     }
 
-    /// Leaves as candidates the k nearest of point q of the leaf, as far as they are listed.
+    /// Leaves as candidates the k nearest of the group's point at place p, as far as they are
+    /// listed.
     /// @return how far the k-th is [m]; infinity if fewer are listed
-    double select(std::size_t q) {
+    double select(std::size_t p) {
         if (k_ == 0) return 0.0;             // a lonely point
         constexpr float everything = 16.0f;  // beyond all that is within reach of all
         auto limit = static_cast<float>(guess_ * scale_ * scale_);
         if (!(limit > 0.0f && limit < everything)) limit = everything;
         for (;;) {
-            const std::size_t n = collect(q, limit);
+            const std::size_t n = collect(p, limit);
             if (n >= k_) {
                 const float d2 = kth(n, limit);
                 // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
@@ -256,7 +262,7 @@ class leaf_search {
                 const float below = d > error ? (d - error) * (d - error) : -1.0f;
                 if (above <= limit || limit == everything) {
                     if (count(n, above) - count(n, below) > 1)
-                        settle(q, n, below, above);
+                        settle(p, n, below, above);
                     else
                         keep_within(n, d2);
                     return learn(static_cast<double>(above) / (scale_ * scale_));
@@ -279,13 +285,14 @@ class leaf_search {
         return std::sqrt(squared);
     }
 
-    /// All listed points within the limit of point q, and their squared distances.
+    /// All listed points within the limit of the one at place p, and their squared distances.
     /// @return how many
-    std::size_t collect(std::size_t q, float limit) {
-        const lane_points& queries = points_[own_];
-        const float x = queries.x[q], y = queries.y[q], z = queries.z[q];
-        float* distance = distance_[0].at;
-        std::uint32_t* candidate = candidate_.data();
+    std::size_t collect(std::size_t p, float limit) {
+        const std::size_t own = own_ + p % group_size / lane_count, lane = p % lane_count;
+        const lane_points& queries = points_[own];
+        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
+        float* const distance = distance_[0].at;
+        std::size_t n = 0;
         for (std::size_t g = 0; g * lane_count < listed_; ++g) {
             const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
             for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
@@ -294,13 +301,11 @@ class leaf_search {
                     g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
                 const lanes d2 = points_[b].squared_distances(x, y, z);
                 std::uint32_t within = at_most(d2, limit);
-                if (b == own_) within &= ~(std::uint32_t{1} << q);  // not itself
-                distance = compress(d2.at, within, distance);
-                candidate = compress_from(starts_[b], within, candidate);
+                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
+                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
             }
         }
-        const auto n = static_cast<std::size_t>(distance - distance_[0].at);
-        for (std::size_t l = 0; l < lane_count; ++l) distance[l] = far_;
+        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
         return n;
     }
 
@@ -345,9 +350,9 @@ class leaf_search {
 
     /// Leaves as candidates the k nearest: those within `below`, and of those up to `above`, among
     /// which floats cannot tell the k-th from the next, the nearest by canonical distances.
-    void settle(std::size_t q, std::size_t n, float below, float above) {
+    void settle(std::size_t from, std::size_t n, float below, float above) {
         doubtful_.clear();
-        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(first_ + q).data());
+        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(from).data());
         for (std::size_t c = 0; c < n; ++c) {
             const float d2 = distance_[c / lane_count][c % lane_count];
             if (d2 <= below || d2 > above) continue;
@@ -377,10 +382,10 @@ class leaf_search {
     double guess_ = 0.0;                                     // of the next one
     double reach_ = 0.0;                                     // within which leaves are listed [m]
     bool complete_ = false;                                  // whether that is all of them
-    std::array<double, lane_count> reached_{};               // the k-th distances in a leaf [m]
+    std::vector<double> reached_;                            // the k-th distances in a group [m]
+    std::vector<std::size_t> waiting_;
     std::array<double, 3> origin_{};
     double half_ = 0.0, scale_ = 1.0;
-    std::size_t first_ = 0;  // of the points that are asked for
     std::size_t listed_ = 0, own_ = 0;
     std::vector<lane_boxes> boxes_;
     std::vector<lane_points> points_;
@@ -393,17 +398,19 @@ class leaf_search {
 };
 
 /// Calls visit(i, found_neighbors) for every point i of the tree, with its k nearest neighbors.
-/// Each chunk of work has a visitor of its own, which make_visitor() gives.
+/// Each chunk of work has a visitor of its own, which make_visitor() gives, and whose finish(), if
+/// it has one, is called at the end of the chunk.
 template <execution X>
 void for_each_nearest(const leaf_tree& tree, std::size_t k, const X& run, auto&& make_visitor) {
-    constexpr std::size_t leaves_per_chunk = 64;
+    constexpr std::size_t groups_per_chunk = 16;
     if (tree.size() == 0) return;
-    run((tree.leaves() + leaves_per_chunk - 1) / leaves_per_chunk, [&](std::size_t chunk) {
+    run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
         leaf_search search(tree, k);
         auto visit = make_visitor();
-        const std::size_t first = chunk * leaves_per_chunk;
-        const std::size_t last = std::min(first + leaves_per_chunk, tree.leaves());
-        for (std::size_t leaf = first; leaf < last; ++leaf) search(leaf, visit);
+        const std::size_t first = chunk * groups_per_chunk;
+        const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
+        for (std::size_t group = first; group < last; ++group) search(group, visit);
+        if constexpr (requires { visit.finish(); }) visit.finish();
     });
 }
 

@@ -2,8 +2,8 @@
 /// @file
 /// A kd-tree made for asking after the neighbors of all its points: balanced, its leaves exactly
 /// full with 32 points (but the last), points that are near in space near in memory. It has no
-/// pointers: nodes lie in preorder, and a node over m leaves has its left child, over the larger
-/// half, next to it and the right child behind the 2 ceil(m/2) - 1 nodes of the left.
+/// pointers: nodes lie in preorder, so that the left child of a node, over m leaves, is next to it
+/// and the right one behind the 2 m - 1 nodes of the left.
 #pragma once
 
 #include <algorithm>
@@ -51,6 +51,8 @@ struct leaf_box {
 class leaf_tree {
   public:
     static constexpr std::size_t leaf_size = lane_count;
+    /// Leaves 4 g to 4 g + 3 are a subtree, for every g.
+    static constexpr std::size_t group_size = 4;
 
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
@@ -84,10 +86,7 @@ class leaf_tree {
     [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
     [[nodiscard]] const point_index* index() const { return index_.data(); }
-    /// How many points leaf l holds.
-    [[nodiscard]] std::size_t size_of(std::size_t l) const {
-        return std::min(leaf_size, size_ - l * leaf_size);
-    }
+    [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
     /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
     /// them then takes too long.
     [[nodiscard]] bool crowded() const { return crowded_; }
@@ -108,13 +107,21 @@ class leaf_tree {
                 visit(first, boxes_[node]);
                 continue;
             }
-            const std::size_t middle = first + (last - first + 1) / 2;
+            const std::size_t middle = middle_of(first, last);
             stack[depth++] = {node + 2 * (middle - first), middle, last};
             stack[depth++] = {node + 1, first, middle};
         }
     }
 
   private:
+    /// Where a node over the leaves from first to last is split: between groups, if it holds more
+    /// than one.
+    [[nodiscard]] static std::size_t middle_of(std::size_t first, std::size_t last) {
+        const std::size_t half = (last - first + 1) / 2;
+        if (last - first <= group_size) return first + half;
+        return first + (half + group_size - 1) / group_size * group_size;
+    }
+
     struct entry {
         std::array<double, 3> at;
         point_index index;
@@ -173,7 +180,7 @@ class leaf_tree {
         std::size_t axis = 0;
         for (std::size_t a = 1; a < 3; ++a)
             if (box.high[a] - box.low[a] > box.high[axis] - box.low[axis]) axis = a;
-        const std::size_t middle = t.first + (t.last - t.first + 1) / 2;
+        const std::size_t middle = middle_of(t.first, t.last);
         const auto at = static_cast<std::ptrdiff_t>((middle - t.first) * leaf_size);
         std::nth_element(
             entries.begin(), entries.begin() + at, entries.end(),
