@@ -5,7 +5,7 @@
 /// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the point before)? A third more points than needed pass.
+///     bit more than that of the points before)? Half as many points again as needed pass.
 ///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
 ///     evenly spread in their squares, so interpolation finds it in three or four counts.
 ///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
@@ -280,7 +280,7 @@ class leaf_search {
     /// the next one sift through too much.
     /// @return the distance
     double learn(double squared) {
-        guess_ = 1.6 * std::min(squared, last_);
+        guess_ = (1.0 + 2.0 / std::sqrt(static_cast<double>(k_))) * std::min(squared, last_);
         last_ = squared;
         return std::sqrt(squared);
     }
