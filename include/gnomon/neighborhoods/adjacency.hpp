@@ -3,11 +3,14 @@
 /// A stored neighbor graph: all rings in one array, one after the other, with their beginnings.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -18,6 +21,16 @@ namespace gnomon {
 class adjacency {
   public:
     adjacency() = default;
+
+    /// The graph whose rings are `indices` from begin[i] to begin[i + 1].
+    /// @throws std::invalid_argument  unless begin ascends from 0 to the number of indices
+    adjacency(std::vector<std::uint64_t> begin, std::vector<point_index> indices)
+        : begin_(std::move(begin)), indices_(std::move(indices)) {
+        detail::require(!begin_.empty() && begin_.front() == 0 &&
+                            begin_.back() == indices_.size() &&
+                            std::is_sorted(begin_.begin(), begin_.end()),
+                        "adjacency: rings must lie one after the other");
+    }
 
     /// The graph of all rings that `search` finds. Complexity: that of its n searches; while
     /// building, the indices exist twice.

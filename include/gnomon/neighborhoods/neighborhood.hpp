@@ -5,7 +5,8 @@
 /// A *neighborhood* is a small policy such as `knn{.k = 30}`; called with points it gives a
 /// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
 /// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
-/// none; both doors give the same rings. Some graphs know more of a ring than its members, e.g.
+/// none; a *sweeping* one has a third, `sweep`, that finds all rings in whatever order is fastest.
+/// All doors give the same rings. Some graphs know more of a ring than its members, e.g.
 /// that it ends at a boundary: they say so in a `ring_note`.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
@@ -110,6 +111,14 @@ ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ri
     }
 }
 
+namespace detail {
+
+struct any_visitor {
+    void operator()(std::size_t, const auto&) const {}
+};
+
+}  // namespace detail
+
 /// A policy that makes a graph of points: policy(points, execution, projection).
 template <class N, class R, class Proj = std::identity>
 concept neighborhood =
@@ -122,6 +131,20 @@ template <class N, class R, class Proj = std::identity>
 concept streaming_neighborhood =
     neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
         { policy.search(points, proj) } -> neighbor_search;
+    };
+
+/// A neighborhood that can also find all rings at one sweep: policy.sweep(points, execution,
+/// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
+/// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
+/// not, for the points are such that this would take too long, no visitor was called. What was
+/// found tells its ring by `sort_into(ring)`, and without that `moments_about_point()` and
+/// `mean_distance()`.
+template <class N, class R, class Proj = std::identity>
+concept sweeping_neighborhood =
+    streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+        {
+            policy.sweep(points, sequential{}, proj, [] { return detail::any_visitor{}; })
+        } -> std::same_as<bool>;
     };
 
 }  // namespace gnomon

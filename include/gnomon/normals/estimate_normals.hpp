@@ -4,17 +4,20 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <functional>
 #include <limits>
+#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -57,7 +60,7 @@ class surfel_maker {
             return s;
         }
         const ring_view ring = gather_(noted);
-        static_cast<estimate_t<E>&>(s) = checked(i, p, ring);
+        static_cast<estimate_t<E>&>(s) = checked(i, raw(i, p, ring));
         s.neighbors = static_cast<point_index>(ring.size());
         if (!ring.empty()) {
             for (const Eigen::Vector3d& q : ring) {
@@ -65,42 +68,65 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(ring.size());
         }
-        const bool coarse = resolution(p) > coarseness * s.mean_distance;
-        if (s.trust == trust::good && (coarse || !noted.note.certified)) s.trust = trust::weak;
+        if (s.trust == trust::good && (is_coarse(p, s.mean_distance) || !noted.note.certified))
+            s.trust = trust::weak;
+        return s;
+    }
+
+    /// That of point i from what a sweep has found.
+    surfel<estimate_t<E>> from_sweep(std::size_t i, const auto& found) {
+        found.sort_into(sorted_);
+        return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
+    }
+
+    /// The same from the estimate for point i, the number of its neighbors and the mean distance to
+    /// them.
+    surfel<estimate_t<E>> finished(std::size_t i, const estimator_result_t<E>& raw,
+                                   std::size_t neighbors, double mean_distance) const {
+        surfel<estimate_t<E>> s;
+        static_cast<estimate_t<E>&>(s) = checked(i, raw);
+        s.neighbors = static_cast<point_index>(neighbors);
+        s.mean_distance = mean_distance;
+        if (s.trust == trust::good && is_coarse(points_[i], mean_distance)) s.trust = trust::weak;
         return s;
     }
 
   private:
-    /// Coordinates whose ulp exceeds this part of the mean neighbor distance are too coarse.
-    static constexpr double coarseness = 0.05;
-
-    /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
-    static double resolution(const Eigen::Vector3d& p) {
-        return static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
-               std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    /// Whether an ulp of the coordinates at p, in the scalar that the points came in, exceeds 5 %
+    /// of the mean distance to the neighbors [m].
+    static bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
+        const double ulp =
+            static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
+            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+        return ulp > 0.05 * mean_distance;
     }
 
-    /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
-    /// unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
+    /// An estimate for point i, with the promises kept that an estimator may have broken: a usable
+    /// normal has unit length, an unusable one is zero.
+    estimate_t<E> checked(std::size_t i, const estimator_result_t<E>& raw) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw(i, p, ring);
+            e = raw;
         } else {
-            e.normal = position(raw(i, p, ring));
+            e.normal = position(raw);
             e.trust = trust::good;
         }
         if constexpr (ray_estimator<E>) {
             if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
         }
         if (usable(e.trust)) {
-            const double length = e.normal.norm();
-            if (!std::isfinite(length)) e.trust = trust::not_finite;
-            if (length < 1e-150) e.trust = trust::degenerate;
-            if (usable(e.trust) && length != 1.0) e.normal /= length;
+            const bool is_unit = std::abs(dot(e.normal, e.normal) - 1.0) <= 1e-15;
+            if (!is_unit) normalise(e);
         }
         if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;
+    }
+
+    static void normalise(estimate_t<E>& e) {
+        const double length = e.normal.norm();
+        if (!std::isfinite(length)) e.trust = trust::not_finite;
+        if (length < 1e-150) e.trust = trust::degenerate;
+        if (usable(e.trust)) e.normal /= length;
     }
 
     estimator_result_t<E> raw(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
@@ -115,6 +141,56 @@ class surfel_maker {
     const Points& points_;
     const viewpoint_table& viewpoints_;
     ring_gatherer<Points> gather_;
+    std::vector<neighbor> sorted_;
+};
+
+/// Visits what a sweep finds and makes surface elements of it, several at once if the estimator
+/// can.
+template <estimator E, class Points>
+class sweep_visitor {
+  public:
+    sweep_visitor(const E& estimate, const Points& points, const viewpoint_table& viewpoints,
+                  std::vector<surfel<estimate_t<E>>>& surface)
+        : estimate_(estimate), make_(estimate, points, viewpoints), surface_(surface) {}
+
+    void operator()(std::size_t i, const auto& found) {
+        if constexpr (batch_estimator<E>) {
+            waiting_[count_] = i;
+            moments_[count_] = found.moments_about_point();
+            mean_distances_[count_] = found.mean_distance();
+            if (++count_ == batch) finish();
+        } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
+            surface_[i] = make_.finished(i, std::invoke(estimate_, found.moments_about_point()),
+                                         found.size(), found.mean_distance());
+        } else {
+            surface_[i] = make_.from_sweep(i, found);
+        }
+    }
+
+    /// Called when nothing more comes.
+    void finish() {
+        if constexpr (batch_estimator<E>) {
+            const std::span waiting(moments_.data(), count_);
+            std::invoke(estimate_, waiting, std::span(results_.data(), count_));
+            for (std::size_t w = 0; w < count_; ++w) {
+                surface_[waiting_[w]] =
+                    make_.finished(waiting_[w], results_[w], waiting[w].count, mean_distances_[w]);
+            }
+            count_ = 0;
+        }
+    }
+
+  private:
+    static constexpr std::size_t batch = batch_estimator<E> ? 32 : 0;
+
+    const E& estimate_;
+    surfel_maker<E, Points> make_;
+    std::vector<surfel<estimate_t<E>>>& surface_;
+    std::size_t count_ = 0;
+    std::array<std::size_t, batch> waiting_{};
+    std::array<moments, batch> moments_{};
+    std::array<double, batch> mean_distances_{};
+    std::array<estimator_result_t<E>, batch> results_{};
 };
 
 /// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
@@ -172,8 +248,21 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
 [[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
+    const position_view<R, Proj> p(points, projection);
+    if constexpr (sweeping_neighborhood<N, R, Proj>) {
+        std::vector<surfel<estimate_t<E>>> surface(p.size());
+        const viewpoint_table viewpoints = viewpoints_of(points);
+        const auto make_visitor = [&] {
+            return detail::sweep_visitor(estimate, p, viewpoints, surface);
+        };
+        if (policy.sweep(points, run, projection, make_visitor)) {
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
+            }
+            return surface;
+        }
+    }
     if constexpr (streaming_neighborhood<N, R, Proj>) {
-        const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
         std::vector<surfel<estimate_t<E>>> surface(p.size());
         detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),

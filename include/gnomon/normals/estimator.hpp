@@ -109,6 +109,14 @@ concept moment_estimator = estimator<E> && requires(const E& estimate, const mom
     { estimate(m) } -> std::same_as<estimator_result_t<E>>;
 };
 
+/// Gives the same but for rounding from the moments of many neighborhoods, at once and therefore
+/// faster: estimate(moments, results), both spans of one size.
+template <class E>
+concept batch_estimator =
+    moment_estimator<E> &&
+    requires(const E& estimate, std::span<const moments> m,
+             std::span<estimator_result_t<E>> results) { estimate(m, results); };
+
 /// Reads its ring as a fan: says `static constexpr bool reads_fan = true`. Meant for rings in
 /// angular order, which `delaunay` and `sorted_around` give.
 template <class E>

@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/separated_eigen.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
@@ -49,6 +50,50 @@ inline constexpr double smallest_gap = 1e-12;
     plane_fit fit;
     fit.trust = trust::not_finite;
     return fit;
+}
+
+/// The same of n matrices, the i-th of which covariance_of(i) gives.
+void planes_of_least_spread(std::size_t n, auto&& covariance_of, double min_aspect_ratio,
+                            std::span<plane_fit> fits) {
+    for (std::size_t first = 0; first < n; first += pack_size) {
+        const std::size_t many = std::min(pack_size, n - first);
+        std::array<Eigen::Matrix3d, pack_size> matrices;
+        std::array<double, pack_size> traces{};
+        symmetric_3x3<pack> packed{};
+        for (std::size_t l = 0; l < many; ++l) {
+            const Eigen::Matrix3d& m = matrices[l] = covariance_of(first + l);
+            traces[l] = m(0, 0) + m(1, 1) + m(2, 2);
+            const double s = has_scale(traces[l]) ? 1.0 / traces[l] : 0.0;
+            const auto at = static_cast<Eigen::Index>(l);
+            packed.xx[at] = s * m(0, 0);
+            packed.yy[at] = s * m(1, 1);
+            packed.zz[at] = s * m(2, 2);
+            packed.xy[at] = s * m(1, 0);
+            packed.xz[at] = s * m(2, 0);
+            packed.yz[at] = s * m(2, 1);
+        }
+        for (auto at = static_cast<Eigen::Index>(many); at < pack::SizeAtCompileTime; ++at) {
+            packed.xx[at] = packed.yy[at] = 0.5;
+            packed.zz[at] = packed.xy[at] = packed.xz[at] = packed.yz[at] = 0.0;
+        }
+        const separated_eigen<pack> found(packed);
+        for (std::size_t l = 0; l < many; ++l) {
+            const auto at = static_cast<Eigen::Index>(l);
+            if (!has_scale(traces[l]) || !is_accurate(found.values[1][at], found.values[2][at],
+                                                      found.squared_residual[at])) {
+                fits[first + l] = plane_of_least_spread(matrices[l], min_aspect_ratio);
+                continue;
+            }
+            eigen_decomposition e;
+            for (int i = 0; i < 3; ++i) {
+                e.values[i] = traces[l] * found.values[i][at];
+                e.vectors(0, i) = found.vectors[i].x[at];
+                e.vectors(1, i) = found.vectors[i].y[at];
+                e.vectors(2, i) = found.vectors[i].z[at];
+            }
+            fits[first + l] = plane_across(e, min_aspect_ratio);
+        }
+    }
 }
 
 }  // namespace detail

@@ -7,6 +7,9 @@
 /// Robotics, TUM 2010, Eq. (3.2) and Alg. 3.1; Hoppe et al. 1992.
 #pragma once
 
+#include <cstddef>
+#include <span>
+
 #include <Eigen/Core>
 
 #include <gnomon/core/moments.hpp>
@@ -15,7 +18,7 @@
 
 namespace gnomon {
 
-/// Models `moment_estimator`. Needs two neighbors. O(k).
+/// Models `batch_estimator`. Needs two neighbors. O(k).
 ///
 /// Trust: `weak` where the aspect ratio is under `min_aspect_ratio` (a neighborhood from one scan
 /// line); `degenerate` where the normal is not determined: all points at one place, on one line, or
@@ -32,6 +35,15 @@ struct plane_pca {
         if (m.count < 2) return {};
         return detail::plane_of_least_spread(m.covariance_with_point(),  // Eq. (3.5)
                                              min_aspect_ratio);
+    }
+
+    /// The fits of many neighborhoods at once, each from its moments.
+    void operator()(std::span<const moments> m, std::span<plane_fit> fits) const {
+        detail::planes_of_least_spread(
+            m.size(), [m](std::size_t i) { return m[i].covariance_with_point(); }, min_aspect_ratio,
+            fits);
+        for (std::size_t i = 0; i < m.size(); ++i)
+            if (m[i].count < 2) fits[i] = {};
     }
 };
 
