@@ -158,8 +158,7 @@ void run(const plan& p) {
     print_methods("tuning half", half[0], ours, rivals);
     print_methods("held-out half", half[1], ours, rivals);
     print_methods("all shapes", all, ours, rivals);
-    std::printf("\nAverage over all shapes and columns by k:\n");
-    print_choice_of_k(all, {"plane_pca", "PCL", "CGAL jet"});
+    for (const std::string& rival : rivals) print_choice_of_k(all, rival);
     for (const std::string& rival : rivals) print_duel(all, ours, rival);
 }
 

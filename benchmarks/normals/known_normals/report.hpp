@@ -102,24 +102,16 @@ inline void print_methods(const char* title, const std::vector<const cloud_repor
     }
 }
 
-/// How the averages of some methods depend on k.
+/// How the averages of a method depend on k.
 inline void print_choice_of_k(const std::vector<const cloud_report*>& clouds,
-                              const std::vector<std::string>& methods) {
-    std::map<std::size_t, std::map<std::string, double>> table;
+                              const std::string& method) {
+    if (!best_of(averages_of(clouds)).contains(method)) return;
+    print_heading((method + ", k").c_str(), {"average"});
     for (const average& a : averages_of(clouds)) {
-        if (std::ranges::find(methods, a.method) != methods.end()) table[a.k][a.method] = a.all;
-    }
-    std::printf("\n| k |");
-    for (const std::string& m : methods) std::printf(" %s |", m.c_str());
-    std::printf("\n|---|");
-    for (std::size_t i = 0; i < methods.size(); ++i) std::printf("---|");
-    std::printf("\n");
-    for (const auto& [k, row] : table) {
-        std::printf("| %zu |", k);
-        for (const std::string& m : methods) {
-            row.contains(m) ? std::printf(" %.3f |", row.at(m)) : std::printf(" |");
-        }
-        std::printf("\n");
+        if (a.method != method) continue;
+        std::printf("| %zu |", a.k);
+        for (const double rms : a.columns) std::printf(" %.2f |", rms);
+        std::printf(" %.3f |\n", a.all);
     }
 }
 
