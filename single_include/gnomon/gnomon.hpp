@@ -5841,8 +5841,9 @@ class by_sigma_points {
         : anchor_(anchor), spread_(symmetric_eigen(state.covariance)) {
         for (int j = 0; j < 3; ++j) {
             const Eigen::Vector3d axis = detail::column(spread_.vectors, j);
-            plus_[j] = state.moved(detail::scaled(offset(j), axis));
-            minus_[j] = state.moved(detail::scaled(-offset(j), axis));
+            const auto at = static_cast<std::size_t>(j);
+            plus_[at] = state.moved(detail::scaled(offset(j), axis));
+            minus_[at] = state.moved(detail::scaled(-offset(j), axis));
         }
     }
 
@@ -5852,8 +5853,9 @@ class by_sigma_points {
         double squares = 0.0;
         double explained = 0.0;
         for (int j = 0; j < 3; ++j) {
-            const double plus = plus_[j].range(anchor_, u);
-            const double minus = minus_[j].range(anchor_, u);
+            const auto at = static_cast<std::size_t>(j);
+            const double plus = plus_[at].range(anchor_, u);
+            const double minus = minus_[at].range(anchor_, u);
             const double slope = (plus - minus) / (2.0 * offset(j));
             z.value += (plus + minus) / 6.0;
             z.slope = detail::combined(1.0, z.slope, slope, detail::column(spread_.vectors, j));
@@ -6482,20 +6484,22 @@ struct quad_trans_svd {
             rows.add({x * x, y * y, x * y, x, y, 1.0, detail::dot(d, e3)});
         }
         square_array<6> r;
-        for (int j = 0; j < 6; ++j) {
-            for (int i = 0; i < 6; ++i) r[i][j] = rows.matrix()[i][j];
+        for (std::size_t j = 0; j < 6; ++j) {
+            for (std::size_t i = 0; i < 6; ++i) r[i][j] = rows.matrix()[i][j];
         }
         const auto svd = small_svd<6>(r);
         constexpr double negligible = 1e-12;
-        if (rank < 6 && svd.values[rank - 1] - svd.values[rank] <= negligible * svd.values[0]) {
+        const auto kept = static_cast<std::size_t>(rank);
+        if (kept < 6 && svd.values[kept - 1] - svd.values[kept] <= negligible * svd.values[0]) {
             fit.trust = trust::weak;
             return fit;
         }
         double c4 = 0.0;
         double c5 = 0.0;
-        for (int j = 0; j < rank && svd.values[j] > negligible * svd.values[0]; ++j) {
+        for (std::size_t j = 0; j < kept && svd.values[j] > negligible * svd.values[0]; ++j) {
             double projection = 0.0;  // <u_j, z> s_j
-            for (int i = 0; i < 6; ++i) projection += svd.scaled_left[i][j] * rows.matrix()[i][6];
+            for (std::size_t i = 0; i < 6; ++i)
+                projection += svd.scaled_left[i][j] * rows.matrix()[i][6];
             const double share = projection / (svd.values[j] * svd.values[j]);
             c4 += share * svd.right[3][j];
             c5 += share * svd.right[4][j];

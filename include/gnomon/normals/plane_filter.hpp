@@ -96,8 +96,9 @@ class by_sigma_points {
         : anchor_(anchor), spread_(symmetric_eigen(state.covariance)) {
         for (int j = 0; j < 3; ++j) {
             const Eigen::Vector3d axis = detail::column(spread_.vectors, j);
-            plus_[j] = state.moved(detail::scaled(offset(j), axis));
-            minus_[j] = state.moved(detail::scaled(-offset(j), axis));
+            const auto at = static_cast<std::size_t>(j);
+            plus_[at] = state.moved(detail::scaled(offset(j), axis));
+            minus_[at] = state.moved(detail::scaled(-offset(j), axis));
         }
     }
 
@@ -107,8 +108,9 @@ class by_sigma_points {
         double squares = 0.0;
         double explained = 0.0;
         for (int j = 0; j < 3; ++j) {
-            const double plus = plus_[j].range(anchor_, u);
-            const double minus = minus_[j].range(anchor_, u);
+            const auto at = static_cast<std::size_t>(j);
+            const double plus = plus_[at].range(anchor_, u);
+            const double minus = minus_[at].range(anchor_, u);
             const double slope = (plus - minus) / (2.0 * offset(j));
             z.value += (plus + minus) / 6.0;
             z.slope = detail::combined(1.0, z.slope, slope, detail::column(spread_.vectors, j));

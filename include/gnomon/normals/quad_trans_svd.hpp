@@ -11,6 +11,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 
 #include <Eigen/Core>
 
@@ -58,20 +59,22 @@ struct quad_trans_svd {
             rows.add({x * x, y * y, x * y, x, y, 1.0, detail::dot(d, e3)});
         }
         square_array<6> r;
-        for (int j = 0; j < 6; ++j) {
-            for (int i = 0; i < 6; ++i) r[i][j] = rows.matrix()[i][j];
+        for (std::size_t j = 0; j < 6; ++j) {
+            for (std::size_t i = 0; i < 6; ++i) r[i][j] = rows.matrix()[i][j];
         }
         const auto svd = small_svd<6>(r);
         constexpr double negligible = 1e-12;
-        if (rank < 6 && svd.values[rank - 1] - svd.values[rank] <= negligible * svd.values[0]) {
+        const auto kept = static_cast<std::size_t>(rank);
+        if (kept < 6 && svd.values[kept - 1] - svd.values[kept] <= negligible * svd.values[0]) {
             fit.trust = trust::weak;
             return fit;
         }
         double c4 = 0.0;
         double c5 = 0.0;
-        for (int j = 0; j < rank && svd.values[j] > negligible * svd.values[0]; ++j) {
+        for (std::size_t j = 0; j < kept && svd.values[j] > negligible * svd.values[0]; ++j) {
             double projection = 0.0;  // <u_j, z> s_j
-            for (int i = 0; i < 6; ++i) projection += svd.scaled_left[i][j] * rows.matrix()[i][6];
+            for (std::size_t i = 0; i < 6; ++i)
+                projection += svd.scaled_left[i][j] * rows.matrix()[i][6];
             const double share = projection / (svd.values[j] * svd.values[j]);
             c4 += share * svd.right[3][j];
             c5 += share * svd.right[4][j];
