@@ -15,7 +15,8 @@ void enter_benchmarks(const effort& much) {
                     "/sigma_mm:" + std::to_string(sigma_mm) + "/scale:" + scale,
             .sigma = 1e-3 * sigma_mm,
             .seeds = sigma_mm > 0 ? much.seeds() : 1,  // without noise all seeds are the same
-            .make = kitchen(trajectory, density, 1e-3 * sigma_mm, std::stod(scale))};
+            .make = kitchen(trajectory, density, 1e-3 * sigma_mm, std::stod(scale)),
+            .widest_k = 60};
         for (const std::size_t k : much.of<std::size_t>(
                  {5, 10, 15, 20, 25, 30, 35, 40, 45, 50, 55, 60}, {10, 20, 30, 60})) {
             enter("fig_3_10", scan, knn_graph(k), pca, 1);

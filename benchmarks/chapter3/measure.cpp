@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <ctime>
 #include <numeric>
-#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -25,7 +24,7 @@ quartiles quartiles_of(std::vector<double> values) {
 
 graph_condition knn_graph(std::size_t k) {
     return {"graph:knn/k:" + std::to_string(k),
-            [k](const auto& scan, const auto& run) { return gnomon::knn{.k = k}(scan, run); }};
+            [k](const auto& scan, const auto& run) { return gnomon::knn{.k = k}(scan, run); }, k};
 }
 
 graph_condition sorted_knn_graph(std::size_t k) {
@@ -41,12 +40,39 @@ graph_condition delaunay_graph() {
 
 namespace {
 
+/// The first k of each ring.
+struct first_of {
+    const gnomon::adjacency& graph;
+    std::size_t k;
+
+    [[nodiscard]] std::size_t size() const { return graph.size(); }
+    void operator()(std::size_t i, std::vector<gnomon::neighbor>& ring) const {
+        ring.clear();
+        for (const auto j : graph[i].first(std::min(k, graph[i].size()))) ring.push_back({0.0, j});
+    }
+};
+
 /// The clouds of all seeds.
-std::vector<labeled_cloud> clouds_of(const cloud_condition& what) {
+struct clouds_of_seeds {
     std::vector<labeled_cloud> clouds;
-    for (std::uint64_t seed = 1; seed <= what.seeds; ++seed) clouds.push_back(what.make(seed));
-    return clouds;
-}
+    std::vector<gnomon::adjacency> widest;  ///< of all seeds but the first, if asked for
+    std::size_t widest_k;
+
+    explicit clouds_of_seeds(const cloud_condition& what) : widest_k(what.widest_k) {
+        for (std::uint64_t seed = 1; seed <= what.seeds; ++seed) {
+            clouds.push_back(what.make(seed));
+            if (seed > 1 && widest_k > 0)
+                widest.push_back(gnomon::knn{.k = widest_k}(clouds.back().scan, gnomon::threads{}));
+        }
+    }
+
+    /// The graph on a cloud that is not the first.
+    [[nodiscard]] gnomon::adjacency graph(const graph_condition& kind, std::size_t cloud) const {
+        if (kind.k > 0 && kind.k <= widest_k)
+            return gnomon::adjacency(first_of{widest[cloud - 1], kind.k}, gnomon::threads{});
+        return kind.make(clouds[cloud].scan, gnomon::threads{});
+    }
+};
 
 /// The graphs on them, and what the first took.
 struct graphs_with_cost {
@@ -55,18 +81,16 @@ struct graphs_with_cost {
     double max_degree = 0.0;
     double mean_degree = 0.0;  ///< of the first
 
-    graphs_with_cost(const graph_condition& what, const std::vector<labeled_cloud>& clouds,
-                     int passes) {
+    graphs_with_cost(const graph_condition& what, const clouds_of_seeds& data, int passes) {
         std::vector<double> taken;
         gnomon::adjacency first;
         for (int pass = 0; pass < passes; ++pass) {
             taken.push_back(
-                seconds_of([&] { first = what.make(clouds[0].scan, gnomon::threads{1}); }));
+                seconds_of([&] { first = what.make(data.clouds[0].scan, gnomon::threads{1}); }));
         }
         seconds = quartiles_of(taken).median;
         graphs.push_back(std::move(first));
-        for (std::size_t c = 1; c < clouds.size(); ++c)
-            graphs.push_back(what.make(clouds[c].scan, {}));
+        for (std::size_t c = 1; c < data.clouds.size(); ++c) graphs.push_back(data.graph(what, c));
         for (const gnomon::adjacency& graph : graphs) {
             for (std::size_t i = 0; i < graph.size(); ++i) {
                 const auto degree = static_cast<double>(graph[i].size());
@@ -75,24 +99,6 @@ struct graphs_with_cost {
             }
         }
     }
-};
-
-/// The value made last, and for what.
-template <class T>
-class latest {
-  public:
-    const T& operator()(const std::string& name, const auto& make) {
-        if (!value_ || name_ != name) {
-            value_.reset();
-            value_.emplace(make());
-            name_ = name;
-        }
-        return *value_;
-    }
-
-  private:
-    std::string name_;
-    std::optional<T> value_;
 };
 
 /// What one benchmark is about.
@@ -104,12 +110,14 @@ struct cell {
 };
 
 void measure(benchmark::State& state, const cell& what) {
-    static latest<std::vector<labeled_cloud>> latest_clouds;
+    static latest<clouds_of_seeds> latest_clouds;
     static latest<graphs_with_cost> latest_graphs;
-    const auto& clouds = latest_clouds(what.cloud.name, [&] { return clouds_of(what.cloud); });
-    const auto& [graphs, search_seconds, max_degree, mean_degree] = latest_graphs(
-        what.cloud.name + "/" + what.graph.name,
-        [&] { return graphs_with_cost(what.graph, clouds, std::min(what.passes, 5)); });
+    const clouds_of_seeds& data =
+        latest_clouds(what.cloud.name, [&] { return clouds_of_seeds(what.cloud); });
+    const auto& clouds = data.clouds;
+    const auto& [graphs, search_seconds, max_degree, mean_degree] =
+        latest_graphs(what.cloud.name + "/" + what.graph.name,
+                      [&] { return graphs_with_cost(what.graph, data, std::min(what.passes, 5)); });
     std::vector<double> gamma, rms, median, p90, p99, usable;
     double with_truth = 0.0;
     for (std::size_t i = 0; i < clouds.size(); ++i) {

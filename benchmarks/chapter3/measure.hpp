@@ -11,6 +11,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -46,18 +47,40 @@ struct quartiles {
 /// @throws std::invalid_argument  if there are none
 quartiles quartiles_of(std::vector<double> values);
 
+/// The value made last, and for what.
+template <class T>
+class latest {
+  public:
+    const T& operator()(const std::string& name, const auto& make) {
+        if (!value_ || name_ != name) {
+            value_.reset();
+            value_.emplace(make());
+            name_ = name;
+        }
+        return *value_;
+    }
+
+  private:
+    std::string name_;
+    std::optional<T> value_;
+};
+
 /// A kind of cloud. Names are made of "key:value" parts.
 struct cloud_condition {
     std::string name;
     double sigma = 0.0;  ///< of the range [m]
     std::uint64_t seeds = 1;
     cloud_source make;
+    /// If not 0, up to this k the k nearest neighbors of all seeds but the first, whose search is
+    /// timed, are cut from the lists of so many, instead of being searched for again.
+    std::size_t widest_k = 0;
 };
 
 /// A kind of graph.
 struct graph_condition {
     std::string name;
     std::function<gnomon::adjacency(const gnomon::scan&, const gnomon::threads&)> make;
+    std::size_t k = 0;  ///< of the k nearest neighbors by distance, if it is that graph
 };
 graph_condition knn_graph(std::size_t k);
 graph_condition sorted_knn_graph(std::size_t k);  ///< in angular order
