@@ -6,17 +6,17 @@ import matplotlib
 matplotlib.use("agg")
 import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
 
-from results import AVERAGING, FIVE, SEVEN, TITLES  # noqa: E402
+from relations import ENOUGH, SCANS  # noqa: E402
+from results import FIVE, SEVEN, TITLES  # noqa: E402
 
 STYLES = dict(zip(SEVEN, [("tab:red", "o"), ("tab:blue", "s"), ("tab:green", "^"),
                           ("tab:purple", "D"), ("tab:orange", "v"), ("tab:brown", "P"),
                           ("tab:gray", "X")]))
 STYLES.update({"ray_ls": ("black", "*"), "weighted_pca": ("tab:cyan", "<"),
                "robust_pca": ("tab:olive", ">")})
-SCAN_TITLES = {"horizontal": "horizontal", "vertical": "vertical", "rotational": "rotational"}
 
 plt.rcParams.update({"font.size": 9, "axes.grid": True, "grid.alpha": 0.3, "axes.axisbelow": True,
-                     "legend.frameon": False, "svg.hashsalt": "gnomon"})
+                     "legend.frameon": False, "figure.titlesize": 11})
 
 
 def save(figure, path):
@@ -53,7 +53,7 @@ def fig_3_5(results, path):
     over_k(results, "fig_3_5", a, "gamma", **at)
     a.set(title="(a) quality on nearest neighbors, 15 mm", ylabel="gamma (1 is perfect)")
     over_k(results, "fig_3_5", b, "us", **at)
-    b.set(title="(b) time without the search", ylabel="us per normal (log scale)", yscale="log")
+    b.set(title="(b) time without the search (log scale)", ylabel="us per normal", yscale="log")
     over_k(results, "fig_3_5", c, "pi_01us", **at)
     c.set(title="(c) index: half quality, half speed; bound 0.1 us", ylabel="pi(0.1 us)")
     for m in FIVE:
@@ -72,14 +72,16 @@ def fig_3_6(results, path):
               ("surrogate, 2 mm", dict(cloud="surrogate", sigma_mm=2))]
     if results.all("fig_3_6", cloud="real"):
         clouds.append(("a real table", dict(cloud="real")))
-    figure, axes = plt.subplots(2, len(clouds), figsize=(4.2 * len(clouds), 7.6),
+    figure, axes = plt.subplots(3, len(clouds), figsize=(4.2 * len(clouds), 10),
                                 layout="constrained", sharey="row")
     for column, (title, at) in zip(axes.T, clouds):
-        over_k(results, "fig_3_6", column[0], "gamma", **at)
-        over_k(results, "fig_3_6", column[1], "pi_01us", **at)
-        column[0].set(title=title, ylim=(0.75, 1.005))
+        for axis, counter in zip(column, ("gamma", "gamma", "pi_01us")):
+            over_k(results, "fig_3_6", axis, counter, **at)
+        column[0].set(title=title, ylim=(0.5, 1.01))
+        column[1].set(ylim=(0.978, 1.0005))
     axes[0][0].set_ylabel("(a) gamma (1 is perfect)")
-    axes[1][0].set_ylabel("(b) index pi(0.1 us)")
+    axes[1][0].set_ylabel("(a) the best of them, enlarged")
+    axes[2][0].set_ylabel("(b) index pi(0.1 us)")
     handles, names = axes[0][0].get_legend_handles_labels()
     legend_below(figure, handles, names, 7)
     figure.suptitle("Scenario II: little noise, nearest neighbors")
@@ -98,7 +100,7 @@ def fig_3_9(results, path):
               label=TITLES[m])
     a.set(title="ten plates, as in the thesis (c)", xlabel="plate", ylabel="gamma (1 is perfect)",
           xticks=range(1, 11))
-    a.legend(loc="lower right", frameon=True)
+    legend_below(figure, *a.get_legend_handles_labels(), 3)
     cells = [results.one("fig_3_9", plates=many, method=m) for m, _ in methods]
     bars = b.bar([TITLES[m] for m, _ in methods], [c["failures_percent"] for c in cells],
                  color=[color for _, color in methods])
@@ -116,7 +118,7 @@ def fig_3_10(results, path):
     figure, axes = plt.subplots(len(densities), 3, figsize=(12, 3.3 * len(densities)),
                                 layout="constrained", sharex=True, sharey=True)
     for row, density in zip(axes, densities):
-        for axis, scan in zip(row, SCAN_TITLES):
+        for axis, scan in zip(row, SCANS):
             for sigma_mm in noise:
                 cells = sorted(results.all("fig_3_10", scan=scan, density=density,
                                            sigma_mm=sigma_mm, scale=1), key=lambda c: c.at["k"])
@@ -126,7 +128,7 @@ def fig_3_10(results, path):
                 best = max(cells, key=lambda c: c["gamma"])
                 axis.plot(best.at["k"], best["gamma"], "o", color=color, markersize=6)
             if density == densities[0]:
-                axis.set_title(f"({'abc'[list(SCAN_TITLES).index(scan)]}) {scan} scan")
+                axis.set_title(f"({'abc'[SCANS.index(scan)]}) {scan} scan")
         row[0].set_ylabel(f"gamma, {density:,} points")
     for axis in axes[-1]:
         axis.set_xlabel("number of neighbors k")
@@ -138,22 +140,26 @@ def fig_3_10(results, path):
 
 
 def fig_3_11(results, path):
-    cells = [c for c in results.all("fig_3_11") if c["flagged_percent"] > 0]
+    cells = [c for c in results.all("fig_3_11") if c["flagged_percent"] >= ENOUGH]
     figure, (a, b) = plt.subplots(1, 2, figsize=(12, 4.8), layout="constrained", sharey=True)
     names = [f"{c['points']:,.0f} points, {c.at['sigma_mm']} mm, k = {c.at['k']}" for c in cells]
     places = range(len(cells))
-    a.barh([p - 0.2 for p in places], [c["gamma_before"] for c in cells], 0.38, color="tab:red",
-           label="k neighbors")
-    a.barh([p + 0.2 for p in places], [c["gamma_after"] for c in cells], 0.38, color="tab:blue",
-           label="2 k neighbors")
-    a.set(title="gamma of the anisotropic points", yticks=places, yticklabels=names, xlim=(0, 1))
-    a.legend(loc="lower center", bbox_to_anchor=(0.5, -0.26), ncols=2)
+    for shift, counter, color, label in (
+            (-0.2, "gamma_before", "tab:red", "from k neighbors"),
+            (0.2, "gamma_after", "tab:blue", "repaired, from 2 k neighbors")):
+        bars = a.barh([p + shift for p in places], [c[counter] for c in cells], 0.38, color=color,
+                      label=label)
+        a.bar_label(bars, [f"{c[counter]:.3f}" for c in cells], padding=3, fontsize=8)
+    a.set(title="gamma of the anisotropic points (1 is perfect)", yticks=places,
+          yticklabels=names, xlim=(0, 1.15))
+    legend_below(figure, *a.get_legend_handles_labels(), 2)
     a.invert_yaxis()
     bars = b.barh(places, [c["flagged_percent"] for c in cells], 0.5, color="tab:gray")
     b.bar_label(bars, [f"{c['flagged_percent']:.2f} %" for c in cells], padding=3)
     b.set(title="how many there are [% of all points]")
     b.margins(x=0.15)
-    figure.suptitle("Vertical scans of the kitchen: normals of anisotropic neighborhoods, repaired")
+    figure.suptitle("Vertical scans of the kitchen: normals of neighbors that are all of one scan "
+                    "line\n(settings where they are at least 0.1 % of the points)")
     save(figure, path)
 
 
@@ -189,8 +195,9 @@ def fig_3_14(results, path):
 
 def decision(results, path):
     noise = results.values("decision", "sigma_mm")
-    figure, axes = plt.subplots(1, len(noise), figsize=(4.1 * len(noise), 4.6),
-                                layout="constrained", sharex=True)
+    figure, axes = plt.subplots((len(noise) + 1) // 2, 2, figsize=(11, 4.2 * ((len(noise) + 1) // 2)),
+                                layout="constrained", squeeze=False)
+    axes = axes.flat
     for axis, sigma_mm in zip(axes, noise):
         cells = results.all("decision", sigma_mm=sigma_mm)
         best = max(c["gamma"] for c in cells)
@@ -198,20 +205,22 @@ def decision(results, path):
             color, marker = STYLES[m]
             for graph, filled in (("knn", True), ("sorted_knn", False), ("delaunay", False)):
                 some = sorted((c for c in cells if c.at["method"] == m
-                               and c.at["graph"] == graph), key=lambda c: c["us_with_search"])
+                               and c.at["graph"] == graph), key=lambda c: c.at.get("k", 0))
                 if not some:
                     continue
                 axis.plot([c["us_with_search"] for c in some], [c["gamma"] for c in some],
                           marker=marker, markersize=6, color=color, linewidth=0.8,
                           markerfacecolor=color if filled else "white",
                           label=TITLES[m] if graph == "knn" else None)
-        axis.set(title=f"{sigma_mm} mm", xscale="log", xlabel="us per normal with the search",
-                 ylim=(max(best - 0.12, 0.0), best + 0.008))
-    axes[0].set_ylabel("gamma (cut below)")
+        axis.set(title=f"noise of {sigma_mm} mm", xscale="log", ylabel="gamma (cut below)",
+                 xlabel="us per normal with the search", ylim=(best - 0.12, best + 0.008))
+        axis.set_xticks([1, 2, 5, 10, 20], ["1", "2", "5", "10", "20"])
+        axis.minorticks_off()
     handles, names = axes[0].get_legend_handles_labels()
     legend_below(figure, handles, names, 5)
-    figure.suptitle("Quality and time by noise: k grows along each line; filled: nearest neighbors, "
-                    "open: angular order or Delaunay stars")
+    figure.suptitle("Quality and time in the kitchen, 28,800 points: upper left is better.\n"
+                    "Lines: k = 10, 20, 30, 50 nearest neighbors; open symbols in a line: in angular "
+                    "order, k = 10, 30; alone: Delaunay stars")
     save(figure, path)
 
 

@@ -540,9 +540,11 @@ def _(results):
             min(few.seeds("gamma") + many.seeds("gamma")) >= 0.999)
 
 
-RANDOM_START = ("Alg. 3.2 starts anywhere; from a start that is nearly at right angles to the rays "
-                "the linearisation throws the state away, its covariance shrinks all the same, and "
-                "no later point brings it back. Ten plates can be lucky")
+RANDOM_START = (
+    "Alg. 3.2 starts anywhere. Where the start is nearly at right angles to the rays (within 10 "
+    "degrees) 44 % of plates fail, where it is along them (within 34 degrees) 4 %: <u, x> is the "
+    "divisor of Eq. 3.17, the first step throws the state away, the covariance shrinks all the same, "
+    "and no later point brings it back. Ten plates can be lucky")
 
 
 @relation("fig_3_9", "3.9.2", "the EKF of Alg. 3.2: gamma under 0.99 for at most 1 % of plates",
@@ -707,30 +709,42 @@ def scan_name(c):
     return f"{c['points']:,.0f} points, {c.at['sigma_mm']} mm, k = {c.at['k']}"
 
 
-@relation("fig_3_11", "3.11.1", "without noise, the gamma of anisotropic points rises by 0.2 at "
-          "least, wherever they are 0.1 % of the scan or more",
-          "this method efficiently corrected the degenerate normals in all data sets",
+def before_and_after(cells):
+    """In words, and whether gamma rises by 0.2 for every seed."""
+    words = "; ".join(f"{scan_name(c)}: {c['gamma_before']:.3f} to {c['gamma_after']:.3f}"
+                      for c in cells)
+    gains = [a - b for c in cells
+             for a, b in zip(c.seeds("gamma_after"), c.seeds("gamma_before"))]
+    if not gains:
+        return f"nowhere are {ENOUGH} % flagged", None
+    return words, min(gains) >= 0.2
+
+
+CORRECTED = "this method efficiently corrected the degenerate normals in all data sets"
+
+
+@relation("fig_3_11", "3.11.1", "without noise, k = 15: the gamma of anisotropic points rises by 0.2 "
+          "at least, wherever they are 0.1 % of the scan or more", CORRECTED,
           "see the measured values")
 def _(results):
-    cells = flagged(results, sigma_mm=0)
-    return ("; ".join(f"{scan_name(c)}: {c['gamma_before']:.3f} to {c['gamma_after']:.3f}"
-                      for c in cells),
-            cells and all(c["gamma_after"] - c["gamma_before"] >= 0.2 for c in cells))
+    return before_and_after(flagged(results, sigma_mm=0, k=15))
 
 
-@relation("fig_3_11", "3.11.2", "the same with noise of 15 mm",
-          "this method efficiently corrected the degenerate normals in all data sets",
-          "noise across a scan line of few points makes it as wide as the threshold: fewer "
-          "neighborhoods are flagged, and those that are were not so bad")
+@relation("fig_3_11", "3.11.2", "the same for k = 30 and 50", CORRECTED,
+          "there was nothing to correct: these neighborhoods reach two or three scan lines, a strip "
+          "that is narrow enough to be flagged and, without noise, wide enough for an exact normal")
 def _(results):
-    cells = flagged(results, sigma_mm=15)
-    gains = [min(a - b for a, b in zip(c.seeds("gamma_after"), c.seeds("gamma_before")))
-             for c in cells]
-    return ("; ".join(f"{scan_name(c)}: {c['gamma_before']:.3f} to {c['gamma_after']:.3f}"
-                      for c in cells) or "too few are flagged at any k", gains and min(gains) >= 0.2)
+    return before_and_after(flagged(results, sigma_mm=0, k=30) + flagged(results, sigma_mm=0, k=50))
 
 
-@relation("fig_3_11", "3.11.3", "fewer than 10 % of points are anisotropic",
+@relation("fig_3_11", "3.11.3", "the same with noise of 15 mm, for any k", CORRECTED,
+          "noise along the rays makes a scan line wider than the threshold: hardly any neighborhood "
+          "is flagged, and the normals of those that are were not bad")
+def _(results):
+    return before_and_after(flagged(results, sigma_mm=15))
+
+
+@relation("fig_3_11", "3.11.4", "fewer than 10 % of points are anisotropic",
           "may constitute only a tiny fraction of all points", "see the measured values")
 def _(results):
     worst = max(results.all("fig_3_11"), key=lambda c: max(c.seeds("flagged_percent")))
@@ -738,10 +752,10 @@ def _(results):
             max(worst.seeds("flagged_percent")) < 10)
 
 
-@relation("fig_3_11", "3.11.4", "the repair adds at most 10 % to the time",
+@relation("fig_3_11", "3.11.5", "the repair adds at most 10 % to the time",
           "while leaving computation times virtually unchanged",
-          "the repair builds its tree anew, which is the larger part where few points are flagged "
-          "and k is small")
+          "the repair builds its tree anew and searches again, which shows where k is small and "
+          "many points are flagged")
 def _(results):
     shares = {scan_name(c): 100 * c["us_repair"] / c["us_with_search"]
               for c in results.all("fig_3_11")}

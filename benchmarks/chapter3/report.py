@@ -171,6 +171,8 @@ def page(results, verdicts):
         "per normal on one core with the search.", "",
         *which_to_take(results),
         "![Quality over time for each level of noise](chapter3_decision.png)", "",
+        "Good normals of surfaces are one thing, of edges another: the mean counts both. The median "
+        "error says what is to be had away from edges.", "",
         "How many neighbors for PlanePCA, mean over horizontal, vertical and rotational scans: the "
         f"best k (its gamma), and the least k that comes within {CLOSE} of it:", "",
         *which_k(results),
