@@ -27,7 +27,7 @@ struct effort {
     bool quick = false;
 
     [[nodiscard]] std::uint64_t seeds() const { return quick ? 2 : 5; }
-    [[nodiscard]] int passes() const { return quick ? 3 : 15; }
+    [[nodiscard]] int passes() const { return quick ? 2 : 15; }
     /// All values of a parameter, or the few that must do.
     template <class T>
     [[nodiscard]] std::vector<T> of(std::vector<T> all, std::vector<T> few) const {
