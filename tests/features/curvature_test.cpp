@@ -172,7 +172,7 @@ TEST(curvature, says_what_is_wrong) {
 
 /// Also where the square of the length is no number.
 TEST(curvature, of_a_normal_of_any_length) {
-    const auto [ring, p] = bent_sample(1);
+    const auto [ring, p] = laws::bent_sample(1);
     const Eigen::Vector3d inclined(0.25, -0.5, 1.0);
     const auto expect_equal = [](const curvature& a, const curvature& b) {
         EXPECT_EQ(a.trust, b.trust);
