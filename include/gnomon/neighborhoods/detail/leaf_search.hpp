@@ -189,7 +189,8 @@ class leaf_search {
         for (std::size_t p = first + 1; p < last; ++p) box.add(position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
         half_ = 0.5 * std::sqrt(box.squared_diagonal());
-        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
+        if (!(reach_ > 0.0)) reach_ = half_ > 0.0 ? half_ : diagonal_;
+        reach_ = std::max(reach_, least_reach);
         complete_ = reach_ >= diagonal_;
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
@@ -255,9 +256,11 @@ class leaf_search {
             if (n >= k_) {
                 const float d2 = kth(n, limit);
                 // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
-                // own; and squares under the least normal float.
+                // own; and squares under the least normal float. Of the canonical distances:
+                // squares under the least normal double.
                 const float d = std::sqrt(d2);
-                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f;
+                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f +
+                                    static_cast<float>(1e-161 * scale_);
                 const float above = (d + error) * (d + error);
                 const float below = d > error ? (d - error) * (d - error) : -1.0f;
                 if (above <= limit || limit == everything) {
@@ -374,6 +377,8 @@ class leaf_search {
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
+    /// The square of `scale_` must not overflow [m].
+    static constexpr double least_reach = 1e-150;
 
     const leaf_tree& tree_;
     std::size_t k_;
