@@ -56,13 +56,12 @@ class found_neighbors {
 
     /// Of them about the point.
     [[nodiscard]] moments moments_about_point() const {
-        // Four at a time, in Eigen's vectors.
-        std::array<Eigen::Array4d, 9> sums;
+        std::array<four, 9> sums;
         for (auto& sum : sums) sum.setZero();
         for (std::size_t j = 0; j < capacity(); j += 4) {
-            const Eigen::Array4d x = Eigen::Array4d::Map(way(0) + j);
-            const Eigen::Array4d y = Eigen::Array4d::Map(way(1) + j);
-            const Eigen::Array4d z = Eigen::Array4d::Map(way(2) + j);
+            const four x = four::Map(way(0) + j);
+            const four y = four::Map(way(1) + j);
+            const four z = four::Map(way(2) + j);
             sums[0] += x;
             sums[1] += y;
             sums[2] += z;
@@ -88,9 +87,9 @@ class found_neighbors {
     /// The mean distance from the point [m]; 0 if there are none.
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
-        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        four sum = four::Zero();
         for (std::size_t j = 0; j < capacity(); j += 4)
-            sum += Eigen::Array4d::Map(squared_distance() + j).sqrt();
+            sum += four::Map(squared_distance() + j).sqrt();
         return sum.sum() / static_cast<double>(count_);
     }
 
@@ -127,6 +126,9 @@ class found_neighbors {
     }
 
   private:
+    /// Four numbers in Eigen's vectors, however translation units align these.
+    using four = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+
     [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
 
     std::size_t count_;
