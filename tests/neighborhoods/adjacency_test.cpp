@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cstddef>
+#include <cstdint>
+#include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -32,6 +35,23 @@ TEST(adjacency, stores_rings_of_any_length_across_chunks) {
         }
     }
     EXPECT_EQ(gnomon::adjacency().size(), 0u);
+}
+
+TEST(adjacency, takes_rings_that_lie_one_after_the_other) {
+    const gnomon::adjacency graph({0, 2, 2, 5}, {1, 2, 0, 1, 2});
+    ASSERT_EQ(graph.size(), 3u);
+    EXPECT_TRUE(std::ranges::equal(graph[0], std::vector{1, 2}));
+    EXPECT_TRUE(graph[1].empty());
+    EXPECT_TRUE(std::ranges::equal(graph[2], std::vector{0, 1, 2}));
+    EXPECT_EQ(graph.note(2), gnomon::ring_note{});
+    EXPECT_EQ(gnomon::adjacency({0}, {}), gnomon::adjacency());
+}
+
+TEST(adjacency, refuses_rings_that_do_not) {
+    using begins = std::vector<std::uint64_t>;
+    for (const begins& begin : {begins{}, {1}, {0, 1}, {0, 4}, {1, 3}, {0, 2, 1, 3}, {0, 4, 3}})
+        EXPECT_THROW((void)gnomon::adjacency(begin, {1, 2, 0}), std::invalid_argument);
+    EXPECT_THROW((void)gnomon::adjacency({}, {}), std::invalid_argument);
 }
 
 }  // namespace

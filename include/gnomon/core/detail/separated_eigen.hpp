@@ -19,9 +19,10 @@
 
 namespace gnomon::detail {
 
-/// Several numbers, which are calculated with as one.
+/// Several numbers, which are calculated with as one. Their alignment would depend on the machine
+/// compiled for, on which translation units need not agree.
 inline constexpr std::size_t pack_size = 8;
-using pack = Eigen::Array<double, pack_size, 1>;
+using pack = Eigen::Array<double, pack_size, 1, Eigen::DontAlign>;
 
 inline double root(double x) { return std::sqrt(x); }
 inline pack root(const pack& x) { return x.sqrt(); }

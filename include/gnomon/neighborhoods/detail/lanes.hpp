@@ -3,8 +3,8 @@
 /// Thirty-two points side by side, and which of them a ball or a box meets, as the bits of a
 /// number. Plain loops of fixed length, which compilers turn into vector instructions at -O2
 /// already; only the gathering of comparisons into bits is beyond them, and said in instructions
-/// where there are some. The inline namespace keeps translation units compiled for different
-/// machines from sharing functions.
+/// where there are some, unless GNOMON_PORTABLE_LANES is defined. The inline namespace keeps
+/// translation units compiled for different machines from sharing functions.
 #pragma once
 
 #include <array>
@@ -13,22 +13,30 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(__AVX__)
-#include <immintrin.h>
+#if defined(GNOMON_PORTABLE_LANES)
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#elif defined(__AVX512F__)
+#define GNOMON_LANES avx512
+#define GNOMON_LANE_BITS 512
+#elif defined(__AVX2__)
+#define GNOMON_LANES avx2
+#define GNOMON_LANE_BITS 256
 #elif defined(__SSE2__)
+#define GNOMON_LANES sse2
+#define GNOMON_LANE_BITS 128
+#else
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#endif
+
+#if GNOMON_LANE_BITS > 128
+#include <immintrin.h>
+#elif GNOMON_LANE_BITS == 128
 #include <emmintrin.h>
 #endif
 
 namespace gnomon::detail {
-#if defined(__AVX512F__)
-#define GNOMON_LANES avx512
-#elif defined(__AVX__)
-#define GNOMON_LANES avx
-#elif defined(__SSE2__)
-#define GNOMON_LANES sse2
-#else
-#define GNOMON_LANES portable
-#endif
 inline namespace GNOMON_LANES {
 
 inline constexpr std::size_t lane_count = 32;
@@ -43,12 +51,12 @@ struct alignas(64) lanes {
 
 /// Bit l of the result tells whether a[l] <= limit.
 [[nodiscard]] inline std::uint32_t at_most(const lanes& a, float limit) {
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     const __m512 t = _mm512_set1_ps(limit);
     const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
     const unsigned high = _mm512_cmp_ps_mask(_mm512_load_ps(a.at + 16), t, _CMP_LE_OQ);
     return low | high << 16;
-#elif defined(__AVX__)
+#elif GNOMON_LANE_BITS == 256
     const __m256 t = _mm256_set1_ps(limit);
     std::uint32_t bits = 0;
     for (int l = 0; l < 32; l += 8) {
@@ -56,7 +64,7 @@ struct alignas(64) lanes {
         bits |= static_cast<std::uint32_t>(_mm256_movemask_ps(le)) << l;
     }
     return bits;
-#elif defined(__SSE2__)
+#elif GNOMON_LANE_BITS == 128
     const __m128 t = _mm_set1_ps(limit);
     std::uint32_t bits = 0;
 #pragma GCC unroll 8
@@ -73,7 +81,7 @@ struct alignas(64) lanes {
 #endif
 }
 
-#if defined(__AVX2__) && !defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 256
 /// For each set of 8 lanes, the numbers of those in it, first to last.
 inline constexpr auto members_table = [] {
     std::array<std::array<std::uint8_t, 8>, 256> table{};
@@ -95,14 +103,14 @@ inline constexpr auto members_table = [] {
 /// @return the end of what was written
 [[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
                                                       std::uint32_t bits, std::uint32_t* out) {
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
         const auto set = static_cast<__mmask16>(bits);
         const __m512i all = _mm512_loadu_si512(numbers + l);
         _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
         out += std::popcount(bits & 0xffffu);
     }
-#elif defined(__AVX2__)
+#elif GNOMON_LANE_BITS == 256
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
         const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + l));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
@@ -121,7 +129,7 @@ inline constexpr auto members_table = [] {
                                                    std::uint32_t bits, float* out,
                                                    std::uint32_t* out_numbers) {
     const float* const begin = out;
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
@@ -133,7 +141,7 @@ inline constexpr auto members_table = [] {
         out += n;
         out_numbers += n;
     }
-#elif defined(__AVX2__)
+#elif GNOMON_LANE_BITS == 256
     __m256i start = _mm256_set1_epi32(static_cast<int>(first));
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
         const __m256i members = members_of(bits & 0xffu);

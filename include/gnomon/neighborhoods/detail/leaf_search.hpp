@@ -56,13 +56,12 @@ class found_neighbors {
 
     /// Of them about the point.
     [[nodiscard]] moments moments_about_point() const {
-        // Four at a time, in Eigen's vectors.
-        std::array<Eigen::Array4d, 9> sums;
+        std::array<four, 9> sums;
         for (auto& sum : sums) sum.setZero();
         for (std::size_t j = 0; j < capacity(); j += 4) {
-            const Eigen::Array4d x = Eigen::Array4d::Map(way(0) + j);
-            const Eigen::Array4d y = Eigen::Array4d::Map(way(1) + j);
-            const Eigen::Array4d z = Eigen::Array4d::Map(way(2) + j);
+            const four x = four::Map(way(0) + j);
+            const four y = four::Map(way(1) + j);
+            const four z = four::Map(way(2) + j);
             sums[0] += x;
             sums[1] += y;
             sums[2] += z;
@@ -88,9 +87,9 @@ class found_neighbors {
     /// The mean distance from the point [m]; 0 if there are none.
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
-        Eigen::Array4d sum = Eigen::Array4d::Zero();
+        four sum = four::Zero();
         for (std::size_t j = 0; j < capacity(); j += 4)
-            sum += Eigen::Array4d::Map(squared_distance() + j).sqrt();
+            sum += four::Map(squared_distance() + j).sqrt();
         return sum.sum() / static_cast<double>(count_);
     }
 
@@ -127,6 +126,9 @@ class found_neighbors {
     }
 
   private:
+    /// Four numbers in Eigen's vectors, however translation units align these.
+    using four = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+
     [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
 
     std::size_t count_;
@@ -150,12 +152,40 @@ class leaf_search {
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t first = group * group_size;
+        const std::size_t last = std::min(first + group_size, tree_.size());
         waiting_.clear();
-        for (std::size_t p = first; p < std::min(first + group_size, tree_.size()); ++p)
-            waiting_.push_back(p);
+        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        enclose_waiting();
+        // The box of the group, whose diagonal is 2 half_, holds that many neighbors of each.
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * half_);
         reached_.clear();
-        while (!waiting_.empty()) {
-            list_around(group);
+        if (half_ <= widest * reach_ || !(reach_ > 0.0)) {
+            find_waiting(visit);
+        } else {
+            for (std::size_t p = first; p < last; ++p) {
+                waiting_.assign(1, p);
+                if (guess_ > 0.0) reach_ = std::sqrt(guess_);
+                enclose_waiting();
+                find_waiting(visit);
+            }
+        }
+        // Stragglers would make the next list too long for all the others.
+        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
+        std::nth_element(reached_.begin(), most, reached_.end());
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
+    }
+
+  private:
+    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+    /// How much wider than its neighborhoods a group may be: beyond, as where it holds a stray, its
+    /// points are taken one by one, lest floats from its middle tell too little.
+    static constexpr double widest = 256.0;
+
+    /// Visits all that are waiting.
+    template <class Visit>
+    void find_waiting(Visit&& visit) {
+        for (;;) {
+            list_around_waiting();
             double farther = 0.0;
             std::size_t left = 0;
             for (const std::size_t p : waiting_) {
@@ -169,32 +199,30 @@ class leaf_search {
                     waiting_[left++] = p;
                 }
             }
+            if (left == 0) return;
             waiting_.resize(left);
-            if (left != 0) reach_ = std::min(1.001 * farther, 4.0 * reach_);
+            reach_ = std::min(1.001 * farther, 4.0 * reach_);
+            enclose_waiting();
         }
-        // Stragglers would make the next list too long for all the others.
-        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
-        std::nth_element(reached_.begin(), most, reached_.end());
-        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
     }
 
-  private:
-    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+    void enclose_waiting() {
+        box_ = {position(waiting_[0]), position(waiting_[0])};
+        for (const std::size_t p : waiting_) box_.add(position(p));
+        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
+        half_ = 0.5 * std::sqrt(box_.squared_diagonal());
+    }
 
-    /// Lists the leaves within `reach_` of the group, its own among them.
-    void list_around(std::size_t group) {
-        const std::size_t first = group * group_size;
-        const std::size_t last = std::min(first + group_size, tree_.size());
-        leaf_box box{position(first), position(first)};
-        for (std::size_t p = first + 1; p < last; ++p) box.add(position(p));
-        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
-        half_ = 0.5 * std::sqrt(box.squared_diagonal());
-        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
+    /// Lists the leaves within `reach_` of the points that are waiting, their own among them.
+    void list_around_waiting() {
+        if (!(reach_ > 0.0)) reach_ = half_ > 0.0 ? half_ : diagonal_;
+        reach_ = std::max(reach_, least_reach);
         complete_ = reach_ >= diagonal_;
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
-        tree_.for_each_leaf_near(box, reach_, [&](std::size_t leaf, const leaf_box& b) {
-            if (leaf == group * leaf_tree::group_size) own_ = listed_;  // the others come next
+        tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
+            if (leaf / leaf_tree::group_size == waiting_[0] / group_size)
+                own_[leaf % leaf_tree::group_size] = listed_;
             list(leaf, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
@@ -255,9 +283,11 @@ class leaf_search {
             if (n >= k_) {
                 const float d2 = kth(n, limit);
                 // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
-                // own; and squares under the least normal float.
+                // own; and squares under the least normal float. Of the canonical distances:
+                // squares under the least normal double.
                 const float d = std::sqrt(d2);
-                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f;
+                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f +
+                                    static_cast<float>(1e-161 * scale_);
                 const float above = (d + error) * (d + error);
                 const float below = d > error ? (d - error) * (d - error) : -1.0f;
                 if (above <= limit || limit == everything) {
@@ -288,7 +318,7 @@ class leaf_search {
     /// All listed points within the limit of the one at place p, and their squared distances.
     /// @return how many
     std::size_t collect(std::size_t p, float limit) {
-        const std::size_t own = own_ + p % group_size / lane_count, lane = p % lane_count;
+        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
         float* const distance = distance_[0].at;
@@ -374,6 +404,8 @@ class leaf_search {
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
+    /// The square of `scale_` must not overflow [m].
+    static constexpr double least_reach = 1e-150;
 
     const leaf_tree& tree_;
     std::size_t k_;
@@ -384,9 +416,12 @@ class leaf_search {
     bool complete_ = false;                                  // whether that is all of them
     std::vector<double> reached_;                            // the k-th distances in a group [m]
     std::vector<std::size_t> waiting_;
-    std::array<double, 3> origin_{};
-    double half_ = 0.0, scale_ = 1.0;
-    std::size_t listed_ = 0, own_ = 0;
+    leaf_box box_{};                  // of them
+    std::array<double, 3> origin_{};  // its middle
+    double half_ = 0.0;               // half its diagonal [m]
+    double scale_ = 1.0;
+    std::size_t listed_ = 0;
+    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
     std::vector<lane_boxes> boxes_;
     std::vector<lane_points> points_;
     std::vector<std::uint32_t> starts_;

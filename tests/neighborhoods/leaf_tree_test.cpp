@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <set>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+
+namespace {
+
+using gnomon::detail::leaf_box, gnomon::detail::leaf_tree;
+
+leaf_tree tree_of(const clouds::cloud& points) {
+    return {gnomon::position_view<clouds::cloud>(points), gnomon::sequential{}};
+}
+
+std::array<double, 3> position(const leaf_tree& tree, std::size_t place) {
+    return {tree.at(0)[place], tree.at(1)[place], tree.at(2)[place]};
+}
+
+std::size_t end_of(const leaf_tree& tree, std::size_t leaf) {
+    return std::min(tree.size(), (leaf + 1) * leaf_tree::leaf_size);
+}
+
+std::vector<clouds::named_cloud> planted_clouds() {
+    auto all = clouds::degenerate();
+    for (const std::size_t n : {31u, 32u, 33u, 127u, 128u, 129u, 4000u, 5000u})
+        all.push_back({std::to_string(n) + " in a cube", clouds::in_cube(n, n)});
+    all.push_back({"grid", clouds::on_grid(3000, 1, 0.1)});
+    return all;
+}
+
+TEST(leaf_tree, holds_every_finite_point_once) {
+    for (const auto& [name, points] : planted_clouds()) {
+        SCOPED_TRACE(name);
+        const leaf_tree tree = tree_of(points);
+        std::set<std::size_t> held(tree.index(), tree.index() + tree.size());
+        EXPECT_EQ(held.size(), tree.size());
+        for (std::size_t i = 0; i < points.size(); ++i)
+            EXPECT_EQ(held.contains(i), gnomon::is_finite(points[i]));
+        for (std::size_t at = 0; at < tree.size(); ++at) {
+            const Eigen::Vector3d& p = points[tree.index()[at]];
+            ASSERT_EQ(position(tree, at), (std::array{p[0], p[1], p[2]}));
+        }
+    }
+}
+
+/// Each leaf within a distance of a box, in their order, with the box of its points.
+TEST(leaf_tree, gives_all_leaves_near_a_box) {
+    for (const auto& [name, points] : planted_clouds()) {
+        SCOPED_TRACE(name);
+        const leaf_tree tree = tree_of(points);
+        std::vector<leaf_box> boxes;
+        for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) {
+            const std::size_t first = leaf * leaf_tree::leaf_size;
+            leaf_box box{position(tree, first), position(tree, first)};
+            for (std::size_t at = first; at < end_of(tree, leaf); ++at) box.add(position(tree, at));
+            boxes.push_back(box);
+        }
+        for (std::size_t leaf = 0; leaf < tree.leaves(); leaf += 7) {
+            for (const double distance : {0.0, 0.13, 0.57, 1e200}) {
+                std::vector<std::size_t> expected, found;
+                for (std::size_t l = 0; l < boxes.size(); ++l)
+                    if (boxes[l].squared_distance_to(boxes[leaf]) <= distance * distance)
+                        expected.push_back(l);
+                tree.for_each_leaf_near(boxes[leaf], distance, [&](std::size_t l, const auto& b) {
+                    found.push_back(l);
+                    EXPECT_TRUE(b.low == boxes[l].low && b.high == boxes[l].high);
+                });
+                ASSERT_EQ(found, expected);
+            }
+        }
+    }
+}
+
+/// So that a group is compact: every split between groups comes before those within.
+TEST(leaf_tree, groups_are_as_compact_as_subtrees) {
+    clouds::cloud line;
+    for (int i = 0; i < 32 * 11; ++i) line.push_back({double(i * 37 % (32 * 11)), 0, 0});
+    const leaf_tree tree = tree_of(line);
+    for (std::size_t group = 0; group < tree.groups(); ++group) {
+        const std::size_t first = group * 128, last = std::min(first + 128, tree.size());
+        const auto [low, high] = std::minmax_element(tree.at(0) + first, tree.at(0) + last);
+        EXPECT_EQ(*high - *low, static_cast<double>(last - first - 1));
+    }
+}
+
+TEST(leaf_tree, is_the_same_for_any_number_of_threads) {
+    const auto points = clouds::on_grid(20'000, 4, 0.05);
+    const leaf_tree expected = tree_of(points);
+    for (const unsigned t : {2u, 4u}) {
+        const leaf_tree tree(gnomon::position_view<clouds::cloud>(points), gnomon::threads{t});
+        EXPECT_TRUE(std::equal(tree.index(), tree.index() + tree.size(), expected.index()));
+    }
+}
+
+/// Fewer points than a leaf holds cannot fill one. More may share leaves with others, but not many
+/// more.
+TEST(leaf_tree, says_where_points_crowd) {
+    for (const std::size_t heap : {31u, 2000u}) {
+        auto points = clouds::in_cube(5000, 5);
+        std::fill_n(points.begin() + 100, heap, Eigen::Vector3d(0.5, 0.5, 0.5));
+        EXPECT_EQ(tree_of(points).crowded(), heap > 31);
+    }
+}
+
+}  // namespace
