@@ -6,6 +6,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/separated_eigen.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
@@ -55,41 +56,38 @@ inline constexpr double smallest_gap = 1e-12;
 /// The same of n matrices, the i-th of which covariance_of(i) gives.
 void planes_of_least_spread(std::size_t n, auto&& covariance_of, double min_aspect_ratio,
                             std::span<plane_fit> fits) {
-    for (std::size_t first = 0; first < n; first += pack_size) {
-        const std::size_t many = std::min(pack_size, n - first);
-        std::array<Eigen::Matrix3d, pack_size> matrices;
-        std::array<double, pack_size> traces{};
-        symmetric_3x3<pack> packed{};
+    for (std::size_t first = 0; first < n; first += pack::size) {
+        const std::size_t many = std::min(pack::size, n - first);
+        std::array<Eigen::Matrix3d, pack::size> matrices;
+        std::array<double, pack::size> traces{};
+        std::array<std::array<double, pack::size>, 6> entries{};
+        for (std::size_t l = 0; l < pack::size; ++l) entries[0][l] = entries[1][l] = 0.5;
         for (std::size_t l = 0; l < many; ++l) {
             const Eigen::Matrix3d& m = matrices[l] = covariance_of(first + l);
             traces[l] = m(0, 0) + m(1, 1) + m(2, 2);
             const double s = has_scale(traces[l]) ? 1.0 / traces[l] : 0.0;
-            const auto at = static_cast<Eigen::Index>(l);
-            packed.xx[at] = s * m(0, 0);
-            packed.yy[at] = s * m(1, 1);
-            packed.zz[at] = s * m(2, 2);
-            packed.xy[at] = s * m(1, 0);
-            packed.xz[at] = s * m(2, 0);
-            packed.yz[at] = s * m(2, 1);
+            entries[0][l] = s * m(0, 0);
+            entries[1][l] = s * m(1, 1);
+            entries[2][l] = s * m(2, 2);
+            entries[3][l] = s * m(1, 0);
+            entries[4][l] = s * m(2, 0);
+            entries[5][l] = s * m(2, 1);
         }
-        for (auto at = static_cast<Eigen::Index>(many); at < pack::SizeAtCompileTime; ++at) {
-            packed.xx[at] = packed.yy[at] = 0.5;
-            packed.zz[at] = packed.xy[at] = packed.xz[at] = packed.yz[at] = 0.0;
-        }
-        const separated_eigen<pack> found(packed);
+        const auto packed = [&](std::size_t e) { return pack(entries[e].data()); };
+        const separated_eigen<pack> found(
+            symmetric_3x3<pack>{packed(0), packed(1), packed(2), packed(3), packed(4), packed(5)});
         for (std::size_t l = 0; l < many; ++l) {
-            const auto at = static_cast<Eigen::Index>(l);
-            if (!has_scale(traces[l]) || !is_accurate(found.values[1][at], found.values[2][at],
-                                                      found.squared_residual[at])) {
+            if (!has_scale(traces[l]) ||
+                !is_accurate(found.values[1][l], found.values[2][l], found.squared_residual[l])) {
                 fits[first + l] = plane_of_least_spread(matrices[l], min_aspect_ratio);
                 continue;
             }
             eigen_decomposition e;
             for (int i = 0; i < 3; ++i) {
-                e.values[i] = traces[l] * found.values[i][at];
-                e.vectors(0, i) = found.vectors[i].x[at];
-                e.vectors(1, i) = found.vectors[i].y[at];
-                e.vectors(2, i) = found.vectors[i].z[at];
+                e.values[i] = traces[l] * found.values[i][l];
+                e.vectors(0, i) = found.vectors[i].x[l];
+                e.vectors(1, i) = found.vectors[i].y[l];
+                e.vectors(2, i) = found.vectors[i].z[l];
             }
             fits[first + l] = plane_across(e, min_aspect_ratio);
         }

@@ -7,6 +7,7 @@
 /// Robotics, TUM 2010, Eq. (3.2) and Alg. 3.1; Hoppe et al. 1992.
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <span>
 
@@ -37,8 +38,10 @@ struct plane_pca {
                                              min_aspect_ratio);
     }
 
-    /// The fits of many neighborhoods at once, each from its moments.
-    void operator()(std::span<const moments> m, std::span<plane_fit> fits) const {
+    /// The fits of many neighborhoods at once, each from its moments. A template, so that only who
+    /// uses it compiles it.
+    template <std::same_as<plane_fit> Fit>
+    void operator()(std::span<const moments> m, std::span<Fit> fits) const {
         detail::planes_of_least_spread(
             m.size(), [m](std::size_t i) { return m[i].covariance_with_point(); }, min_aspect_ratio,
             fits);

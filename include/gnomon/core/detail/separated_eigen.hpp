@@ -15,27 +15,17 @@
 #include <cstddef>
 #include <type_traits>
 
-#include <Eigen/Core>
+#include <gnomon/core/detail/pack.hpp>
 
 namespace gnomon::detail {
 
-/// Several numbers, which are calculated with as one. Their alignment would depend on the machine
-/// compiled for, on which translation units need not agree.
-inline constexpr std::size_t pack_size = 8;
-using pack = Eigen::Array<double, pack_size, 1, Eigen::DontAlign>;
-
 inline double root(double x) { return std::sqrt(x); }
-inline pack root(const pack& x) { return x.sqrt(); }
 inline double magnitude(double x) { return std::abs(x); }
-inline pack magnitude(const pack& x) { return x.abs(); }
+/// a where x >= y, and b elsewhere.
+inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
 /// Whether that is certain: of several numbers it is not asked for.
 inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
 inline bool at_most(const pack&, double) { return false; }
-/// a where x >= y, and b elsewhere.
-inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
-inline pack where_at_least(const pack& x, const pack& y, const pack& a, const pack& b) {
-    return (x >= y).select(a, b);
-}
 
 /// A vector whose coordinates are T.
 template <class T>

@@ -3,8 +3,7 @@
 /// Thirty-two points side by side, and which of them a ball or a box meets, as the bits of a
 /// number. Plain loops of fixed length, which compilers turn into vector instructions at -O2
 /// already; only the gathering of comparisons into bits is beyond them, and said in instructions
-/// where there are some, unless GNOMON_PORTABLE_LANES is defined. The inline namespace keeps
-/// translation units compiled for different machines from sharing functions.
+/// where there are some.
 #pragma once
 
 #include <array>
@@ -13,28 +12,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#if defined(GNOMON_PORTABLE_LANES)
-#define GNOMON_LANES portable
-#define GNOMON_LANE_BITS 0
-#elif defined(__AVX512F__)
-#define GNOMON_LANES avx512
-#define GNOMON_LANE_BITS 512
-#elif defined(__AVX2__)
-#define GNOMON_LANES avx2
-#define GNOMON_LANE_BITS 256
-#elif defined(__SSE2__)
-#define GNOMON_LANES sse2
-#define GNOMON_LANE_BITS 128
-#else
-#define GNOMON_LANES portable
-#define GNOMON_LANE_BITS 0
-#endif
-
-#if GNOMON_LANE_BITS > 128
-#include <immintrin.h>
-#elif GNOMON_LANE_BITS == 128
-#include <emmintrin.h>
-#endif
+#include <gnomon/core/detail/instruction_set.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {

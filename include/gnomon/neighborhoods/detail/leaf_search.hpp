@@ -27,6 +27,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
@@ -40,7 +41,7 @@ namespace gnomon::detail {
 /// `stride`: the ways with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = 8;
+    static constexpr std::size_t stride = pack::size;
 
     explicit found_neighbors(std::size_t k)
         : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
@@ -56,40 +57,38 @@ class found_neighbors {
 
     /// Of them about the point.
     [[nodiscard]] moments moments_about_point() const {
-        std::array<four, 9> sums;
-        for (auto& sum : sums) sum.setZero();
-        for (std::size_t j = 0; j < capacity(); j += 4) {
-            const four x = four::Map(way(0) + j);
-            const four y = four::Map(way(1) + j);
-            const four z = four::Map(way(2) + j);
-            sums[0] += x;
-            sums[1] += y;
-            sums[2] += z;
-            sums[3] += x * x;
-            sums[4] += y * x;
-            sums[5] += z * x;
-            sums[6] += y * y;
-            sums[7] += z * y;
-            sums[8] += z * z;
+        pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
+        pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
+        for (std::size_t j = 0; j < capacity(); j += pack::size) {
+            const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
+            x_sum += x;
+            y_sum += y;
+            z_sum += z;
+            xx += x * x;
+            xy += x * y;
+            xz += x * z;
+            yy += y * y;
+            yz += y * z;
+            zz += z * z;
         }
         moments m;
         m.count = count_;
-        m.sum = {sums[0].sum(), sums[1].sum(), sums[2].sum()};
-        m.outer(0, 0) = sums[3].sum();
-        m.outer(1, 0) = sums[4].sum();
-        m.outer(2, 0) = sums[5].sum();
-        m.outer(1, 1) = sums[6].sum();
-        m.outer(2, 1) = sums[7].sum();
-        m.outer(2, 2) = sums[8].sum();
+        m.sum = {x_sum.sum(), y_sum.sum(), z_sum.sum()};
+        m.outer(0, 0) = xx.sum();
+        m.outer(1, 0) = xy.sum();
+        m.outer(2, 0) = xz.sum();
+        m.outer(1, 1) = yy.sum();
+        m.outer(2, 1) = yz.sum();
+        m.outer(2, 2) = zz.sum();
         return m;
     }
 
     /// The mean distance from the point [m]; 0 if there are none.
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
-        four sum = four::Zero();
-        for (std::size_t j = 0; j < capacity(); j += 4)
-            sum += four::Map(squared_distance() + j).sqrt();
+        pack sum(0.0);
+        for (std::size_t j = 0; j < capacity(); j += pack::size)
+            sum += root(pack(squared_distance() + j));
         return sum.sum() / static_cast<double>(count_);
     }
 
@@ -126,9 +125,6 @@ class found_neighbors {
     }
 
   private:
-    /// Four numbers in Eigen's vectors, however translation units align these.
-    using four = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
-
     [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
 
     std::size_t count_;
@@ -138,11 +134,13 @@ class found_neighbors {
 
 inline namespace GNOMON_LANES {
 
-/// Searches group by group. It learns from one what to expect of the next: one for each thread.
+/// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
+/// template, so that only who searches compiles it.)
+template <class Tree>
 class leaf_search {
   public:
     /// Precondition: the tree is not empty.
-    leaf_search(const leaf_tree& tree, std::size_t k)
+    leaf_search(const Tree& tree, std::size_t k)
         : tree_(tree),
           k_(std::min(k, tree.size() - 1)),
           diagonal_(std::sqrt(tree.box().squared_diagonal())),
@@ -407,7 +405,7 @@ class leaf_search {
     /// The square of `scale_` must not overflow [m].
     static constexpr double least_reach = 1e-150;
 
-    const leaf_tree& tree_;
+    const Tree& tree_;
     std::size_t k_;
     double diagonal_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]

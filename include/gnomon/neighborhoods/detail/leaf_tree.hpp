@@ -147,7 +147,7 @@ class leaf_tree {
         run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    void build_below(std::span<entry> all, const subtree& t) {
+    void build_below(auto all, const subtree& t) {
         if (t.last - t.first == 1) {
             const auto entries = entries_of(all, t);
             boxes_[t.node] = box_of(entries);
@@ -174,7 +174,7 @@ class leaf_tree {
     }
 
     /// Sorts the points of a node to its children, across the longest side of its box.
-    std::array<subtree, 2> split(std::span<entry> all, const subtree& t) {
+    std::array<subtree, 2> split(auto all, const subtree& t) {
         const auto entries = entries_of(all, t);
         const leaf_box& box = boxes_[t.node] = box_of(entries);
         std::size_t axis = 0;

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Several numbers that are calculated with as one, in the vectors that g++ and clang have built
+/// in: these need no optimiser to become vector instructions, and compile in no time, unlike
+/// templates of expressions.
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <cstring>
+
+#include <gnomon/core/detail/instruction_set.hpp>
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Eight numbers.
+class pack {
+  public:
+    static constexpr std::size_t size = 8;
+
+    pack() = default;
+    [[gnu::always_inline]] explicit(false) pack(double x) {
+        for (vector& v : at_) v = x - vector{};
+    }
+    /// Those from `first` on.
+    [[gnu::always_inline]] explicit pack(const double* first) {
+        std::memcpy(at_, first, sizeof at_);
+    }
+
+    [[nodiscard]] double operator[](std::size_t l) const { return at_[l / width][l % width]; }
+
+    [[nodiscard]] double sum() const {
+        double all = 0.0;
+        for (std::size_t l = 0; l < size; ++l) all += (*this)[l];
+        return all;
+    }
+
+    [[gnu::always_inline]] friend pack operator+(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] + b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator-(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] - b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator*(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] * b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator/(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] / b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator-(const pack& a) {
+        return of([&](std::size_t v) { return -a.at_[v]; });
+    }
+    [[gnu::always_inline]] pack& operator+=(const pack& b) { return *this = *this + b; }
+
+    [[gnu::always_inline]] friend pack magnitude(const pack& a) {
+        return of([&](std::size_t v) { return a.at_[v] < 0.0 ? -a.at_[v] : a.at_[v]; });
+    }
+    /// a where x >= y, and b elsewhere.
+    [[gnu::always_inline]] friend pack where_at_least(const pack& x, const pack& y, const pack& a,
+                                                      const pack& b) {
+        return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
+    }
+    /// The square roots.
+    [[gnu::always_inline]] friend pack root(const pack& a) {
+        return of([&](std::size_t v) {
+        // std::sqrt, which may have to set errno, would be called one by one.
+#if GNOMON_LANE_BITS == 512
+            return static_cast<vector>(_mm512_sqrt_pd(static_cast<__m512d>(a.at_[v])));
+#elif GNOMON_LANE_BITS == 256
+            return static_cast<vector>(_mm256_sqrt_pd(static_cast<__m256d>(a.at_[v])));
+#elif GNOMON_LANE_BITS == 128
+            return static_cast<vector>(_mm_sqrt_pd(static_cast<__m128d>(a.at_[v])));
+#else
+            vector r = a.at_[v];
+            for (std::size_t l = 0; l < width; ++l) r[l] = std::sqrt(r[l]);
+            return r;
+#endif
+        });
+    }
+
+  private:
+    static constexpr std::size_t bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
+    static constexpr std::size_t width = bytes / sizeof(double);
+    using vector [[gnu::vector_size(bytes)]] = double;
+
+    [[gnu::always_inline]] static pack of(auto&& each) {
+        pack p;
+#pragma GCC unroll 4
+        for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
+        return p;
+    }
+
+    vector at_[size / width];
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
