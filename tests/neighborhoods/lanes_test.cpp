@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// What vector instructions do, against plain loops. Compiled once more for each set of
 /// instructions, see tests/CMakeLists.txt.
+#include <algorithm>
+#include <bitset>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -40,7 +43,7 @@ TEST(lanes, compare_each_with_the_limit) {
         for (const float limit : {0.0f, -0.0f, 0.5f, a[trial % 32], infinity, std::nanf("")}) {
             ASSERT_EQ(gnomon::detail::at_most(a, limit), at_most_one_by_one(a, limit));
             ASSERT_EQ(gnomon::detail::count_at_most(a, limit),
-                      std::popcount(at_most_one_by_one(a, limit)));
+                      std::bitset<32>(at_most_one_by_one(a, limit)).count());
         }
     }
 }
