@@ -1137,11 +1137,164 @@ class subset_view {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/separated_eigen.hpp -------------------------------------------------
+
+/// @file
+/// Eigenvectors of symmetric 3x3 matrices whose smallest eigenvalue stands apart from the others,
+/// as that of a neighborhood on a surface does: faster than rotations, and as accurate. No step
+/// depends on a comparison, but for leaving early, so that the number type may as well be a vector
+/// of numbers, one for each of several matrices.
+///
+/// Newton's method finds the eigenvalue from below. The columns of the adjugate of A - x I are
+/// multiples of its eigenvector v, and v^T A v is a far better eigenvalue, so that two rounds reach
+/// the last bit. In the plane across v, the other two are a 2x2 problem. Whether all went well, the
+/// residual A v - x v tells.
+
+namespace gnomon::detail {
+
+/// Several numbers, which are calculated with as one. Their alignment would depend on the machine
+/// compiled for, on which translation units need not agree.
+inline constexpr std::size_t pack_size = 8;
+using pack = Eigen::Array<double, pack_size, 1, Eigen::DontAlign>;
+
+inline double root(double x) { return std::sqrt(x); }
+inline pack root(const pack& x) { return x.sqrt(); }
+inline double magnitude(double x) { return std::abs(x); }
+inline pack magnitude(const pack& x) { return x.abs(); }
+/// Whether that is certain: of several numbers it is not asked for.
+inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
+inline bool at_most(const pack&, double) { return false; }
+/// a where x >= y, and b elsewhere.
+inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
+inline pack where_at_least(const pack& x, const pack& y, const pack& a, const pack& b) {
+    return (x >= y).select(a, b);
+}
+
+/// A vector whose coordinates are T.
+template <class T>
+struct triple {
+    T x, y, z;
+};
+
+template <class T>
+[[nodiscard]] T inner(const triple<T>& a, const triple<T>& b) {
+    return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+/// The symmetric matrices [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], of which `trace` is one.
+template <class T>
+struct symmetric_3x3 {
+    T xx, yy, zz, xy, xz, yz;
+
+    [[nodiscard]] triple<T> times(const triple<T>& v) const {
+        return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
+                xz * v.x + yz * v.y + zz * v.z};
+    }
+};
+
+/// Eigenvalues, descending, and eigenvectors of such matrices.
+template <class T>
+struct separated_eigen {
+    T values[3];
+    triple<T> vectors[3];
+    T squared_residual;  ///< of the smallest
+
+    explicit separated_eigen(const symmetric_3x3<T>& a) {
+        T x = smallest_root(a);
+        triple<T>& v = vectors[2];
+        for (int round = 0; round < rounds; ++round) {
+            v = null_vector(a, x);
+            const triple<T> p = a.times(v);
+            x = inner(v, p);
+            const triple<T> r{p.x - x * v.x, p.y - x * v.y, p.z - x * v.z};
+            squared_residual = inner(r, r);
+            if (at_most(squared_residual, 1e-31)) break;
+        }
+        values[2] = x;
+        decompose_across(a);
+    }
+
+  private:
+    static constexpr bool one = std::is_same_v<T, double>;
+    static constexpr int newton_steps = one ? 6 : 8;
+    static constexpr int rounds = one ? 4 : 2;
+
+    /// The smallest root of x^3 - x^2 + c1 x - c0, from where all are above.
+    static T smallest_root(const symmetric_3x3<T>& a) {
+        const T c1 =
+            a.xx * a.yy + a.yy * a.zz + a.zz * a.xx - a.xy * a.xy - a.xz * a.xz - a.yz * a.yz;
+        const T c0 = a.xx * (a.yy * a.zz - a.yz * a.yz) - a.xy * (a.xy * a.zz - a.yz * a.xz) +
+                     a.xz * (a.xy * a.yz - a.yy * a.xz);
+        T x = 1.0 / 3.0 - 2.0 * root(magnitude(T(1.0 / 9.0 - c1 / 3.0)));
+        for (int i = 0; i < newton_steps; ++i) {
+            const T value = ((x - 1.0) * x + c1) * x - c0;
+            const T slope = (3.0 * x - 2.0) * x + c1;
+            const T step = value / slope;
+            x = x - step;
+            if (at_most(step, 1e-6)) break;
+        }
+        return x;
+    }
+
+    /// A unit vector that A - x I all but annihilates: of the columns of the adjugate, which is
+    /// v v^T but for a factor, the one with the largest element on the diagonal.
+    static triple<T> null_vector(const symmetric_3x3<T>& a, const T& x) {
+        const T ax = a.xx - x, ay = a.yy - x, az = a.zz - x;
+        const T xx = ay * az - a.yz * a.yz, yy = ax * az - a.xz * a.xz, zz = ax * ay - a.xy * a.xy;
+        const T xy = a.xz * a.yz - a.xy * az, xz = a.xy * a.yz - a.xz * ay,
+                yz = a.xy * a.xz - ax * a.yz;
+        const T xx_or_yy = where_at_least(xx, yy, xx, yy);
+        triple<T> v{where_at_least(xx, yy, xx, xy), where_at_least(xx, yy, xy, yy),
+                    where_at_least(xx, yy, xz, yz)};
+        v = {where_at_least(xx_or_yy, zz, v.x, xz), where_at_least(xx_or_yy, zz, v.y, yz),
+             where_at_least(xx_or_yy, zz, v.z, zz)};
+        const T norm = 1.0 / root(inner(v, v));
+        return {v.x * norm, v.y * norm, v.z * norm};
+    }
+
+    /// The other two, in an orthonormal basis u, w of the plane across v (Duff et al. 2017).
+    void decompose_across(const symmetric_3x3<T>& a) {
+        const triple<T>& v = vectors[2];
+        const T zero = T(v.z * 0.0);
+        const T sign = where_at_least(v.z, zero, T(zero + 1.0), T(zero - 1.0));
+        const T f = -1.0 / (sign + v.z), g = v.x * v.y * f;
+        const triple<T> u{1.0 + sign * v.x * v.x * f, sign * g, -sign * v.x};
+        const triple<T> w{g, sign + v.y * v.y * f, -v.y};
+        const triple<T> au = a.times(u);
+        const T uu = inner(u, au), uw = inner(w, au), ww = inner(w, a.times(w));
+        const T half = 0.5 * (uu - ww), radius = root(T(half * half + uw * uw));
+        values[0] = 0.5 * (uu + ww) + radius;
+        values[1] = 0.5 * (uu + ww) - radius;
+        // Half the angle of (half, uw), without loss of digits; none if they are zero.
+        const T tiny = T(zero + 1e-300);
+        const T t = magnitude(half) + radius + tiny;
+        const T norm = 1.0 / root(T(t * t + uw * uw) + tiny);
+        const T along = where_at_least(half, zero, t, magnitude(uw));
+        const T across = where_at_least(half, zero, uw, where_at_least(uw, zero, t, T(-t)));
+        const T c = where_at_least(radius, tiny, T(along * norm), T(zero + 1.0));
+        const T s = where_at_least(radius, tiny, T(across * norm), zero);
+        vectors[0] = {c * u.x + s * w.x, c * u.y + s * w.y, c * u.z + s * w.z};
+        vectors[1] = {c * w.x - s * u.x, c * w.y - s * u.y, c * w.z - s * u.z};
+    }
+};
+
+/// Whether eigenvalues and residual, of a matrix of trace one, are as good as rotations would make
+/// them: not if the smallest does not stand apart, nor for NaN.
+[[nodiscard]] inline bool is_accurate(double middle, double smallest, double squared_residual) {
+    return middle - smallest > 1e-4 && squared_residual < 1e-30;
+}
+
+/// Whether a matrix of this trace can be brought to trace one.
+[[nodiscard]] inline bool has_scale(double trace) { return trace > 1e-290 && trace < 1e290; }
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/symmetric_eigen.hpp --------------------------------------------------------
 
 /// @file
 /// Eigenvalues and eigenvectors of a small symmetric matrix by cyclic Jacobi rotations (Golub and
-/// Van Loan, Matrix Computations, Sec. 8.5): backward stable for every rank and every multiplicity,
+/// Van Loan, Matrix Computations, Sec. 8.5; 3x3 matrices of flat neighborhoods by a faster way, see
+/// detail/separated_eigen.hpp): backward stable for every rank and every multiplicity,
 /// where closed forms lose half the digits at near-equal eigenvalues. A perfect plane, a line, a
 /// ball and the zero matrix are ordinary inputs.
 
@@ -1234,8 +1387,32 @@ template <std::size_t N>
     return e;
 }
 
-/// The same of a 3x3 matrix.
+namespace detail {
+
+/// Decomposes a matrix of second moments whose smallest eigenvalue stands apart.
+/// @return whether it was one
+[[nodiscard]] inline bool decompose_if_separated(const Eigen::Matrix3d& a, eigen_decomposition& e) {
+    const double trace = a(0, 0) + a(1, 1) + a(2, 2);
+    if (!has_scale(trace)) return false;
+    const double s = 1.0 / trace;
+    const separated_eigen<double> found(symmetric_3x3<double>{
+        s * a(0, 0), s * a(1, 1), s * a(2, 2), s * a(1, 0), s * a(2, 0), s * a(2, 1)});
+    if (!is_accurate(found.values[1], found.values[2], found.squared_residual)) return false;
+    for (int i = 0; i < 3; ++i) {
+        e.values[i] = trace * found.values[i];
+        e.vectors(0, i) = found.vectors[i].x;
+        e.vectors(1, i) = found.vectors[i].y;
+        e.vectors(2, i) = found.vectors[i].z;
+    }
+    return true;
+}
+
+}  // namespace detail
+
+/// The same of a 3x3 matrix, and faster if it is one of second moments whose
+/// smallest eigenvalue stands apart.
 [[nodiscard]] inline eigen_decomposition symmetric_eigen(const Eigen::Matrix3d& a) {
+    if (eigen_decomposition e; detail::decompose_if_separated(a, e)) return e;
     square_array<3> rows;
     for (std::size_t i = 0; i < 3; ++i) {
         for (std::size_t j = 0; j < 3; ++j) rows[i][j] = a.data()[3 * j + i];
@@ -1481,7 +1658,8 @@ inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
 /// A *neighborhood* is a small policy such as `knn{.k = 30}`; called with points it gives a
 /// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
 /// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
-/// none; both doors give the same rings. Some graphs know more of a ring than its members, e.g.
+/// none; a *sweeping* one has a third, `sweep`, that finds all rings in whatever order is fastest.
+/// All doors give the same rings. Some graphs know more of a ring than its members, e.g.
 /// that it ends at a boundary: they say so in a `ring_note`.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
@@ -1575,6 +1753,14 @@ ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ri
     }
 }
 
+namespace detail {
+
+struct any_visitor {
+    void operator()(std::size_t, const auto&) const {}
+};
+
+}  // namespace detail
+
 /// A policy that makes a graph of points: policy(points, execution, projection).
 template <class N, class R, class Proj = std::identity>
 concept neighborhood =
@@ -1587,6 +1773,20 @@ template <class N, class R, class Proj = std::identity>
 concept streaming_neighborhood =
     neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
         { policy.search(points, proj) } -> neighbor_search;
+    };
+
+/// A neighborhood that can also find all rings at one sweep: policy.sweep(points, execution,
+/// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
+/// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
+/// not, for the points are such that this would take too long, no visitor was called. What was
+/// found tells its ring by `sort_into(ring)`, and without that `moments_about_point()` and
+/// `mean_distance()`.
+template <class N, class R, class Proj = std::identity>
+concept sweeping_neighborhood =
+    streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+        {
+            policy.sweep(points, sequential{}, proj, [] { return detail::any_visitor{}; })
+        } -> std::same_as<bool>;
     };
 
 }  // namespace gnomon
@@ -1602,6 +1802,16 @@ namespace gnomon {
 class adjacency {
   public:
     adjacency() = default;
+
+    /// The graph whose rings are `indices` from begin[i] to begin[i + 1].
+    /// @throws std::invalid_argument  unless begin ascends from 0 to the number of indices
+    adjacency(std::vector<std::uint64_t> begin, std::vector<point_index> indices)
+        : begin_(std::move(begin)), indices_(std::move(indices)) {
+        detail::require(!begin_.empty() && begin_.front() == 0 &&
+                            begin_.back() == indices_.size() &&
+                            std::is_sorted(begin_.begin(), begin_.end()),
+                        "adjacency: rings must lie one after the other");
+    }
 
     /// The graph of all rings that `search` finds. Complexity: that of its n searches; while
     /// building, the indices exist twice.
@@ -2675,6 +2885,844 @@ struct hybrid {
 
 }  // namespace gnomon
 
+// -------- gnomon/neighborhoods/detail/lanes.hpp --------------------------------------------------
+
+/// @file
+/// Thirty-two points side by side, and which of them a ball or a box meets, as the bits of a
+/// number. Plain loops of fixed length, which compilers turn into vector instructions at -O2
+/// already; only the gathering of comparisons into bits is beyond them, and said in instructions
+/// where there are some, unless GNOMON_PORTABLE_LANES is defined. The inline namespace keeps
+/// translation units compiled for different machines from sharing functions.
+
+#if defined(GNOMON_PORTABLE_LANES)
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#elif defined(__AVX512F__)
+#define GNOMON_LANES avx512
+#define GNOMON_LANE_BITS 512
+#elif defined(__AVX2__)
+#define GNOMON_LANES avx2
+#define GNOMON_LANE_BITS 256
+#elif defined(__SSE2__)
+#define GNOMON_LANES sse2
+#define GNOMON_LANE_BITS 128
+#else
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#endif
+
+#if GNOMON_LANE_BITS > 128
+#include <immintrin.h>
+#elif GNOMON_LANE_BITS == 128
+#include <emmintrin.h>
+#endif
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+inline constexpr std::size_t lane_count = 32;
+
+/// One number of each of 32 points.
+struct alignas(64) lanes {
+    float at[lane_count];
+
+    [[nodiscard]] float& operator[](std::size_t l) { return at[l]; }
+    [[nodiscard]] const float& operator[](std::size_t l) const { return at[l]; }
+};
+
+/// Bit l of the result tells whether a[l] <= limit.
+[[nodiscard]] inline std::uint32_t at_most(const lanes& a, float limit) {
+#if GNOMON_LANE_BITS == 512
+    const __m512 t = _mm512_set1_ps(limit);
+    const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
+    const unsigned high = _mm512_cmp_ps_mask(_mm512_load_ps(a.at + 16), t, _CMP_LE_OQ);
+    return low | high << 16;
+#elif GNOMON_LANE_BITS == 256
+    const __m256 t = _mm256_set1_ps(limit);
+    std::uint32_t bits = 0;
+    for (int l = 0; l < 32; l += 8) {
+        const __m256 le = _mm256_cmp_ps(_mm256_load_ps(a.at + l), t, _CMP_LE_OQ);
+        bits |= static_cast<std::uint32_t>(_mm256_movemask_ps(le)) << l;
+    }
+    return bits;
+#elif GNOMON_LANE_BITS == 128
+    const __m128 t = _mm_set1_ps(limit);
+    std::uint32_t bits = 0;
+#pragma GCC unroll 8
+    for (int l = 0; l < 32; l += 4) {
+        const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
+        bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
+    }
+    return bits;
+#else
+    std::uint32_t bits = 0;
+    for (std::size_t l = 0; l < lane_count; ++l)
+        bits |= static_cast<std::uint32_t>(a.at[l] <= limit) << l;
+    return bits;
+#endif
+}
+
+#if GNOMON_LANE_BITS == 256
+/// For each set of 8 lanes, the numbers of those in it, first to last.
+inline constexpr auto members_table = [] {
+    std::array<std::array<std::uint8_t, 8>, 256> table{};
+    for (std::size_t set = 0; set < 256; ++set) {
+        std::size_t n = 0;
+        for (std::uint8_t l = 0; l < 8; ++l)
+            if ((set >> l & 1) != 0) table[set][n++] = l;
+    }
+    return table;
+}();
+[[nodiscard]] inline __m256i members_of(std::uint32_t set) {
+    return _mm256_cvtepu8_epi32(
+        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(members_table[set].data())));
+}
+#endif
+
+/// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to 32
+/// in all, may be overwritten.
+/// @return the end of what was written
+[[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
+                                                      std::uint32_t bits, std::uint32_t* out) {
+#if GNOMON_LANE_BITS == 512
+    for (int l = 0; l < 32; l += 16, bits >>= 16) {
+        const auto set = static_cast<__mmask16>(bits);
+        const __m512i all = _mm512_loadu_si512(numbers + l);
+        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
+        out += std::popcount(bits & 0xffffu);
+    }
+#elif GNOMON_LANE_BITS == 256
+    for (int l = 0; l < 32; l += 8, bits >>= 8) {
+        const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + l));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
+                            _mm256_permutevar8x32_epi32(all, members_of(bits & 0xffu)));
+        out += std::popcount(bits & 0xffu);
+    }
+#else
+    for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
+#endif
+    return out;
+}
+
+/// The same of 32 values and of the numbers first, first + 1, ... beside them.
+/// @return how many were written
+[[gnu::always_inline]] inline std::size_t compress(const lanes& values, std::uint32_t first,
+                                                   std::uint32_t bits, float* out,
+                                                   std::uint32_t* out_numbers) {
+    const float* const begin = out;
+#if GNOMON_LANE_BITS == 512
+    __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+    numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
+    for (int l = 0; l < 32; l += 16, bits >>= 16) {
+        const auto set = static_cast<__mmask16>(bits);
+        _mm512_storeu_ps(out, _mm512_maskz_compress_ps(set, _mm512_load_ps(values.at + l)));
+        _mm512_storeu_si512(out_numbers, _mm512_maskz_compress_epi32(set, numbers));
+        numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(16));
+        const auto n = std::popcount(bits & 0xffffu);
+        out += n;
+        out_numbers += n;
+    }
+#elif GNOMON_LANE_BITS == 256
+    __m256i start = _mm256_set1_epi32(static_cast<int>(first));
+    for (int l = 0; l < 32; l += 8, bits >>= 8) {
+        const __m256i members = members_of(bits & 0xffu);
+        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(_mm256_load_ps(values.at + l), members));
+        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out_numbers),
+                            _mm256_add_epi32(start, members));
+        start = _mm256_add_epi32(start, _mm256_set1_epi32(8));
+        const auto n = std::popcount(bits & 0xffu);
+        out += n;
+        out_numbers += n;
+    }
+#else
+    for (; bits != 0; bits &= bits - 1) {
+        const auto l = static_cast<std::uint32_t>(std::countr_zero(bits));
+        *out++ = values[l];
+        *out_numbers++ = first + l;
+    }
+#endif
+    return static_cast<std::size_t>(out - begin);
+}
+
+/// How many of the 32 are at most `limit`.
+[[nodiscard]] inline std::size_t count_at_most(const lanes& a, float limit) {
+#if defined(__POPCNT__)
+    return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
+#else
+    std::uint32_t n = 0;
+    for (std::size_t l = 0; l < lane_count; ++l) n += a.at[l] <= limit ? 1u : 0u;
+    return n;
+#endif
+}
+
+/// The positions of 32 points. Where there are fewer, infinity fills up.
+struct lane_points {
+    lanes x, y, z;
+
+    void set(std::size_t l, const std::array<float, 3>& p) {
+        x[l] = p[0], y[l] = p[1], z[l] = p[2];
+    }
+
+    /// The squared distances from (px, py, pz).
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(float px, float py, float pz) const {
+        lanes d2;
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float dx = x.at[l] - px, dy = y.at[l] - py, dz = z.at[l] - pz;
+            d2.at[l] = dx * dx + dy * dy + dz * dz;
+        }
+        return d2;
+    }
+};
+
+/// Thirty-two boxes, by their middles and half their sides.
+struct lane_boxes {
+    lanes x, y, z, half_x, half_y, half_z;
+
+    void set(std::size_t l, const std::array<float, 3>& middle, const std::array<float, 3>& half) {
+        x[l] = middle[0], y[l] = middle[1], z[l] = middle[2];
+        half_x[l] = half[0], half_y[l] = half[1], half_z[l] = half[2];
+    }
+
+    /// Four times the squared distances from (px, py, pz); 0 inside.
+    [[nodiscard, gnu::always_inline]] lanes squared_distances_times_4(float px, float py,
+                                                                      float pz) const {
+        lanes d2;
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float dx = std::abs(x.at[l] - px) - half_x.at[l];
+            const float dy = std::abs(y.at[l] - py) - half_y.at[l];
+            const float dz = std::abs(z.at[l] - pz) - half_z.at[l];
+            // d + |d| is twice the larger of d and 0, which compilers would not vectorise.
+            const float gx = dx + std::abs(dx), gy = dy + std::abs(dy), gz = dz + std::abs(dz);
+            d2.at[l] = gx * gx + gy * gy + gz * gz;
+        }
+        return d2;
+    }
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/leaf_tree.hpp ----------------------------------------------
+
+/// @file
+/// A kd-tree made for asking after the neighbors of all its points: balanced, its leaves exactly
+/// full with 32 points (but the last), points that are near in space near in memory. It has no
+/// pointers: nodes lie in preorder, so that the left child of a node, over m leaves, is next to it
+/// and the right one behind the 2 m - 1 nodes of the left.
+
+namespace gnomon::detail {
+
+/// An axis-aligned box.
+struct leaf_box {
+    std::array<double, 3> low, high;
+
+    void add(const std::array<double, 3>& p) {
+        for (std::size_t a = 0; a < 3; ++a) {
+            low[a] = std::min(low[a], p[a]);
+            high[a] = std::max(high[a], p[a]);
+        }
+    }
+    [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
+        double sum = 0.0;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
+            sum += gap * gap;
+        }
+        return sum;
+    }
+    [[nodiscard]] double squared_diagonal() const {
+        double sum = 0.0;
+        for (std::size_t a = 0; a < 3; ++a) sum += (high[a] - low[a]) * (high[a] - low[a]);
+        return sum;
+    }
+};
+
+/// The finite points of a position_view in such a tree.
+class leaf_tree {
+  public:
+    static constexpr std::size_t leaf_size = lane_count;
+    /// Leaves 4 g to 4 g + 3 are a subtree, for every g.
+    static constexpr std::size_t group_size = 4;
+
+    /// O(n log n), on as many threads as `run` has.
+    template <class Points, execution X>
+    leaf_tree(const Points& points, const X& run) {
+        std::vector<entry> entries;
+        entries.reserve(points.size());
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Vector3d p = points[i];
+            if (is_finite(p)) entries.push_back({{p[0], p[1], p[2]}, static_cast<point_index>(i)});
+        }
+        if (entries.empty()) return;
+        size_ = entries.size();
+        leaves_ = (size_ + leaf_size - 1) / leaf_size;
+        for (auto& c : at_) c.resize(leaves_ * leaf_size);
+        index_.resize(leaves_ * leaf_size);
+        boxes_.resize(2 * leaves() - 1);
+        build(entries, run);
+        for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
+            const std::size_t first = l * leaf_size;
+            crowded_ = std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
+                return std::all_of(c.data() + first, c.data() + first + leaf_size,
+                                   [&](double x) { return x == c[first]; });
+            });
+        }
+    }
+
+    /// The number of finite points.
+    [[nodiscard]] std::size_t size() const { return size_; }
+    [[nodiscard]] std::size_t leaves() const { return leaves_; }
+    /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
+    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
+    /// The numbers of the points in the cloud, in the same order.
+    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
+    /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
+    /// them then takes too long.
+    [[nodiscard]] bool crowded() const { return crowded_; }
+    /// The box of all. Precondition: there are points.
+    [[nodiscard]] const leaf_box& box() const { return boxes_[0]; }
+
+    /// Calls visit(leaf, box) for all leaves within `distance` of a box, in their order.
+    template <class Visit>
+    void for_each_leaf_near(const leaf_box& box, double distance, Visit&& visit) const {
+        std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
+        std::size_t depth = 0;
+        const double limit = distance * distance * (1.0 + 1e-12);
+        stack[depth++] = {0, 0, leaves()};
+        while (depth > 0) {
+            const auto [node, first, last] = stack[--depth];
+            if (!(boxes_[node].squared_distance_to(box) <= limit)) continue;
+            if (last - first == 1) {
+                visit(first, boxes_[node]);
+                continue;
+            }
+            const std::size_t middle = middle_of(first, last);
+            stack[depth++] = {node + 2 * (middle - first), middle, last};
+            stack[depth++] = {node + 1, first, middle};
+        }
+    }
+
+  private:
+    /// Where a node over the leaves from first to last is split: between groups, if it holds more
+    /// than one.
+    [[nodiscard]] static std::size_t middle_of(std::size_t first, std::size_t last) {
+        const std::size_t half = (last - first + 1) / 2;
+        if (last - first <= group_size) return first + half;
+        return first + (half + group_size - 1) / group_size * group_size;
+    }
+
+    struct entry {
+        std::array<double, 3> at;
+        point_index index;
+    };
+    struct subtree {
+        std::size_t node, first, last;  // of the leaves
+    };
+
+    /// The upper levels one after the other, the subtrees on each side by side.
+    template <execution X>
+    void build(std::span<entry> all, const X& run) {
+        constexpr std::size_t enough = 64;  // subtrees, to keep all threads busy
+        std::vector<subtree> level{{0, 0, leaves()}}, next;
+        while (level.size() < enough && level.front().last - level.front().first > 64) {
+            next.assign(2 * level.size(), {});
+            run(level.size(), [&](std::size_t s) {
+                const auto [left, right] = split(all, level[s]);
+                next[2 * s] = left;
+                next[2 * s + 1] = right;
+            });
+            level.swap(next);
+        }
+        run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
+    }
+
+    void build_below(std::span<entry> all, const subtree& t) {
+        if (t.last - t.first == 1) {
+            const auto entries = entries_of(all, t);
+            boxes_[t.node] = box_of(entries);
+            for (std::size_t l = 0; l < entries.size(); ++l) {
+                const std::size_t to = t.first * leaf_size + l;
+                for (std::size_t a = 0; a < 3; ++a) at_[a][to] = entries[l].at[a];
+                index_[to] = entries[l].index;
+            }
+            return;
+        }
+        const auto [left, right] = split(all, t);
+        build_below(all, left);
+        build_below(all, right);
+    }
+
+    [[nodiscard]] static std::span<entry> entries_of(std::span<entry> all, const subtree& t) {
+        return all.first(std::min(t.last * leaf_size, all.size())).subspan(t.first * leaf_size);
+    }
+
+    [[nodiscard]] static leaf_box box_of(std::span<const entry> entries) {
+        leaf_box box{entries[0].at, entries[0].at};
+        for (const entry& p : entries) box.add(p.at);
+        return box;
+    }
+
+    /// Sorts the points of a node to its children, across the longest side of its box.
+    std::array<subtree, 2> split(std::span<entry> all, const subtree& t) {
+        const auto entries = entries_of(all, t);
+        const leaf_box& box = boxes_[t.node] = box_of(entries);
+        std::size_t axis = 0;
+        for (std::size_t a = 1; a < 3; ++a)
+            if (box.high[a] - box.low[a] > box.high[axis] - box.low[axis]) axis = a;
+        const std::size_t middle = middle_of(t.first, t.last);
+        const auto at = static_cast<std::ptrdiff_t>((middle - t.first) * leaf_size);
+        std::nth_element(
+            entries.begin(), entries.begin() + at, entries.end(),
+            [axis](const entry& p, const entry& q) { return p.at[axis] < q.at[axis]; });
+        return {{{t.node + 1, t.first, middle}, {t.node + 2 * (middle - t.first), middle, t.last}}};
+    }
+
+    std::size_t size_ = 0;
+    bool crowded_ = false;
+    std::size_t leaves_ = 0;
+    std::array<std::vector<double>, 3> at_;
+    std::vector<point_index> index_;
+    std::vector<leaf_box> boxes_;  // of the nodes, in preorder
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/leaf_search.hpp --------------------------------------------
+
+/// @file
+/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
+/// so one walk through the tree lists the leaves that matter for any of them, and what follows is
+/// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
+///
+///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
+///     bit more than that of the points before)? Half as many points again as needed pass.
+///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
+///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
+///     distances, all that passed are sorted by their canonical distances in double.
+///
+/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
+/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+
+namespace gnomon::detail {
+
+/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
+/// `stride`: the ways with zeros.
+class found_neighbors {
+  public:
+    static constexpr std::size_t stride = 8;
+
+    explicit found_neighbors(std::size_t k)
+        : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+    /// Coordinate `axis` of the ways from the point to them [m].
+    [[nodiscard]] const double* way(std::size_t axis) const {
+        return numbers_.data() + axis * capacity();
+    }
+    /// Canonical squared distances [m^2].
+    [[nodiscard]] const double* squared_distance() const { return way(3); }
+    [[nodiscard]] const point_index* index() const { return index_.data(); }
+
+    /// Of them about the point.
+    [[nodiscard]] moments moments_about_point() const {
+        std::array<four, 9> sums;
+        for (auto& sum : sums) sum.setZero();
+        for (std::size_t j = 0; j < capacity(); j += 4) {
+            const four x = four::Map(way(0) + j);
+            const four y = four::Map(way(1) + j);
+            const four z = four::Map(way(2) + j);
+            sums[0] += x;
+            sums[1] += y;
+            sums[2] += z;
+            sums[3] += x * x;
+            sums[4] += y * x;
+            sums[5] += z * x;
+            sums[6] += y * y;
+            sums[7] += z * y;
+            sums[8] += z * z;
+        }
+        moments m;
+        m.count = count_;
+        m.sum = {sums[0].sum(), sums[1].sum(), sums[2].sum()};
+        m.outer(0, 0) = sums[3].sum();
+        m.outer(1, 0) = sums[4].sum();
+        m.outer(2, 0) = sums[5].sum();
+        m.outer(1, 1) = sums[6].sum();
+        m.outer(2, 1) = sums[7].sum();
+        m.outer(2, 2) = sums[8].sum();
+        return m;
+    }
+
+    /// The mean distance from the point [m]; 0 if there are none.
+    [[nodiscard]] double mean_distance() const {
+        if (count_ == 0) return 0.0;
+        four sum = four::Zero();
+        for (std::size_t j = 0; j < capacity(); j += 4)
+            sum += four::Map(squared_distance() + j).sqrt();
+        return sum.sum() / static_cast<double>(count_);
+    }
+
+    /// Replaces the content of `ring` by them in canonical order.
+    void sort_into(std::vector<neighbor>& ring) const {
+        ring.clear();
+        for (std::size_t j = 0; j < count_; ++j) ring.push_back({squared_distance()[j], index_[j]});
+        std::sort(ring.begin(), ring.end());
+    }
+
+    /// Takes the points at the given places of the tree, seen from that at `from`.
+    void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
+        const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
+        const point_index* all_indices = tree.index();
+        const double px = all_x[from], py = all_y[from], pz = all_z[from];
+        double* way_x = numbers_.data();
+        double* way_y = way_x + capacity();
+        double* way_z = way_y + capacity();
+        point_index* index = index_.data();
+        for (std::size_t j = 0; j < count_; ++j) {
+            const std::size_t at = places[j];
+            way_x[j] = all_x[at] - px;
+            way_y[j] = all_y[at] - py;
+            way_z[j] = all_z[at] - pz;
+            index[j] = all_indices[at];
+        }
+        const double *x = way(0), *y = way(1), *z = way(2);
+        for (std::size_t j = 0; j < capacity(); j += stride) {
+            std::array<double, stride> d2;
+            for (std::size_t l = 0; l < stride; ++l)
+                d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
+            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity() + j);
+        }
+    }
+
+  private:
+    /// Four numbers in Eigen's vectors, however translation units align these.
+    using four = Eigen::Array<double, 4, 1, Eigen::DontAlign>;
+
+    [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
+
+    std::size_t count_;
+    std::vector<point_index> index_;
+    std::vector<double> numbers_;  // x, y, z and squared distance
+};
+
+inline namespace GNOMON_LANES {
+
+/// Searches group by group. It learns from one what to expect of the next: one for each thread.
+class leaf_search {
+  public:
+    /// Precondition: the tree is not empty.
+    leaf_search(const leaf_tree& tree, std::size_t k)
+        : tree_(tree),
+          k_(std::min(k, tree.size() - 1)),
+          diagonal_(std::sqrt(tree.box().squared_diagonal())),
+          found_(k_) {}
+
+    /// Calls visit(index, found_neighbors) for each point of the group number `group`.
+    template <class Visit>
+    void operator()(std::size_t group, Visit&& visit) {
+        const std::size_t first = group * group_size;
+        const std::size_t last = std::min(first + group_size, tree_.size());
+        waiting_.clear();
+        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        enclose_waiting();
+        // The box of the group, whose diagonal is 2 half_, holds that many neighbors of each.
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * half_);
+        reached_.clear();
+        if (half_ <= widest * reach_ || !(reach_ > 0.0)) {
+            find_waiting(visit);
+        } else {
+            for (std::size_t p = first; p < last; ++p) {
+                waiting_.assign(1, p);
+                if (guess_ > 0.0) reach_ = std::sqrt(guess_);
+                enclose_waiting();
+                find_waiting(visit);
+            }
+        }
+        // Stragglers would make the next list too long for all the others.
+        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
+        std::nth_element(reached_.begin(), most, reached_.end());
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
+    }
+
+  private:
+    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+    /// How much wider than its neighborhoods a group may be: beyond, as where it holds a stray, its
+    /// points are taken one by one, lest floats from its middle tell too little.
+    static constexpr double widest = 256.0;
+
+    /// Visits all that are waiting.
+    template <class Visit>
+    void find_waiting(Visit&& visit) {
+        for (;;) {
+            list_around_waiting();
+            double farther = 0.0;
+            std::size_t left = 0;
+            for (const std::size_t p : waiting_) {
+                const double reached = select(p);
+                if (reached <= reach_ || complete_) {
+                    found_.look_up(tree_, p, candidate_);
+                    visit(tree_.index()[p], found_);
+                    reached_.push_back(reached);
+                } else {
+                    farther = std::max(farther, reached);
+                    waiting_[left++] = p;
+                }
+            }
+            if (left == 0) return;
+            waiting_.resize(left);
+            reach_ = std::min(1.001 * farther, 4.0 * reach_);
+            enclose_waiting();
+        }
+    }
+
+    void enclose_waiting() {
+        box_ = {position(waiting_[0]), position(waiting_[0])};
+        for (const std::size_t p : waiting_) box_.add(position(p));
+        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
+        half_ = 0.5 * std::sqrt(box_.squared_diagonal());
+    }
+
+    /// Lists the leaves within `reach_` of the points that are waiting, their own among them.
+    void list_around_waiting() {
+        if (!(reach_ > 0.0)) reach_ = half_ > 0.0 ? half_ : diagonal_;
+        reach_ = std::max(reach_, least_reach);
+        complete_ = reach_ >= diagonal_;
+        scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
+        listed_ = 0;
+        tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
+            if (leaf / leaf_tree::group_size == waiting_[0] / group_size)
+                own_[leaf % leaf_tree::group_size] = listed_;
+            list(leaf, b);
+        });
+        for (std::size_t l = listed_; l % lane_count != 0; ++l)
+            boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
+        const std::size_t most = (listed_ + 1) * lane_count;
+        if (distance_.size() * lane_count < most) {
+            distance_.resize(listed_ + 1);
+            candidate_.resize(most);
+        }
+    }
+
+    void list(std::size_t leaf, const leaf_box& box) {
+        if (listed_ == points_.size()) {
+            points_.resize(listed_ + lane_count);
+            starts_.resize(listed_ + lane_count);
+            boxes_.emplace_back();
+        }
+        std::array<float, 3> middle{}, half{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            constexpr double beyond = 64.0;  // all that matters
+            const double low = std::max(-beyond, (box.low[a] - origin_[a]) * scale_);
+            const double high = std::min(beyond, (box.high[a] - origin_[a]) * scale_);
+            middle[a] = static_cast<float>(0.5 * (low + high));
+            half[a] = static_cast<float>(0.5 * (high - low));
+            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);  // floats are off by 2^-24
+        }
+        boxes_[listed_ / lane_count].set(listed_ % lane_count, middle, half);
+        const std::size_t start = leaf * lane_count;
+        starts_[listed_] = static_cast<std::uint32_t>(start);
+        lane_points& block = points_[listed_++];
+        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
+        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
+        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
+        for (std::size_t l = std::min(lane_count, tree_.size() - start); l < lane_count; ++l)
+            block.set(l, {far_, far_, far_});
+    }
+
+    [[nodiscard]] std::array<double, 3> position(std::size_t at) const {
+        return {tree_.at(0)[at], tree_.at(1)[at], tree_.at(2)[at]};
+    }
+
+    /// A coordinate in floats from the middle of the group, in units in which the list reaches
+    /// to 1.
+    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
+        return static_cast<float>((coordinate - origin_[axis]) * scale_);
+    }
+
+    /// Leaves as candidates the k nearest of the group's point at place p, as far as they are
+    /// listed.
+    /// @return how far the k-th is [m]; infinity if fewer are listed
+    double select(std::size_t p) {
+        if (k_ == 0) return 0.0;             // a lonely point
+        constexpr float everything = 16.0f;  // beyond all that is within reach of all
+        auto limit = static_cast<float>(guess_ * scale_ * scale_);
+        if (!(limit > 0.0f && limit < everything)) limit = everything;
+        for (;;) {
+            const std::size_t n = collect(p, limit);
+            if (n >= k_) {
+                const float d2 = kth(n, limit);
+                // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
+                // own; and squares under the least normal float. Of the canonical distances:
+                // squares under the least normal double.
+                const float d = std::sqrt(d2);
+                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f +
+                                    static_cast<float>(1e-161 * scale_);
+                const float above = (d + error) * (d + error);
+                const float below = d > error ? (d - error) * (d - error) : -1.0f;
+                if (above <= limit || limit == everything) {
+                    if (count(n, above) - count(n, below) > 1)
+                        settle(p, n, below, above);
+                    else
+                        keep_within(n, d2);
+                    return learn(static_cast<double>(above) / (scale_ * scale_));
+                }
+                limit = 1.1f * above;  // ties of the k-th may not be among the candidates
+            } else {
+                if (limit == everything) return std::numeric_limits<double>::infinity();
+                limit = 2.5f * limit;
+            }
+            limit = std::min(everything, limit);
+        }
+    }
+
+    /// Guesses the next squared k-th distance from this one and that before, lest a straggler makes
+    /// the next one sift through too much.
+    /// @return the distance
+    double learn(double squared) {
+        guess_ = (1.0 + 2.0 / std::sqrt(static_cast<double>(k_))) * std::min(squared, last_);
+        last_ = squared;
+        return std::sqrt(squared);
+    }
+
+    /// All listed points within the limit of the one at place p, and their squared distances.
+    /// @return how many
+    std::size_t collect(std::size_t p, float limit) {
+        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
+        const lane_points& queries = points_[own];
+        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
+        float* const distance = distance_[0].at;
+        std::size_t n = 0;
+        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
+            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
+            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
+                 near &= near - 1) {
+                const std::size_t b =
+                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                const lanes d2 = points_[b].squared_distances(x, y, z);
+                std::uint32_t within = at_most(d2, limit);
+                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
+                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
+            }
+        }
+        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
+        return n;
+    }
+
+    /// How many of the n candidates are within a limit.
+    [[nodiscard]] std::size_t count(std::size_t n, float limit) const {
+        std::size_t within = 0;
+        for (std::size_t b = 0; b * lane_count < n; ++b)
+            within += count_at_most(distance_[b], limit);
+        return within;
+    }
+
+    /// A limit that k of the n >= k candidates are within, or more if floats cannot tell them
+    /// apart. Precondition: all are within `high`.
+    [[nodiscard]] float kth(std::size_t n, float high) {
+        float low = 0.0f;
+        auto below = 0.0f, within = static_cast<float>(n);
+        const auto wanted = static_cast<float>(k_);
+        for (int i = 0; i < 5 && n > k_; ++i) {
+            const float limit =
+                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
+            const std::size_t c = count(n, limit);
+            if (c == k_) return limit;
+            if (c < k_)
+                low = limit, below = static_cast<float>(c);
+            else
+                high = limit, within = static_cast<float>(c);
+        }
+        sorted_.assign(distance_[0].at, distance_[0].at + n);
+        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+        std::nth_element(sorted_.begin(), last, sorted_.end());
+        return *last;
+    }
+
+    /// Leaves as candidates, in their order, those within a limit.
+    /// @return how many
+    std::size_t keep_within(std::size_t n, float limit) {
+        std::uint32_t* kept = candidate_.data();
+        for (std::size_t b = 0; b * lane_count < n; ++b)
+            kept = compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), kept);
+        return static_cast<std::size_t>(kept - candidate_.data());
+    }
+
+    /// Leaves as candidates the k nearest: those within `below`, and of those up to `above`, among
+    /// which floats cannot tell the k-th from the next, the nearest by canonical distances.
+    void settle(std::size_t from, std::size_t n, float below, float above) {
+        doubtful_.clear();
+        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(from).data());
+        for (std::size_t c = 0; c < n; ++c) {
+            const float d2 = distance_[c / lane_count][c % lane_count];
+            if (d2 <= below || d2 > above) continue;
+            const std::uint32_t at = candidate_[c];
+            const Eigen::Vector3d o = Eigen::Vector3d::Map(position(at).data());
+            doubtful_.push_back({{squared_distance(p, o), tree_.index()[at]}, at});
+        }
+        const std::size_t certain = keep_within(n, below);
+        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain);
+        const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+        if (wanted < std::ssize(doubtful_))
+            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
+                             nearer);
+        for (std::ptrdiff_t c = 0; c < wanted; ++c)
+            candidate_[certain + static_cast<std::size_t>(c)] =
+                doubtful_[static_cast<std::size_t>(c)].second;
+        // In the order of the tree, whatever way they were found.
+        std::sort(candidate_.begin(), candidate_.begin() + static_cast<std::ptrdiff_t>(k_));
+    }
+
+    static constexpr float far_ = std::numeric_limits<float>::infinity();
+    /// The square of `scale_` must not overflow [m].
+    static constexpr double least_reach = 1e-150;
+
+    const leaf_tree& tree_;
+    std::size_t k_;
+    double diagonal_;
+    double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
+    double guess_ = 0.0;                                     // of the next one
+    double reach_ = 0.0;                                     // within which leaves are listed [m]
+    bool complete_ = false;                                  // whether that is all of them
+    std::vector<double> reached_;                            // the k-th distances in a group [m]
+    std::vector<std::size_t> waiting_;
+    leaf_box box_{};                  // of them
+    std::array<double, 3> origin_{};  // its middle
+    double half_ = 0.0;               // half its diagonal [m]
+    double scale_ = 1.0;
+    std::size_t listed_ = 0;
+    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
+    std::vector<lane_boxes> boxes_;
+    std::vector<lane_points> points_;
+    std::vector<std::uint32_t> starts_;
+    std::vector<lanes> distance_;
+    std::vector<std::uint32_t> candidate_;
+    std::vector<float> sorted_;
+    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
+    found_neighbors found_;
+};
+
+/// Calls visit(i, found_neighbors) for every point i of the tree, with its k nearest neighbors.
+/// Each chunk of work has a visitor of its own, which make_visitor() gives, and whose finish(), if
+/// it has one, is called at the end of the chunk.
+template <execution X>
+void for_each_nearest(const leaf_tree& tree, std::size_t k, const X& run, auto&& make_visitor) {
+    constexpr std::size_t groups_per_chunk = 16;
+    if (tree.size() == 0) return;
+    run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
+        leaf_search search(tree, k);
+        auto visit = make_visitor();
+        const std::size_t first = chunk * groups_per_chunk;
+        const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
+        for (std::size_t group = first; group < last; ++group) search(group, visit);
+        if constexpr (requires { visit.finish(); }) visit.finish();
+    });
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/knn.hpp -----------------------------------------------------------
 
 /// @file
@@ -2683,11 +3731,18 @@ struct hybrid {
 
 namespace gnomon {
 
-/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first; a cloud of n <= k
+/// What finds them. The result is the same.
+enum class knn_backend : bool {
+    leaves,    ///< all points of a leaf at once, see detail/leaf_search.hpp
+    nanoflann  ///< one point after the other
+};
+
+/// Models `sweeping_neighborhood`. Rings come in canonical order, nearest first; a cloud of n <= k
 /// finite points gives rings of n - 1.
 struct knn {
     std::size_t k = 50;  ///< number of neighbors, at least 1; the thesis's choice, Sec. 4.4.1
     tie_rule ties = tie_rule::by_index;  ///< `all` for what must not depend on the points' order
+    knn_backend backend = knn_backend::leaves;
 
     /// The stored graph, which every floor above accepts. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0
@@ -2695,7 +3750,43 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
+        std::vector<std::uint64_t> begin;
+        std::vector<point_index> indices;
+        const auto make_room = [&](const position_view<R, Proj>& p, std::size_t ring_size) {
+            begin.assign(p.size() + 1, 0);
+            for (std::size_t i = 0; i < p.size(); ++i)
+                begin[i + 1] = begin[i] + (is_finite(p[i]) ? ring_size : 0);
+            indices.resize(begin.back());
+        };
+        const auto make_visitor = [&] {
+            return [&, ring = std::vector<neighbor>()](std::size_t i, const auto& found) mutable {
+                found.sort_into(ring);
+                for (std::size_t j = 0; j < ring.size(); ++j) indices[begin[i] + j] = ring[j].index;
+            };
+        };
+        if (sweep(points, run, projection, make_visitor, make_room))
+            return adjacency(std::move(begin), std::move(indices));
         return adjacency(search(points, std::move(projection)), run);
+    }
+
+    /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
+    /// with a visitor that make_visitor() gives; before, prepare(position_view, size of all rings).
+    /// @return whether it did: not with the other backend, or `tie_rule::all`, or where so many
+    ///         points coincide that one point after the other is faster
+    /// @throws std::invalid_argument  if k is 0
+    template <class R, execution X, class Proj, class Prepare = detail::any_visitor>
+        requires point_range<R, Proj>
+    [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
+                             auto&& make_visitor, const Prepare& prepare = {}) const {
+        detail::require(k > 0, "knn: k must be at least 1");
+        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
+        const position_view<R, Proj> p(points, projection);
+        const detail::leaf_tree tree(p, run);
+        if (tree.crowded()) return false;
+        if constexpr (!std::is_same_v<Prepare, detail::any_visitor>)
+            prepare(p, tree.size() == 0 ? 0 : std::min(k, tree.size() - 1));
+        detail::for_each_nearest(tree, k, run, make_visitor);
+        return true;
     }
 
     /// A search that stores nothing but its index; the points must outlive it.
@@ -2987,6 +4078,14 @@ concept moment_estimator = estimator<E> && requires(const E& estimate, const mom
     { estimate(m) } -> std::same_as<estimator_result_t<E>>;
 };
 
+/// Gives the same but for rounding from the moments of many neighborhoods, at once and therefore
+/// faster: estimate(moments, results), both spans of one size.
+template <class E>
+concept batch_estimator =
+    moment_estimator<E> &&
+    requires(const E& estimate, std::span<const moments> m,
+             std::span<estimator_result_t<E>> results) { estimate(m, results); };
+
 /// Reads its ring as a fan: says `static constexpr bool reads_fan = true`. Meant for rings in
 /// angular order, which `delaunay` and `sorted_around` give.
 template <class E>
@@ -3127,7 +4226,7 @@ class surfel_maker {
             return s;
         }
         const ring_view ring = gather_(noted);
-        static_cast<estimate_t<E>&>(s) = checked(i, p, ring);
+        static_cast<estimate_t<E>&>(s) = checked(i, raw(i, p, ring));
         s.neighbors = static_cast<point_index>(ring.size());
         if (!ring.empty()) {
             for (const Eigen::Vector3d& q : ring) {
@@ -3135,42 +4234,65 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(ring.size());
         }
-        const bool coarse = resolution(p) > coarseness * s.mean_distance;
-        if (s.trust == trust::good && (coarse || !noted.note.certified)) s.trust = trust::weak;
+        if (s.trust == trust::good && (is_coarse(p, s.mean_distance) || !noted.note.certified))
+            s.trust = trust::weak;
+        return s;
+    }
+
+    /// That of point i from what a sweep has found.
+    surfel<estimate_t<E>> from_sweep(std::size_t i, const auto& found) {
+        found.sort_into(sorted_);
+        return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
+    }
+
+    /// The same from the estimate for point i, the number of its neighbors and the mean distance to
+    /// them.
+    surfel<estimate_t<E>> finished(std::size_t i, const estimator_result_t<E>& raw,
+                                   std::size_t neighbors, double mean_distance) const {
+        surfel<estimate_t<E>> s;
+        static_cast<estimate_t<E>&>(s) = checked(i, raw);
+        s.neighbors = static_cast<point_index>(neighbors);
+        s.mean_distance = mean_distance;
+        if (s.trust == trust::good && is_coarse(points_[i], mean_distance)) s.trust = trust::weak;
         return s;
     }
 
   private:
-    /// Coordinates whose ulp exceeds this part of the mean neighbor distance are too coarse.
-    static constexpr double coarseness = 0.05;
-
-    /// The spacing [m] of representable coordinates at p, in the scalar that the points came in.
-    static double resolution(const Eigen::Vector3d& p) {
-        return static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
-               std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    /// Whether an ulp of the coordinates at p, in the scalar that the points came in, exceeds 5 %
+    /// of the mean distance to the neighbors [m].
+    static bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
+        const double ulp =
+            static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
+            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+        return ulp > 0.05 * mean_distance;
     }
 
-    /// The estimate, with the promises kept that an estimator may have broken: a usable normal has
-    /// unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
+    /// An estimate for point i, with the promises kept that an estimator may have broken: a usable
+    /// normal has unit length, an unusable one is zero.
+    estimate_t<E> checked(std::size_t i, const estimator_result_t<E>& raw) const {
         estimate_t<E> e;
         if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw(i, p, ring);
+            e = raw;
         } else {
-            e.normal = position(raw(i, p, ring));
+            e.normal = position(raw);
             e.trust = trust::good;
         }
         if constexpr (ray_estimator<E>) {
             if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
         }
         if (usable(e.trust)) {
-            const double length = e.normal.norm();
-            if (!std::isfinite(length)) e.trust = trust::not_finite;
-            if (length < 1e-150) e.trust = trust::degenerate;
-            if (usable(e.trust) && length != 1.0) e.normal /= length;
+            const bool is_unit = std::abs(dot(e.normal, e.normal) - 1.0) <= 1e-15;
+            if (!is_unit) normalise(e);
         }
         if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         return e;
+    }
+
+    static void normalise(estimate_t<E>& e) {
+        const double length = e.normal.norm();
+        if (!std::isfinite(length)) e.trust = trust::not_finite;
+        if (length < 1e-150) e.trust = trust::degenerate;
+        if (usable(e.trust)) e.normal /= length;
     }
 
     estimator_result_t<E> raw(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
@@ -3185,6 +4307,56 @@ class surfel_maker {
     const Points& points_;
     const viewpoint_table& viewpoints_;
     ring_gatherer<Points> gather_;
+    std::vector<neighbor> sorted_;
+};
+
+/// Visits what a sweep finds and makes surface elements of it, several at once if the estimator
+/// can.
+template <estimator E, class Points>
+class sweep_visitor {
+  public:
+    sweep_visitor(const E& estimate, const Points& points, const viewpoint_table& viewpoints,
+                  std::vector<surfel<estimate_t<E>>>& surface)
+        : estimate_(estimate), make_(estimate, points, viewpoints), surface_(surface) {}
+
+    void operator()(std::size_t i, const auto& found) {
+        if constexpr (batch_estimator<E>) {
+            waiting_[count_] = i;
+            moments_[count_] = found.moments_about_point();
+            mean_distances_[count_] = found.mean_distance();
+            if (++count_ == batch) finish();
+        } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
+            surface_[i] = make_.finished(i, std::invoke(estimate_, found.moments_about_point()),
+                                         found.size(), found.mean_distance());
+        } else {
+            surface_[i] = make_.from_sweep(i, found);
+        }
+    }
+
+    /// Called when nothing more comes.
+    void finish() {
+        if constexpr (batch_estimator<E>) {
+            const std::span waiting(moments_.data(), count_);
+            std::invoke(estimate_, waiting, std::span(results_.data(), count_));
+            for (std::size_t w = 0; w < count_; ++w) {
+                surface_[waiting_[w]] =
+                    make_.finished(waiting_[w], results_[w], waiting[w].count, mean_distances_[w]);
+            }
+            count_ = 0;
+        }
+    }
+
+  private:
+    static constexpr std::size_t batch = batch_estimator<E> ? 32 : 0;
+
+    const E& estimate_;
+    surfel_maker<E, Points> make_;
+    std::vector<surfel<estimate_t<E>>>& surface_;
+    std::size_t count_ = 0;
+    std::array<std::size_t, batch> waiting_{};
+    std::array<moments, batch> moments_{};
+    std::array<double, batch> mean_distances_{};
+    std::array<estimator_result_t<E>, batch> results_{};
 };
 
 /// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
@@ -3242,8 +4414,21 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
 [[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
+    const position_view<R, Proj> p(points, projection);
+    if constexpr (sweeping_neighborhood<N, R, Proj>) {
+        std::vector<surfel<estimate_t<E>>> surface(p.size());
+        const viewpoint_table viewpoints = viewpoints_of(points);
+        const auto make_visitor = [&] {
+            return detail::sweep_visitor(estimate, p, viewpoints, surface);
+        };
+        if (policy.sweep(points, run, projection, make_visitor)) {
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
+            }
+            return surface;
+        }
+    }
     if constexpr (streaming_neighborhood<N, R, Proj>) {
-        const position_view<R, Proj> p(points, projection);
         const auto search = policy.search(points, projection);
         std::vector<surfel<estimate_t<E>>> surface(p.size());
         detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
@@ -3507,6 +4692,50 @@ inline constexpr double smallest_gap = 1e-12;
     plane_fit fit;
     fit.trust = trust::not_finite;
     return fit;
+}
+
+/// The same of n matrices, the i-th of which covariance_of(i) gives.
+void planes_of_least_spread(std::size_t n, auto&& covariance_of, double min_aspect_ratio,
+                            std::span<plane_fit> fits) {
+    for (std::size_t first = 0; first < n; first += pack_size) {
+        const std::size_t many = std::min(pack_size, n - first);
+        std::array<Eigen::Matrix3d, pack_size> matrices;
+        std::array<double, pack_size> traces{};
+        symmetric_3x3<pack> packed{};
+        for (std::size_t l = 0; l < many; ++l) {
+            const Eigen::Matrix3d& m = matrices[l] = covariance_of(first + l);
+            traces[l] = m(0, 0) + m(1, 1) + m(2, 2);
+            const double s = has_scale(traces[l]) ? 1.0 / traces[l] : 0.0;
+            const auto at = static_cast<Eigen::Index>(l);
+            packed.xx[at] = s * m(0, 0);
+            packed.yy[at] = s * m(1, 1);
+            packed.zz[at] = s * m(2, 2);
+            packed.xy[at] = s * m(1, 0);
+            packed.xz[at] = s * m(2, 0);
+            packed.yz[at] = s * m(2, 1);
+        }
+        for (auto at = static_cast<Eigen::Index>(many); at < pack::SizeAtCompileTime; ++at) {
+            packed.xx[at] = packed.yy[at] = 0.5;
+            packed.zz[at] = packed.xy[at] = packed.xz[at] = packed.yz[at] = 0.0;
+        }
+        const separated_eigen<pack> found(packed);
+        for (std::size_t l = 0; l < many; ++l) {
+            const auto at = static_cast<Eigen::Index>(l);
+            if (!has_scale(traces[l]) || !is_accurate(found.values[1][at], found.values[2][at],
+                                                      found.squared_residual[at])) {
+                fits[first + l] = plane_of_least_spread(matrices[l], min_aspect_ratio);
+                continue;
+            }
+            eigen_decomposition e;
+            for (int i = 0; i < 3; ++i) {
+                e.values[i] = traces[l] * found.values[i][at];
+                e.vectors(0, i) = found.vectors[i].x[at];
+                e.vectors(1, i) = found.vectors[i].y[at];
+                e.vectors(2, i) = found.vectors[i].z[at];
+            }
+            fits[first + l] = plane_across(e, min_aspect_ratio);
+        }
+    }
 }
 
 }  // namespace detail
@@ -4546,7 +5775,7 @@ struct plane_eif {
 
 namespace gnomon {
 
-/// Models `moment_estimator`. Needs two neighbors. O(k).
+/// Models `batch_estimator`. Needs two neighbors. O(k).
 ///
 /// Trust: `weak` where the aspect ratio is under `min_aspect_ratio` (a neighborhood from one scan
 /// line); `degenerate` where the normal is not determined: all points at one place, on one line, or
@@ -4563,6 +5792,15 @@ struct plane_pca {
         if (m.count < 2) return {};
         return detail::plane_of_least_spread(m.covariance_with_point(),  // Eq. (3.5)
                                              min_aspect_ratio);
+    }
+
+    /// The fits of many neighborhoods at once, each from its moments.
+    void operator()(std::span<const moments> m, std::span<plane_fit> fits) const {
+        detail::planes_of_least_spread(
+            m.size(), [m](std::size_t i) { return m[i].covariance_with_point(); }, min_aspect_ratio,
+            fits);
+        for (std::size_t i = 0; i < m.size(); ++i)
+            if (m[i].count < 2) fits[i] = {};
     }
 };
 
