@@ -1137,6 +1137,134 @@ class subset_view {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/instruction_set.hpp -------------------------------------------------
+
+/// @file
+/// Which vector instructions there are to be used in this translation unit: as many as the compiler
+/// was told of, none if GNOMON_PORTABLE_LANES is defined. What depends on them stands in the inline
+/// namespace GNOMON_LANES, which keeps translation units compiled for different machines from
+/// sharing functions.
+
+#if defined(GNOMON_PORTABLE_LANES)
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#elif defined(__AVX512F__)
+#define GNOMON_LANES avx512
+#define GNOMON_LANE_BITS 512
+#elif defined(__AVX2__)
+#define GNOMON_LANES avx2
+#define GNOMON_LANE_BITS 256
+#elif defined(__SSE2__)
+#define GNOMON_LANES sse2
+#define GNOMON_LANE_BITS 128
+#else
+#define GNOMON_LANES portable
+#define GNOMON_LANE_BITS 0
+#endif
+
+#if GNOMON_LANE_BITS > 128
+#include <immintrin.h>
+#elif GNOMON_LANE_BITS == 128
+#include <emmintrin.h>
+#endif
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {}
+}  // namespace gnomon::detail
+
+// -------- gnomon/core/detail/pack.hpp ------------------------------------------------------------
+
+/// @file
+/// Several numbers that are calculated with as one, in the vectors that g++ and clang have built
+/// in: these need no optimiser to become vector instructions, and compile in no time, unlike
+/// templates of expressions.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Eight numbers.
+class pack {
+  public:
+    static constexpr std::size_t size = 8;
+
+    pack() = default;
+    [[gnu::always_inline]] explicit(false) pack(double x) {
+        for (vector& v : at_) v = x - vector{};
+    }
+    /// Those from `first` on.
+    [[gnu::always_inline]] explicit pack(const double* first) {
+        std::memcpy(at_, first, sizeof at_);
+    }
+
+    [[nodiscard]] double operator[](std::size_t l) const { return at_[l / width][l % width]; }
+
+    [[nodiscard]] double sum() const {
+        double all = 0.0;
+        for (std::size_t l = 0; l < size; ++l) all += (*this)[l];
+        return all;
+    }
+
+    [[gnu::always_inline]] friend pack operator+(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] + b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator-(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] - b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator*(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] * b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator/(const pack& a, const pack& b) {
+        return of([&](std::size_t v) { return a.at_[v] / b.at_[v]; });
+    }
+    [[gnu::always_inline]] friend pack operator-(const pack& a) {
+        return of([&](std::size_t v) { return -a.at_[v]; });
+    }
+    [[gnu::always_inline]] pack& operator+=(const pack& b) { return *this = *this + b; }
+
+    [[gnu::always_inline]] friend pack magnitude(const pack& a) {
+        return of([&](std::size_t v) { return a.at_[v] < 0.0 ? -a.at_[v] : a.at_[v]; });
+    }
+    /// a where x >= y, and b elsewhere.
+    [[gnu::always_inline]] friend pack where_at_least(const pack& x, const pack& y, const pack& a,
+                                                      const pack& b) {
+        return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
+    }
+    /// The square roots.
+    [[gnu::always_inline]] friend pack root(const pack& a) {
+        return of([&](std::size_t v) {
+        // std::sqrt, which may have to set errno, would be called one by one.
+#if GNOMON_LANE_BITS == 512
+            return static_cast<vector>(_mm512_sqrt_pd(static_cast<__m512d>(a.at_[v])));
+#elif GNOMON_LANE_BITS == 256
+            return static_cast<vector>(_mm256_sqrt_pd(static_cast<__m256d>(a.at_[v])));
+#elif GNOMON_LANE_BITS == 128
+            return static_cast<vector>(_mm_sqrt_pd(static_cast<__m128d>(a.at_[v])));
+#else
+            vector r = a.at_[v];
+            for (std::size_t l = 0; l < width; ++l) r[l] = std::sqrt(r[l]);
+            return r;
+#endif
+        });
+    }
+
+  private:
+    static constexpr std::size_t bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
+    static constexpr std::size_t width = bytes / sizeof(double);
+    using vector [[gnu::vector_size(bytes)]] = double;
+
+    [[gnu::always_inline]] static pack of(auto&& each) {
+        pack p;
+#pragma GCC unroll 4
+        for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
+        return p;
+    }
+
+    vector at_[size / width];
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/separated_eigen.hpp -------------------------------------------------
 
 /// @file
@@ -1152,22 +1280,13 @@ class subset_view {
 
 namespace gnomon::detail {
 
-/// Several numbers, which are calculated with as one.
-inline constexpr std::size_t pack_size = 8;
-using pack = Eigen::Array<double, pack_size, 1>;
-
 inline double root(double x) { return std::sqrt(x); }
-inline pack root(const pack& x) { return x.sqrt(); }
 inline double magnitude(double x) { return std::abs(x); }
-inline pack magnitude(const pack& x) { return x.abs(); }
+/// a where x >= y, and b elsewhere.
+inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
 /// Whether that is certain: of several numbers it is not asked for.
 inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
 inline bool at_most(const pack&, double) { return false; }
-/// a where x >= y, and b elsewhere.
-inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
-inline pack where_at_least(const pack& x, const pack& y, const pack& a, const pack& b) {
-    return (x >= y).select(a, b);
-}
 
 /// A vector whose coordinates are T.
 template <class T>
@@ -1215,7 +1334,7 @@ struct separated_eigen {
 
   private:
     static constexpr bool one = std::is_same_v<T, double>;
-    static constexpr int newton_steps = one ? 6 : 4;
+    static constexpr int newton_steps = one ? 6 : 8;
     static constexpr int rounds = one ? 4 : 2;
 
     /// The smallest root of x^3 - x^2 + c1 x - c0, from where all are above.
@@ -2890,25 +3009,9 @@ struct hybrid {
 /// Thirty-two points side by side, and which of them a ball or a box meets, as the bits of a
 /// number. Plain loops of fixed length, which compilers turn into vector instructions at -O2
 /// already; only the gathering of comparisons into bits is beyond them, and said in instructions
-/// where there are some. The inline namespace keeps translation units compiled for different
-/// machines from sharing functions.
-
-#if defined(__AVX__)
-#include <immintrin.h>
-#elif defined(__SSE2__)
-#include <emmintrin.h>
-#endif
+/// where there are some.
 
 namespace gnomon::detail {
-#if defined(__AVX512F__)
-#define GNOMON_LANES avx512
-#elif defined(__AVX__)
-#define GNOMON_LANES avx
-#elif defined(__SSE2__)
-#define GNOMON_LANES sse2
-#else
-#define GNOMON_LANES portable
-#endif
 inline namespace GNOMON_LANES {
 
 inline constexpr std::size_t lane_count = 32;
@@ -2923,12 +3026,12 @@ struct alignas(64) lanes {
 
 /// Bit l of the result tells whether a[l] <= limit.
 [[nodiscard]] inline std::uint32_t at_most(const lanes& a, float limit) {
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     const __m512 t = _mm512_set1_ps(limit);
     const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
     const unsigned high = _mm512_cmp_ps_mask(_mm512_load_ps(a.at + 16), t, _CMP_LE_OQ);
     return low | high << 16;
-#elif defined(__AVX__)
+#elif GNOMON_LANE_BITS == 256
     const __m256 t = _mm256_set1_ps(limit);
     std::uint32_t bits = 0;
     for (int l = 0; l < 32; l += 8) {
@@ -2936,7 +3039,7 @@ struct alignas(64) lanes {
         bits |= static_cast<std::uint32_t>(_mm256_movemask_ps(le)) << l;
     }
     return bits;
-#elif defined(__SSE2__)
+#elif GNOMON_LANE_BITS == 128
     const __m128 t = _mm_set1_ps(limit);
     std::uint32_t bits = 0;
 #pragma GCC unroll 8
@@ -2953,7 +3056,7 @@ struct alignas(64) lanes {
 #endif
 }
 
-#if defined(__AVX2__) && !defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 256
 /// For each set of 8 lanes, the numbers of those in it, first to last.
 inline constexpr auto members_table = [] {
     std::array<std::array<std::uint8_t, 8>, 256> table{};
@@ -2975,14 +3078,14 @@ inline constexpr auto members_table = [] {
 /// @return the end of what was written
 [[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
                                                       std::uint32_t bits, std::uint32_t* out) {
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
         const auto set = static_cast<__mmask16>(bits);
         const __m512i all = _mm512_loadu_si512(numbers + l);
         _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
         out += std::popcount(bits & 0xffffu);
     }
-#elif defined(__AVX2__)
+#elif GNOMON_LANE_BITS == 256
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
         const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + l));
         _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
@@ -3001,7 +3104,7 @@ inline constexpr auto members_table = [] {
                                                    std::uint32_t bits, float* out,
                                                    std::uint32_t* out_numbers) {
     const float* const begin = out;
-#if defined(__AVX512F__)
+#if GNOMON_LANE_BITS == 512
     __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
     numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
     for (int l = 0; l < 32; l += 16, bits >>= 16) {
@@ -3013,7 +3116,7 @@ inline constexpr auto members_table = [] {
         out += n;
         out_numbers += n;
     }
-#elif defined(__AVX2__)
+#elif GNOMON_LANE_BITS == 256
     __m256i start = _mm256_set1_epi32(static_cast<int>(first));
     for (int l = 0; l < 32; l += 8, bits >>= 8) {
         const __m256i members = members_of(bits & 0xffu);
@@ -3228,7 +3331,7 @@ class leaf_tree {
         run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    void build_below(std::span<entry> all, const subtree& t) {
+    void build_below(auto all, const subtree& t) {
         if (t.last - t.first == 1) {
             const auto entries = entries_of(all, t);
             boxes_[t.node] = box_of(entries);
@@ -3255,7 +3358,7 @@ class leaf_tree {
     }
 
     /// Sorts the points of a node to its children, across the longest side of its box.
-    std::array<subtree, 2> split(std::span<entry> all, const subtree& t) {
+    std::array<subtree, 2> split(auto all, const subtree& t) {
         const auto entries = entries_of(all, t);
         const leaf_box& box = boxes_[t.node] = box_of(entries);
         std::size_t axis = 0;
@@ -3302,7 +3405,7 @@ namespace gnomon::detail {
 /// `stride`: the ways with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = 8;
+    static constexpr std::size_t stride = pack::size;
 
     explicit found_neighbors(std::size_t k)
         : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
@@ -3318,41 +3421,38 @@ class found_neighbors {
 
     /// Of them about the point.
     [[nodiscard]] moments moments_about_point() const {
-        // Four at a time, in Eigen's vectors.
-        std::array<Eigen::Array4d, 9> sums;
-        for (auto& sum : sums) sum.setZero();
-        for (std::size_t j = 0; j < capacity(); j += 4) {
-            const Eigen::Array4d x = Eigen::Array4d::Map(way(0) + j);
-            const Eigen::Array4d y = Eigen::Array4d::Map(way(1) + j);
-            const Eigen::Array4d z = Eigen::Array4d::Map(way(2) + j);
-            sums[0] += x;
-            sums[1] += y;
-            sums[2] += z;
-            sums[3] += x * x;
-            sums[4] += y * x;
-            sums[5] += z * x;
-            sums[6] += y * y;
-            sums[7] += z * y;
-            sums[8] += z * z;
+        pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
+        pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
+        for (std::size_t j = 0; j < capacity(); j += pack::size) {
+            const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
+            x_sum += x;
+            y_sum += y;
+            z_sum += z;
+            xx += x * x;
+            xy += x * y;
+            xz += x * z;
+            yy += y * y;
+            yz += y * z;
+            zz += z * z;
         }
         moments m;
         m.count = count_;
-        m.sum = {sums[0].sum(), sums[1].sum(), sums[2].sum()};
-        m.outer(0, 0) = sums[3].sum();
-        m.outer(1, 0) = sums[4].sum();
-        m.outer(2, 0) = sums[5].sum();
-        m.outer(1, 1) = sums[6].sum();
-        m.outer(2, 1) = sums[7].sum();
-        m.outer(2, 2) = sums[8].sum();
+        m.sum = {x_sum.sum(), y_sum.sum(), z_sum.sum()};
+        m.outer(0, 0) = xx.sum();
+        m.outer(1, 0) = xy.sum();
+        m.outer(2, 0) = xz.sum();
+        m.outer(1, 1) = yy.sum();
+        m.outer(2, 1) = yz.sum();
+        m.outer(2, 2) = zz.sum();
         return m;
     }
 
     /// The mean distance from the point [m]; 0 if there are none.
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
-        Eigen::Array4d sum = Eigen::Array4d::Zero();
-        for (std::size_t j = 0; j < capacity(); j += 4)
-            sum += Eigen::Array4d::Map(squared_distance() + j).sqrt();
+        pack sum(0.0);
+        for (std::size_t j = 0; j < capacity(); j += pack::size)
+            sum += root(pack(squared_distance() + j));
         return sum.sum() / static_cast<double>(count_);
     }
 
@@ -3398,11 +3498,13 @@ class found_neighbors {
 
 inline namespace GNOMON_LANES {
 
-/// Searches group by group. It learns from one what to expect of the next: one for each thread.
+/// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
+/// template, so that only who searches compiles it.)
+template <class Tree>
 class leaf_search {
   public:
     /// Precondition: the tree is not empty.
-    leaf_search(const leaf_tree& tree, std::size_t k)
+    leaf_search(const Tree& tree, std::size_t k)
         : tree_(tree),
           k_(std::min(k, tree.size() - 1)),
           diagonal_(std::sqrt(tree.box().squared_diagonal())),
@@ -3412,12 +3514,40 @@ class leaf_search {
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t first = group * group_size;
+        const std::size_t last = std::min(first + group_size, tree_.size());
         waiting_.clear();
-        for (std::size_t p = first; p < std::min(first + group_size, tree_.size()); ++p)
-            waiting_.push_back(p);
+        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        enclose_waiting();
+        // The box of the group, whose diagonal is 2 half_, holds that many neighbors of each.
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * half_);
         reached_.clear();
-        while (!waiting_.empty()) {
-            list_around(group);
+        if (half_ <= widest * reach_ || !(reach_ > 0.0)) {
+            find_waiting(visit);
+        } else {
+            for (std::size_t p = first; p < last; ++p) {
+                waiting_.assign(1, p);
+                if (guess_ > 0.0) reach_ = std::sqrt(guess_);
+                enclose_waiting();
+                find_waiting(visit);
+            }
+        }
+        // Stragglers would make the next list too long for all the others.
+        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
+        std::nth_element(reached_.begin(), most, reached_.end());
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
+    }
+
+  private:
+    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+    /// How much wider than its neighborhoods a group may be: beyond, as where it holds a stray, its
+    /// points are taken one by one, lest floats from its middle tell too little.
+    static constexpr double widest = 256.0;
+
+    /// Visits all that are waiting.
+    template <class Visit>
+    void find_waiting(Visit&& visit) {
+        for (;;) {
+            list_around_waiting();
             double farther = 0.0;
             std::size_t left = 0;
             for (const std::size_t p : waiting_) {
@@ -3431,32 +3561,30 @@ class leaf_search {
                     waiting_[left++] = p;
                 }
             }
+            if (left == 0) return;
             waiting_.resize(left);
-            if (left != 0) reach_ = std::min(1.001 * farther, 4.0 * reach_);
+            reach_ = std::min(1.001 * farther, 4.0 * reach_);
+            enclose_waiting();
         }
-        // Stragglers would make the next list too long for all the others.
-        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
-        std::nth_element(reached_.begin(), most, reached_.end());
-        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
     }
 
-  private:
-    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
+    void enclose_waiting() {
+        box_ = {position(waiting_[0]), position(waiting_[0])};
+        for (const std::size_t p : waiting_) box_.add(position(p));
+        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
+        half_ = 0.5 * std::sqrt(box_.squared_diagonal());
+    }
 
-    /// Lists the leaves within `reach_` of the group, its own among them.
-    void list_around(std::size_t group) {
-        const std::size_t first = group * group_size;
-        const std::size_t last = std::min(first + group_size, tree_.size());
-        leaf_box box{position(first), position(first)};
-        for (std::size_t p = first + 1; p < last; ++p) box.add(position(p));
-        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box.low[a] + 0.5 * box.high[a];
-        half_ = 0.5 * std::sqrt(box.squared_diagonal());
-        if (!(reach_ > 0.0)) reach_ = diagonal_ / std::sqrt(static_cast<double>(tree_.size()));
+    /// Lists the leaves within `reach_` of the points that are waiting, their own among them.
+    void list_around_waiting() {
+        if (!(reach_ > 0.0)) reach_ = half_ > 0.0 ? half_ : diagonal_;
+        reach_ = std::max(reach_, least_reach);
         complete_ = reach_ >= diagonal_;
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
-        tree_.for_each_leaf_near(box, reach_, [&](std::size_t leaf, const leaf_box& b) {
-            if (leaf == group * leaf_tree::group_size) own_ = listed_;  // the others come next
+        tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
+            if (leaf / leaf_tree::group_size == waiting_[0] / group_size)
+                own_[leaf % leaf_tree::group_size] = listed_;
             list(leaf, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
@@ -3517,9 +3645,11 @@ class leaf_search {
             if (n >= k_) {
                 const float d2 = kth(n, limit);
                 // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
-                // own; and squares under the least normal float.
+                // own; and squares under the least normal float. Of the canonical distances:
+                // squares under the least normal double.
                 const float d = std::sqrt(d2);
-                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f;
+                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f +
+                                    static_cast<float>(1e-161 * scale_);
                 const float above = (d + error) * (d + error);
                 const float below = d > error ? (d - error) * (d - error) : -1.0f;
                 if (above <= limit || limit == everything) {
@@ -3550,7 +3680,7 @@ class leaf_search {
     /// All listed points within the limit of the one at place p, and their squared distances.
     /// @return how many
     std::size_t collect(std::size_t p, float limit) {
-        const std::size_t own = own_ + p % group_size / lane_count, lane = p % lane_count;
+        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
         float* const distance = distance_[0].at;
@@ -3636,8 +3766,10 @@ class leaf_search {
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
+    /// The square of `scale_` must not overflow [m].
+    static constexpr double least_reach = 1e-150;
 
-    const leaf_tree& tree_;
+    const Tree& tree_;
     std::size_t k_;
     double diagonal_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
@@ -3646,9 +3778,12 @@ class leaf_search {
     bool complete_ = false;                                  // whether that is all of them
     std::vector<double> reached_;                            // the k-th distances in a group [m]
     std::vector<std::size_t> waiting_;
-    std::array<double, 3> origin_{};
-    double half_ = 0.0, scale_ = 1.0;
-    std::size_t listed_ = 0, own_ = 0;
+    leaf_box box_{};                  // of them
+    std::array<double, 3> origin_{};  // its middle
+    double half_ = 0.0;               // half its diagonal [m]
+    double scale_ = 1.0;
+    std::size_t listed_ = 0;
+    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
     std::vector<lane_boxes> boxes_;
     std::vector<lane_points> points_;
     std::vector<std::uint32_t> starts_;
@@ -4653,41 +4788,38 @@ inline constexpr double smallest_gap = 1e-12;
 /// The same of n matrices, the i-th of which covariance_of(i) gives.
 void planes_of_least_spread(std::size_t n, auto&& covariance_of, double min_aspect_ratio,
                             std::span<plane_fit> fits) {
-    for (std::size_t first = 0; first < n; first += pack_size) {
-        const std::size_t many = std::min(pack_size, n - first);
-        std::array<Eigen::Matrix3d, pack_size> matrices;
-        std::array<double, pack_size> traces{};
-        symmetric_3x3<pack> packed{};
+    for (std::size_t first = 0; first < n; first += pack::size) {
+        const std::size_t many = std::min(pack::size, n - first);
+        std::array<Eigen::Matrix3d, pack::size> matrices;
+        std::array<double, pack::size> traces{};
+        std::array<std::array<double, pack::size>, 6> entries{};
+        for (std::size_t l = 0; l < pack::size; ++l) entries[0][l] = entries[1][l] = 0.5;
         for (std::size_t l = 0; l < many; ++l) {
             const Eigen::Matrix3d& m = matrices[l] = covariance_of(first + l);
             traces[l] = m(0, 0) + m(1, 1) + m(2, 2);
             const double s = has_scale(traces[l]) ? 1.0 / traces[l] : 0.0;
-            const auto at = static_cast<Eigen::Index>(l);
-            packed.xx[at] = s * m(0, 0);
-            packed.yy[at] = s * m(1, 1);
-            packed.zz[at] = s * m(2, 2);
-            packed.xy[at] = s * m(1, 0);
-            packed.xz[at] = s * m(2, 0);
-            packed.yz[at] = s * m(2, 1);
+            entries[0][l] = s * m(0, 0);
+            entries[1][l] = s * m(1, 1);
+            entries[2][l] = s * m(2, 2);
+            entries[3][l] = s * m(1, 0);
+            entries[4][l] = s * m(2, 0);
+            entries[5][l] = s * m(2, 1);
         }
-        for (auto at = static_cast<Eigen::Index>(many); at < pack::SizeAtCompileTime; ++at) {
-            packed.xx[at] = packed.yy[at] = 0.5;
-            packed.zz[at] = packed.xy[at] = packed.xz[at] = packed.yz[at] = 0.0;
-        }
-        const separated_eigen<pack> found(packed);
+        const auto packed = [&](std::size_t e) { return pack(entries[e].data()); };
+        const separated_eigen<pack> found(
+            symmetric_3x3<pack>{packed(0), packed(1), packed(2), packed(3), packed(4), packed(5)});
         for (std::size_t l = 0; l < many; ++l) {
-            const auto at = static_cast<Eigen::Index>(l);
-            if (!has_scale(traces[l]) || !is_accurate(found.values[1][at], found.values[2][at],
-                                                      found.squared_residual[at])) {
+            if (!has_scale(traces[l]) ||
+                !is_accurate(found.values[1][l], found.values[2][l], found.squared_residual[l])) {
                 fits[first + l] = plane_of_least_spread(matrices[l], min_aspect_ratio);
                 continue;
             }
             eigen_decomposition e;
             for (int i = 0; i < 3; ++i) {
-                e.values[i] = traces[l] * found.values[i][at];
-                e.vectors(0, i) = found.vectors[i].x[at];
-                e.vectors(1, i) = found.vectors[i].y[at];
-                e.vectors(2, i) = found.vectors[i].z[at];
+                e.values[i] = traces[l] * found.values[i][l];
+                e.vectors(0, i) = found.vectors[i].x[l];
+                e.vectors(1, i) = found.vectors[i].y[l];
+                e.vectors(2, i) = found.vectors[i].z[l];
             }
             fits[first + l] = plane_across(e, min_aspect_ratio);
         }
@@ -5750,8 +5882,10 @@ struct plane_pca {
                                              min_aspect_ratio);
     }
 
-    /// The fits of many neighborhoods at once, each from its moments.
-    void operator()(std::span<const moments> m, std::span<plane_fit> fits) const {
+    /// The fits of many neighborhoods at once, each from its moments. A template, so that only who
+    /// uses it compiles it.
+    template <std::same_as<plane_fit> Fit>
+    void operator()(std::span<const moments> m, std::span<Fit> fits) const {
         detail::planes_of_least_spread(
             m.size(), [m](std::size_t i) { return m[i].covariance_with_point(); }, min_aspect_ratio,
             fits);

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// What vector instructions do, against plain loops. Compiled once more for each set of
 /// instructions, see tests/CMakeLists.txt.
+#include <algorithm>
+#include <bitset>
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
@@ -35,12 +38,12 @@ std::uint32_t at_most_one_by_one(const lanes& a, float limit) {
 
 TEST(lanes, compare_each_with_the_limit) {
     gnomon::random_stream random(1);
-    for (int trial = 0; trial < 2000; ++trial) {
+    for (std::size_t trial = 0; trial < 2000; ++trial) {
         const lanes a = any_lanes(random);
         for (const float limit : {0.0f, -0.0f, 0.5f, a[trial % 32], infinity, std::nanf("")}) {
             ASSERT_EQ(gnomon::detail::at_most(a, limit), at_most_one_by_one(a, limit));
             ASSERT_EQ(gnomon::detail::count_at_most(a, limit),
-                      std::popcount(at_most_one_by_one(a, limit)));
+                      std::bitset<32>(at_most_one_by_one(a, limit)).count());
         }
     }
 }

@@ -76,16 +76,14 @@ TEST(leaf_tree, gives_all_leaves_near_a_box) {
     }
 }
 
-/// So that a group is compact: every split between groups comes before those within.
-TEST(leaf_tree, groups_are_as_compact_as_subtrees) {
-    clouds::cloud line;
-    for (int i = 0; i < 32 * 11; ++i) line.push_back({double(i * 37 % (32 * 11)), 0, 0});
-    const leaf_tree tree = tree_of(line);
-    for (std::size_t group = 0; group < tree.groups(); ++group) {
-        const std::size_t first = group * 128, last = std::min(first + 128, tree.size());
-        const auto [low, high] = std::minmax_element(tree.at(0) + first, tree.at(0) + last);
-        EXPECT_EQ(*high - *low, static_cast<double>(last - first - 1));
-    }
+/// Six leaves are split into four and two, not into halves: what is longest, x, parts the groups.
+TEST(leaf_tree, splits_between_groups_before_it_splits_groups) {
+    auto points = clouds::in_cube(6 * leaf_tree::leaf_size, 6);
+    for (auto& p : points) p = {1.1 * p.x(), p.y(), 0.0};
+    const leaf_tree tree = tree_of(points);
+    ASSERT_EQ(tree.groups(), 2u);
+    const double* const x = tree.at(0);
+    EXPECT_LT(*std::max_element(x, x + 128), *std::min_element(x + 128, x + tree.size()));
 }
 
 TEST(leaf_tree, is_the_same_for_any_number_of_threads) {

@@ -8,6 +8,7 @@
 
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
+#include "normals/dense_oracles.hpp"
 #include <gnomon/core/strided_view.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
@@ -111,6 +112,93 @@ TEST(estimate_normals, refuses_a_graph_of_other_points) {
     const auto graph = knn{5}(clouds::sheet(10, 1));
     EXPECT_THROW((void)gnomon::estimate_normals(clouds::sheet(11, 1), graph, plane_pca{}),
                  std::invalid_argument);
+}
+
+/// Clouds that are swept, degenerate ones among them, of several chunks where they are not.
+std::vector<clouds::named_cloud> swept_clouds() {
+    auto all = clouds::degenerate();
+    all.push_back({"sheet", clouds::sheet(5000, 7)});
+    all.push_back({"cube", clouds::in_cube(5000, 7)});
+    all.push_back({"grid", clouds::on_grid(3000, 7, 0.05)});
+    all.push_back(
+        {"sheet at UTM coordinates",
+         clouds::moved(clouds::sheet(3000, 7), Eigen::Matrix3d::Identity(), {6e5, 4.8e6, 100})});
+    return all;
+}
+
+/// A sweep tells an estimator of any kind the very rings that the graph lists.
+TEST(estimate_normals, sweeps_over_the_rings_of_the_graph) {
+    struct whole_ring : gnomon::normal_fit {
+        clouds::cloud ring;
+    };
+    const auto tell = [](const Eigen::Vector3d&, gnomon::ring_view ring) {
+        return whole_ring{{Eigen::Vector3d::UnitZ(), trust::good}, {ring.begin(), ring.end()}};
+    };
+    for (const auto& [name, points] : swept_clouds()) {
+        SCOPED_TRACE(name);
+        for (const std::size_t k : {1u, 12u}) {
+            const auto swept = gnomon::estimate_normals(points, knn{k}, tell);
+            const auto stored = gnomon::estimate_normals(
+                points, knn{.k = k, .backend = gnomon::knn_backend::nanoflann}(points), tell);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                ASSERT_EQ(swept[i].ring, stored[i].ring);
+                ASSERT_EQ(swept[i].neighbors, stored[i].neighbors);
+                ASSERT_EQ(swept[i].trust, stored[i].trust);
+                ASSERT_EQ(swept[i].mean_distance, stored[i].mean_distance);
+            }
+        }
+    }
+}
+
+/// What is summed up on the way, in another order and eight at a time, is the same but for
+/// rounding.
+TEST(estimate_normals, of_a_sweep_are_those_of_the_graph) {
+    for (const auto& [name, points] : swept_clouds()) {
+        SCOPED_TRACE(name);
+        for (const std::size_t k : {1u, 2u, 9u, 20u, 50u}) {
+            const auto swept = gnomon::estimate_normals(points, knn{k}, plane_pca{});
+            const auto stored = gnomon::estimate_normals(points, knn{k}(points), plane_pca{});
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const auto &a = swept[i], &b = stored[i];
+                ASSERT_EQ(a.trust, b.trust) << i;
+                ASSERT_EQ(a.neighbors, b.neighbors);
+                ASSERT_NEAR(a.mean_distance, b.mean_distance, 1e-14 * b.mean_distance);
+                const Eigen::Vector3d lambda = b.spectrum.lambda;
+                const double gap = (lambda[1] - lambda[2]) / lambda[0];
+                if (gnomon::usable(a.trust)) {
+                    ASSERT_LE(laws::angle_between(a.normal, b.normal), oracles::allowed(gap)) << i;
+                }
+                for (int e = 0; e < 3; ++e)
+                    ASSERT_NEAR(a.spectrum.lambda[e], lambda[e], 1e-14 * lambda[0]);
+            }
+        }
+    }
+}
+
+/// Runs chunks in an order of its own: last first, and then odd ones before even ones.
+struct shuffling {
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
+        for (const std::size_t parity : {1u, 0u})
+            for (std::size_t c = chunks; c-- > 0;)
+                if (c % 2 == parity) work(c);
+    }
+};
+
+/// Batches and guesses end with a chunk; threads take these as they come.
+TEST(estimate_normals, of_a_sweep_are_the_same_bytes_for_any_execution) {
+    const auto points = clouds::sheet(9001, 8);
+    const auto expected = gnomon::estimate_normals(points, knn{15}, plane_pca{});
+    const auto expect_same = [&](const auto& surface) {
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            ASSERT_EQ(surface[i].normal, expected[i].normal);
+            ASSERT_EQ(surface[i].spectrum.lambda, expected[i].spectrum.lambda);
+            ASSERT_EQ(surface[i].mean_distance, expected[i].mean_distance);
+            ASSERT_EQ(surface[i].trust, expected[i].trust);
+        }
+    };
+    for (const unsigned t : {1u, 2u, 4u})
+        expect_same(gnomon::estimate_normals(points, knn{15}, plane_pca{}, gnomon::threads{t}));
+    expect_same(gnomon::estimate_normals(points, knn{15}, plane_pca{}, shuffling{}));
 }
 
 }  // namespace

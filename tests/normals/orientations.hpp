@@ -30,7 +30,9 @@ void scramble_signs(auto& surface, std::uint64_t seed) {
 
 /// Normals of k neighbors, of random sign.
 inline surface_elements unoriented(const clouds::cloud& points, std::size_t k = 12) {
-    auto surface = gnomon::estimate_normals(points, gnomon::knn{.k = k}, gnomon::plane_pca{});
+    // By a stored graph, whose sums do not depend on the order of the points.
+    auto surface =
+        gnomon::estimate_normals(points, gnomon::knn{.k = k}(points), gnomon::plane_pca{});
     scramble_signs(surface, 99);
     return surface;
 }

@@ -14,3 +14,11 @@ gnomon::moments moments_made_there(gnomon::scan scan) {
     for (const auto& point : scan) sums.add(point);
     return sums;
 }
+
+gnomon::adjacency neighbors_found_there(const gnomon::scan& scan) {
+    return gnomon::knn{.k = 12}(scan);
+}
+
+std::vector<gnomon::surfel<gnomon::plane_fit>> normals_found_there(const gnomon::scan& scan) {
+    return gnomon::estimate_normals(scan, gnomon::knn{.k = 12}, gnomon::plane_pca{});
+}

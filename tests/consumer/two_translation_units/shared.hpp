@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <vector>
 
 #include <gnomon/gnomon.hpp>
 
@@ -23,3 +24,6 @@ constexpr layout layout_of_crossing_types() {
 layout layout_there();
 gnomon::scan scan_made_there();
 gnomon::moments moments_made_there(gnomon::scan);
+gnomon::adjacency neighbors_found_there(const gnomon::scan&);
+std::vector<gnomon::surfel<gnomon::plane_fit>> normals_found_there(const gnomon::scan&);
+double smallest_of_eight();

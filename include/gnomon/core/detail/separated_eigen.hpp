@@ -73,7 +73,7 @@ struct separated_eigen {
 
   private:
     static constexpr bool one = std::is_same_v<T, double>;
-    static constexpr int newton_steps = one ? 6 : 4;
+    static constexpr int newton_steps = one ? 6 : 8;
     static constexpr int rounds = one ? 4 : 2;
 
     /// The smallest root of x^3 - x^2 + c1 x - c0, from where all are above.

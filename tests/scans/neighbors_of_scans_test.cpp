@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+/// The two ways of finding neighbors, and the normals that follow, on whole scans. Where the files
+/// of real ones are missing, only the simulated one is tried.
+#include <algorithm>
+#include <cstdio>
+#include <string>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "laws/estimator_laws.hpp"
+#include "normals/dense_oracles.hpp"
+#include <gnomon/io/read.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/simulation/simulate.hpp>
+#include <gnomon/simulation/thesis_scenes.hpp>
+
+namespace {
+
+using gnomon::knn, gnomon::knn_backend, gnomon::plane_pca, gnomon::threads;
+
+/// Quantised scans are full of ties: of 8 neighbors as of 50, the canonical ones are found.
+void expect_both_ways_agree(const gnomon::scan& scan) {
+    for (const std::size_t k : {8u, 50u}) {
+        const auto found = knn{.k = k}(scan, threads{});
+        const auto expected = knn{.k = k, .backend = knn_backend::nanoflann}(scan, threads{});
+        ASSERT_EQ(found, expected);
+        const auto swept = gnomon::estimate_normals(scan, knn{.k = k}, plane_pca{}, threads{});
+        const auto stored = gnomon::estimate_normals(scan, expected, plane_pca{}, threads{});
+        for (std::size_t i = 0; i < scan.size(); ++i) {
+            const Eigen::Vector3d lambda = stored[i].spectrum.lambda;
+            const double gap = (lambda[1] - lambda[2]) / lambda[0];
+            ASSERT_EQ(swept[i].trust, stored[i].trust) << i;
+            ASSERT_TRUE(!gnomon::usable(swept[i].trust) ||
+                        laws::angle_between(swept[i].normal, stored[i].normal) <=
+                            oracles::allowed(gap))
+                << i;
+        }
+    }
+}
+
+TEST(neighbors_of_scans, of_a_simulated_kitchen) {
+    const gnomon::scene kitchen = gnomon::scenes::kitchen();
+    expect_both_ways_agree(gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor},
+                                            gnomon::densities::medium())
+                               .scan);
+}
+
+TEST(neighbors_of_scans, of_all_kinds_of_scanners) {
+    for (const char* name : {"lms400_table_scene_1cm.pcd", "pcl_room_scan1.pcd", "box_caixa.ply",
+                             "pcl_office1_kinect.pcd", "pcl_table_mug_stereo.pcd"}) {
+        SCOPED_TRACE(name);
+        const std::string path = std::string(GNOMON_SHARED_DATA "/scans/") + name;
+        std::FILE* file = std::fopen(path.c_str(), "rb");
+        if (file == nullptr) GTEST_SKIP() << "needs shared data";
+        std::fclose(file);
+        expect_both_ways_agree(gnomon::io::read(path));
+    }
+}
+
+}  // namespace
