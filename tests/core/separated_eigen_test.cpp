@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <limits>
 
@@ -7,13 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/separated_eigen.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 
 namespace {
 
 using gnomon::eigen_decomposition;
-using gnomon::detail::is_accurate, gnomon::detail::pack, gnomon::detail::pack_size;
+using gnomon::detail::is_accurate, gnomon::detail::pack;
 
 template <class T>
 using symmetric = gnomon::detail::symmetric_3x3<T>;
@@ -40,7 +43,7 @@ struct lane_of {
     eigen_decomposition e;
     double squared_residual;
 
-    lane_of(const separated<pack>& found, Eigen::Index l)
+    lane_of(const separated<pack>& found, std::size_t l)
         : squared_residual(found.squared_residual[l]) {
         for (int i = 0; i < 3; ++i) {
             e.values[i] = found.values[i][l];
@@ -50,15 +53,15 @@ struct lane_of {
 };
 
 /// Eight at once: the matrix in lane l, and another in the others.
-separated<pack> found_among(const Eigen::Matrix3d& a, Eigen::Index l,
-                            const Eigen::Matrix3d& other) {
-    symmetric<pack> all{};
-    for (Eigen::Index at = 0; at < Eigen::Index(pack_size); ++at) {
+separated<pack> found_among(const Eigen::Matrix3d& a, std::size_t l, const Eigen::Matrix3d& other) {
+    std::array<std::array<double, pack::size>, 6> all;
+    for (std::size_t at = 0; at < pack::size; ++at) {
         const auto m = packed(at == l ? a : other);
-        all.xx[at] = m.xx, all.yy[at] = m.yy, all.zz[at] = m.zz;
-        all.xy[at] = m.xy, all.xz[at] = m.xz, all.yz[at] = m.yz;
+        const double entries[] = {m.xx, m.yy, m.zz, m.xy, m.xz, m.yz};
+        for (std::size_t e = 0; e < 6; ++e) all[e][at] = entries[e];
     }
-    return separated<pack>(all);
+    const auto of = [&](std::size_t e) { return pack(all[e].data()); };
+    return separated<pack>(symmetric<pack>{of(0), of(1), of(2), of(3), of(4), of(5)});
 }
 
 eigen_decomposition found_alone(const separated<double>& found) {
@@ -96,7 +99,7 @@ TEST(separated_eigen, is_as_good_as_long_double_says) {
             ++alone_accepted;
             expect_decomposes(a, found_alone(alone));
         }
-        const auto l = static_cast<Eigen::Index>(seed % pack_size);
+        const std::size_t l = seed % pack::size;
         const lane_of in_pack(found_among(a, l, any_matrix(seed + 1)), l);
         if (is_accurate(in_pack.e.values[1], in_pack.e.values[2], in_pack.squared_residual)) {
             ++in_pack_accepted;
@@ -113,7 +116,7 @@ TEST(separated_eigen, is_as_good_as_long_double_says) {
 TEST(separated_eigen, of_a_lane_does_not_depend_on_the_others) {
     const Eigen::Matrix3d a = any_matrix(7);
     const lane_of expected(found_among(a, 0, a), 0);
-    for (Eigen::Index l = 0; l < Eigen::Index(pack_size); ++l) {
+    for (std::size_t l = 0; l < pack::size; ++l) {
         for (const Eigen::Matrix3d& other :
              {any_matrix(8), Eigen::Matrix3d(Eigen::Matrix3d::Zero()),
               Eigen::Matrix3d(Eigen::Matrix3d::Constant(clouds::nan)),
