@@ -3382,24 +3382,14 @@ class leaf_tree {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/neighborhoods/detail/leaf_search.hpp --------------------------------------------
+// -------- gnomon/neighborhoods/detail/found_neighbors.hpp ----------------------------------------
 
 /// @file
-/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
-/// so one walk through the tree lists the leaves that matter for any of them, and what follows is
-/// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
-///
-///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the points before)? Half as many points again as needed pass.
-///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
-///     evenly spread in their squares, so interpolation finds it in three or four counts.
-///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
-///     distances, all that passed are sorted by their canonical distances in double.
-///
-/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
-/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+/// What a sweep has found of one point: its neighbors as arrays, from which moments and mean
+/// distance come eight neighbors at a time, and the ring in canonical order if somebody asks.
 
 namespace gnomon::detail {
+inline namespace GNOMON_LANES {
 
 /// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
 /// `stride`: the ways with zeros.
@@ -3495,6 +3485,28 @@ class found_neighbors {
     std::vector<point_index> index_;
     std::vector<double> numbers_;  // x, y, z and squared distance
 };
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/leaf_search.hpp --------------------------------------------
+
+/// @file
+/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
+/// so one walk through the tree lists the leaves that matter for any of them, and what follows is
+/// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
+///
+///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
+///     bit more than that of the points before)? Half as many points again as needed pass.
+///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
+///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
+///     distances, all that passed are sorted by their canonical distances in double.
+///
+/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
+/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+
+namespace gnomon::detail {
 
 inline namespace GNOMON_LANES {
 
@@ -4296,6 +4308,15 @@ struct surfel : Estimate {
 
 namespace detail {
 
+/// Whether an ulp of the coordinates at p exceeds 5 % of the mean distance to the neighbors [m], in
+/// the scalar that the points came in.
+template <class Scalar>
+[[nodiscard]] bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
+    const double ulp = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
+                       std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    return ulp > 0.05 * mean_distance;
+}
+
 /// Makes surface elements of the points of a position_view one by one, through one buffer.
 template <estimator E, class Points>
 class surfel_maker {
@@ -4325,7 +4346,7 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(ring.size());
         }
-        if (s.trust == trust::good && (is_coarse(p, s.mean_distance) || !noted.note.certified))
+        if (s.trust == trust::good && (coarse(p, s.mean_distance) || !noted.note.certified))
             s.trust = trust::weak;
         return s;
     }
@@ -4344,18 +4365,13 @@ class surfel_maker {
         static_cast<estimate_t<E>&>(s) = checked(i, raw);
         s.neighbors = static_cast<point_index>(neighbors);
         s.mean_distance = mean_distance;
-        if (s.trust == trust::good && is_coarse(points_[i], mean_distance)) s.trust = trust::weak;
+        if (s.trust == trust::good && coarse(points_[i], mean_distance)) s.trust = trust::weak;
         return s;
     }
 
   private:
-    /// Whether an ulp of the coordinates at p, in the scalar that the points came in, exceeds 5 %
-    /// of the mean distance to the neighbors [m].
-    static bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
-        const double ulp =
-            static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
-            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-        return ulp > 0.05 * mean_distance;
+    static bool coarse(const Eigen::Vector3d& p, double mean_distance) {
+        return is_coarse<typename Points::scalar>(p, mean_distance);
     }
 
     /// An estimate for point i, with the promises kept that an estimator may have broken: a usable
@@ -5137,6 +5153,8 @@ class feature_preserving_sweeps {
         if (!usable(s.trust)) return s;
         look_around(i, std::clamp<std::size_t>(s.neighbors, fewest, most), found, ring);
         s.normal = filtered_normal(ring, planes, std::hypot(honest * noise_, bend * ring.radius()));
+        const bool coarse = is_coarse<typename Points::scalar>(points_[i], s.mean_distance);
+        if (coarse && s.trust == trust::good) s.trust = trust::weak;
         return s;
     }
 

@@ -41,7 +41,7 @@ Eigen::Vector3d depth_camera_point(std::size_t i) {
     return {u * z / 60, v * z / 60, z};
 }
 
-std::vector<clouds::named_cloud> searched_clouds() {
+std::vector<clouds::named_cloud> clouds_to_sweep() {
     constexpr std::size_t n = 1500;
     using stream = gnomon::random_stream&;
     const auto cube = clouds::in_cube(n, 1), sheet = clouds::sheet(n, 2);
@@ -122,7 +122,7 @@ void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k) {
 }
 
 TEST(leaf_search, finds_what_nanoflann_finds) {
-    for (const auto& [name, points] : searched_clouds()) {
+    for (const auto& [name, points] : clouds_to_sweep()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 8u, 26u, 130u}) expect_the_same_neighbors(points, k);
     }
@@ -146,7 +146,7 @@ TEST(leaf_search, finds_what_nanoflann_finds_of_any_number_of_points) {
 /// other way, which would make the comparison worthless.
 TEST(leaf_search, is_what_was_tried) {
     std::size_t left_out = 0;
-    for (const auto& [name, points] : searched_clouds()) {
+    for (const auto& [name, points] : clouds_to_sweep()) {
         const bool swept = knn{.k = 8}.sweep(points, gnomon::sequential{}, std::identity{},
                                              [] { return gnomon::detail::any_visitor{}; });
         left_out += !swept;
@@ -171,7 +171,7 @@ struct finding {
 
 /// Guesses come from what was found before; what is found does not, to the last bit.
 TEST(leaf_search, does_not_depend_on_what_was_found_before) {
-    for (const auto& [name, points] : searched_clouds()) {
+    for (const auto& [name, points] : clouds_to_sweep()) {
         const leaf_tree tree(gnomon::position_view<clouds::cloud>(points), gnomon::sequential{});
         if (tree.size() == 0 || tree.crowded()) continue;
         SCOPED_TRACE(name);

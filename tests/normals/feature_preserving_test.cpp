@@ -164,6 +164,16 @@ TEST(feature_preserving, is_near_on_a_sphere) {
     EXPECT_LT(gnomon::quality_of(surface, points).rms, gnomon::degrees(2));
 }
 
+/// Floats at UTM coordinates are half a metre apart.
+TEST(feature_preserving, is_weak_where_coordinates_are_coarse) {
+    const roof r(500, 0.005, 11);
+    std::vector<Eigen::Vector3f> far;
+    for (const Eigen::Vector3d& p : r.points)
+        far.push_back((p + Eigen::Vector3d(6e5, 4.8e6, 100)).cast<float>());
+    for (const auto& s : estimate_normals(far, feature_preserving{}))
+        ASSERT_NE(s.trust, trust::good);
+}
+
 TEST(feature_preserving, survives_degenerate_clouds) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

@@ -39,6 +39,15 @@ struct surfel : Estimate {
 
 namespace detail {
 
+/// Whether an ulp of the coordinates at p exceeds 5 % of the mean distance to the neighbors [m], in
+/// the scalar that the points came in.
+template <class Scalar>
+[[nodiscard]] bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
+    const double ulp = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
+                       std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
+    return ulp > 0.05 * mean_distance;
+}
+
 /// Makes surface elements of the points of a position_view one by one, through one buffer.
 template <estimator E, class Points>
 class surfel_maker {
@@ -68,7 +77,7 @@ class surfel_maker {
             }
             s.mean_distance /= static_cast<double>(ring.size());
         }
-        if (s.trust == trust::good && (is_coarse(p, s.mean_distance) || !noted.note.certified))
+        if (s.trust == trust::good && (coarse(p, s.mean_distance) || !noted.note.certified))
             s.trust = trust::weak;
         return s;
     }
@@ -87,18 +96,13 @@ class surfel_maker {
         static_cast<estimate_t<E>&>(s) = checked(i, raw);
         s.neighbors = static_cast<point_index>(neighbors);
         s.mean_distance = mean_distance;
-        if (s.trust == trust::good && is_coarse(points_[i], mean_distance)) s.trust = trust::weak;
+        if (s.trust == trust::good && coarse(points_[i], mean_distance)) s.trust = trust::weak;
         return s;
     }
 
   private:
-    /// Whether an ulp of the coordinates at p, in the scalar that the points came in, exceeds 5 %
-    /// of the mean distance to the neighbors [m].
-    static bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
-        const double ulp =
-            static_cast<double>(std::numeric_limits<typename Points::scalar>::epsilon()) *
-            std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-        return ulp > 0.05 * mean_distance;
+    static bool coarse(const Eigen::Vector3d& p, double mean_distance) {
+        return is_coarse<typename Points::scalar>(p, mean_distance);
     }
 
     /// An estimate for point i, with the promises kept that an estimator may have broken: a usable

@@ -123,6 +123,8 @@ class feature_preserving_sweeps {
         if (!usable(s.trust)) return s;
         look_around(i, std::clamp<std::size_t>(s.neighbors, fewest, most), found, ring);
         s.normal = filtered_normal(ring, planes, std::hypot(honest * noise_, bend * ring.radius()));
+        const bool coarse = is_coarse<typename Points::scalar>(points_[i], s.mean_distance);
+        if (coarse && s.trust == trust::good) s.trust = trust::weak;
         return s;
     }
 

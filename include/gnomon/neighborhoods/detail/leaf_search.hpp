@@ -27,110 +27,14 @@
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/found_neighbors.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace gnomon::detail {
-
-/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
-/// `stride`: the ways with zeros.
-class found_neighbors {
-  public:
-    static constexpr std::size_t stride = pack::size;
-
-    explicit found_neighbors(std::size_t k)
-        : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
-
-    [[nodiscard]] std::size_t size() const { return count_; }
-    /// Coordinate `axis` of the ways from the point to them [m].
-    [[nodiscard]] const double* way(std::size_t axis) const {
-        return numbers_.data() + axis * capacity();
-    }
-    /// Canonical squared distances [m^2].
-    [[nodiscard]] const double* squared_distance() const { return way(3); }
-    [[nodiscard]] const point_index* index() const { return index_.data(); }
-
-    /// Of them about the point.
-    [[nodiscard]] moments moments_about_point() const {
-        pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
-        pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size) {
-            const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
-            x_sum += x;
-            y_sum += y;
-            z_sum += z;
-            xx += x * x;
-            xy += x * y;
-            xz += x * z;
-            yy += y * y;
-            yz += y * z;
-            zz += z * z;
-        }
-        moments m;
-        m.count = count_;
-        m.sum = {x_sum.sum(), y_sum.sum(), z_sum.sum()};
-        m.outer(0, 0) = xx.sum();
-        m.outer(1, 0) = xy.sum();
-        m.outer(2, 0) = xz.sum();
-        m.outer(1, 1) = yy.sum();
-        m.outer(2, 1) = yz.sum();
-        m.outer(2, 2) = zz.sum();
-        return m;
-    }
-
-    /// The mean distance from the point [m]; 0 if there are none.
-    [[nodiscard]] double mean_distance() const {
-        if (count_ == 0) return 0.0;
-        pack sum(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size)
-            sum += root(pack(squared_distance() + j));
-        return sum.sum() / static_cast<double>(count_);
-    }
-
-    /// Replaces the content of `ring` by them in canonical order.
-    void sort_into(std::vector<neighbor>& ring) const {
-        ring.clear();
-        for (std::size_t j = 0; j < count_; ++j) ring.push_back({squared_distance()[j], index_[j]});
-        std::sort(ring.begin(), ring.end());
-    }
-
-    /// Takes the points at the given places of the tree, seen from that at `from`.
-    void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
-        const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
-        const point_index* all_indices = tree.index();
-        const double px = all_x[from], py = all_y[from], pz = all_z[from];
-        double* way_x = numbers_.data();
-        double* way_y = way_x + capacity();
-        double* way_z = way_y + capacity();
-        point_index* index = index_.data();
-        for (std::size_t j = 0; j < count_; ++j) {
-            const std::size_t at = places[j];
-            way_x[j] = all_x[at] - px;
-            way_y[j] = all_y[at] - py;
-            way_z[j] = all_z[at] - pz;
-            index[j] = all_indices[at];
-        }
-        const double *x = way(0), *y = way(1), *z = way(2);
-        for (std::size_t j = 0; j < capacity(); j += stride) {
-            std::array<double, stride> d2;
-            for (std::size_t l = 0; l < stride; ++l)
-                d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
-            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity() + j);
-        }
-    }
-
-  private:
-    [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
-
-    std::size_t count_;
-    std::vector<point_index> index_;
-    std::vector<double> numbers_;  // x, y, z and squared distance
-};
 
 inline namespace GNOMON_LANES {
 
