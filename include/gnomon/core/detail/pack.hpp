@@ -66,7 +66,7 @@ class pack {
         return of([&](std::size_t v) {
         // std::sqrt, which may have to set errno, would be called one by one.
 #if GNOMON_LANE_BITS == 512
-            return static_cast<vector>(_mm512_sqrt_pd(static_cast<__m512d>(a.at_[v])));
+            return static_cast<vector>(_mm512_maskz_sqrt_pd(0xff, static_cast<__m512d>(a.at_[v])));
 #elif GNOMON_LANE_BITS == 256
             return static_cast<vector>(_mm256_sqrt_pd(static_cast<__m256d>(a.at_[v])));
 #elif GNOMON_LANE_BITS == 128
