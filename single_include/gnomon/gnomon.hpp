@@ -229,6 +229,132 @@ void for_each_chunk(const X& run, std::size_t n, auto&& work) {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/vector3.hpp ---------------------------------------------------------
+
+/// @file
+/// The few operations on 3-vectors and 3x3 matrices that inline functions need, spelt out. As Eigen
+/// expressions, each new combination costs everybody who includes it some 50 ms of compile time.
+
+namespace gnomon::detail {
+
+[[nodiscard]] inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+[[nodiscard]] inline double length(const Eigen::Vector3d& a) { return std::sqrt(dot(a, a)); }
+
+[[nodiscard]] inline Eigen::Vector3d difference(const Eigen::Vector3d& a,
+                                                const Eigen::Vector3d& b) {
+    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+
+[[nodiscard]] inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
+/// it rounds nothing.
+[[nodiscard]] inline double power_to_one(double x) {
+    int exponent = 0;
+    std::frexp(x, &exponent);
+    return std::ldexp(1.0, -std::max(exponent, -1000));
+}
+
+/// s a
+[[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
+    return {s * a[0], s * a[1], s * a[2]};
+}
+
+/// s a + t b
+[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
+                                              const Eigen::Vector3d& b) {
+    return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
+}
+
+/// s a + t b + u c
+[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
+                                              const Eigen::Vector3d& b, double u,
+                                              const Eigen::Vector3d& c) {
+    return combined(1.0, combined(s, a, t, b), u, c);
+}
+
+/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
+/// Precondition: a is finite and not zero.
+[[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
+    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
+    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
+    const double size = length(b);
+    return {b[0] / size, b[1] / size, b[2] / size};
+}
+
+/// M a
+[[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
+    Eigen::Vector3d r;
+    for (int i = 0; i < 3; ++i) r[i] = m(i, 0) * a[0] + m(i, 1) * a[1] + m(i, 2) * a[2];
+    return r;
+}
+
+[[nodiscard]] inline bool all_finite(const Eigen::Vector3d& a) {
+    return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+[[nodiscard]] inline bool all_finite(const Eigen::Matrix3d& m) {
+    for (int i = 0; i < 9; ++i)
+        if (!std::isfinite(m.data()[i])) return false;
+    return true;
+}
+
+/// The diagonal matrix of a, b and c.
+[[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
+    Eigen::Matrix3d m;
+    m.setZero();
+    m(0, 0) = a;
+    m(1, 1) = b;
+    m(2, 2) = c;
+    return m;
+}
+
+/// The inverse of a symmetric matrix, by its cofactors; not finite if there is none.
+[[nodiscard]] inline Eigen::Matrix3d inverse_of_symmetric(const Eigen::Matrix3d& m) {
+    Eigen::Matrix3d inverse;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j < 3; ++j) {
+            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
+            inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
+        }
+    }
+    const double determinant =
+        m(0, 0) * inverse(0, 0) + m(0, 1) * inverse(0, 1) + m(0, 2) * inverse(0, 2);
+    for (int i = 0; i < 9; ++i) inverse.data()[i] /= determinant;
+    return inverse;
+}
+
+/// Column j of M.
+[[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
+    return {m(0, j), m(1, j), m(2, j)};
+}
+
+/// M += s a b^T
+inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
+                      const Eigen::Vector3d& b) {
+    for (int j = 0; j < 3; ++j) {
+        for (int i = 0; i < 3; ++i) m(i, j) += s * a[i] * b[j];
+    }
+}
+
+/// A unit vector orthogonal to the unit vector n.
+[[nodiscard]] inline Eigen::Vector3d orthogonal(const Eigen::Vector3d& n) {
+    // The coordinate axis farthest from n, less its part along n.
+    int axis = 0;
+    for (int i = 1; i < 3; ++i) {
+        if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
+    }
+    Eigen::Vector3d e(-n[axis] * n[0], -n[axis] * n[1], -n[axis] * n[2]);
+    e[axis] += 1.0;
+    return scaled(1.0 / length(e), e);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/moments.hpp ----------------------------------------------------------------
 
 /// @file
@@ -291,7 +417,7 @@ struct moments {
 
     /// The mean [m] of the offsets, that of the point itself, zero, among them.
     [[nodiscard]] Eigen::Vector3d mean_with_point() const {
-        return sum / static_cast<double>(count + 1);
+        return detail::scaled(1.0 / static_cast<double>(count + 1), sum);
     }
 
     /// The covariance [m^2] of the neighbors alone. Precondition: count > 0.
@@ -322,7 +448,7 @@ struct weighted_moments {
     }
 
     /// The weighted mean of the offsets [m]. Precondition: weight > 0.
-    [[nodiscard]] Eigen::Vector3d mean() const { return sum / weight; }
+    [[nodiscard]] Eigen::Vector3d mean() const { return detail::scaled(1.0 / weight, sum); }
 
     /// The weighted covariance [m^2]. Precondition: weight > 0.
     [[nodiscard]] Eigen::Matrix3d covariance() const {
@@ -543,7 +669,7 @@ struct plane {
 
     /// Distance [m] of x from the plane, positive on the normal's side.
     [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
-        return normal.dot(x) - offset;
+        return detail::dot(normal, x) - offset;
     }
 };
 
@@ -1650,123 +1776,6 @@ class union_find {
 
 /// @file
 /// What a point is, and the few tools that everything above shares.
-
-// -------- gnomon/core/detail/vector3.hpp ---------------------------------------------------------
-
-/// @file
-/// The few operations on 3-vectors and 3x3 matrices that inline functions need, spelt out. As Eigen
-/// expressions, each new combination costs everybody who includes it some 50 ms of compile time.
-
-namespace gnomon::detail {
-
-[[nodiscard]] inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-[[nodiscard]] inline double length(const Eigen::Vector3d& a) { return std::sqrt(dot(a, a)); }
-
-[[nodiscard]] inline Eigen::Vector3d difference(const Eigen::Vector3d& a,
-                                                const Eigen::Vector3d& b) {
-    return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
-}
-
-[[nodiscard]] inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
-/// it rounds nothing.
-[[nodiscard]] inline double power_to_one(double x) {
-    int exponent = 0;
-    std::frexp(x, &exponent);
-    return std::ldexp(1.0, -std::max(exponent, -1000));
-}
-
-/// s a
-[[nodiscard]] inline Eigen::Vector3d scaled(double s, const Eigen::Vector3d& a) {
-    return {s * a[0], s * a[1], s * a[2]};
-}
-
-/// s a + t b
-[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
-                                              const Eigen::Vector3d& b) {
-    return {s * a[0] + t * b[0], s * a[1] + t * b[1], s * a[2] + t * b[2]};
-}
-
-/// s a + t b + u c
-[[nodiscard]] inline Eigen::Vector3d combined(double s, const Eigen::Vector3d& a, double t,
-                                              const Eigen::Vector3d& b, double u,
-                                              const Eigen::Vector3d& c) {
-    return combined(1.0, combined(s, a, t, b), u, c);
-}
-
-/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
-/// Precondition: a is finite and not zero.
-[[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
-    const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
-    const Eigen::Vector3d b = scaled(power_to_one(largest), a);
-    const double size = length(b);
-    return {b[0] / size, b[1] / size, b[2] / size};
-}
-
-/// M a
-[[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
-    Eigen::Vector3d r;
-    for (int i = 0; i < 3; ++i) r[i] = m(i, 0) * a[0] + m(i, 1) * a[1] + m(i, 2) * a[2];
-    return r;
-}
-
-/// The diagonal matrix of a, b and c.
-[[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
-    Eigen::Matrix3d m;
-    m.setZero();
-    m(0, 0) = a;
-    m(1, 1) = b;
-    m(2, 2) = c;
-    return m;
-}
-
-/// The inverse of a symmetric matrix, by its cofactors; not finite if there is none.
-[[nodiscard]] inline Eigen::Matrix3d inverse_of_symmetric(const Eigen::Matrix3d& m) {
-    Eigen::Matrix3d inverse;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j < 3; ++j) {
-            const int a = (i + 1) % 3, b = (i + 2) % 3, c = (j + 1) % 3, d = (j + 2) % 3;
-            inverse(i, j) = m(a, c) * m(b, d) - m(a, d) * m(b, c);
-        }
-    }
-    const double determinant =
-        m(0, 0) * inverse(0, 0) + m(0, 1) * inverse(0, 1) + m(0, 2) * inverse(0, 2);
-    for (int i = 0; i < 9; ++i) inverse.data()[i] /= determinant;
-    return inverse;
-}
-
-/// Column j of M.
-[[nodiscard]] inline Eigen::Vector3d column(const Eigen::Matrix3d& m, int j) {
-    return {m(0, j), m(1, j), m(2, j)};
-}
-
-/// M += s a b^T
-inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
-                      const Eigen::Vector3d& b) {
-    for (int j = 0; j < 3; ++j) {
-        for (int i = 0; i < 3; ++i) m(i, j) += s * a[i] * b[j];
-    }
-}
-
-/// A unit vector orthogonal to the unit vector n.
-[[nodiscard]] inline Eigen::Vector3d orthogonal(const Eigen::Vector3d& n) {
-    // The coordinate axis farthest from n, less its part along n.
-    int axis = 0;
-    for (int i = 1; i < 3; ++i) {
-        if (std::abs(n[i]) < std::abs(n[axis])) axis = i;
-    }
-    Eigen::Vector3d e(-n[axis] * n[0], -n[axis] * n[1], -n[axis] * n[2]);
-    e[axis] += 1.0;
-    return scaled(1.0 / length(e), e);
-}
-
-}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/neighborhood.hpp --------------------------------------------------
 
@@ -5247,7 +5256,7 @@ namespace gnomon {
 
 /// gamma_i = |<n_i, n^_i>| in [0, 1] for unit vectors, whatever their signs. Eq. (3.12)
 [[nodiscard]] inline double gamma(const Eigen::Vector3d& n, const Eigen::Vector3d& truth) {
-    return std::abs(n.dot(truth));
+    return std::abs(detail::dot(n, truth));
 }
 
 /// gamma, the mean over all points. A missing normal (the zero vector) counts as 0: a method gains
@@ -6081,7 +6090,8 @@ struct plane_filter {
 
             const Eigen::Matrix3d covariance = detail::inverse_of_symmetric(sum.precision);
             const Eigen::Vector3d delta = detail::product(covariance, sum.weighted);
-            if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
+            if (!detail::all_finite(delta) || !detail::all_finite(covariance))
+                return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
             settled = std::abs(delta[0]) + std::abs(delta[1]) < 1e-9;
@@ -7028,7 +7038,7 @@ struct with_covariance {
                                            w * (r21 * i12 + r22 * i22));
         // Around other methods than PlanePCA, A need not be one of a plane.
         const bool is_plane = a11 > 0.0 && determinant > 0.0;
-        if (!seen || !is_plane || !belief.covariance.allFinite()) {
+        if (!seen || !is_plane || !detail::all_finite(belief.covariance)) {
             constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
             belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
             belief.trust = trust::weak;
@@ -7107,7 +7117,7 @@ struct height_frame {
     height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
                  std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
-        if (!is_finite(p) || !normal.allFinite()) {
+        if (!is_finite(p) || !all_finite(normal)) {
             trust = gnomon::trust::not_finite;
             return;
         }
@@ -8135,7 +8145,7 @@ namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    require(std::abs(p.normal.dot(p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 

@@ -10,6 +10,8 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
+
 namespace gnomon {
 
 namespace detail {
@@ -65,7 +67,7 @@ struct moments {
 
     /// The mean [m] of the offsets, that of the point itself, zero, among them.
     [[nodiscard]] Eigen::Vector3d mean_with_point() const {
-        return sum / static_cast<double>(count + 1);
+        return detail::scaled(1.0 / static_cast<double>(count + 1), sum);
     }
 
     /// The covariance [m^2] of the neighbors alone. Precondition: count > 0.
@@ -96,7 +98,7 @@ struct weighted_moments {
     }
 
     /// The weighted mean of the offsets [m]. Precondition: weight > 0.
-    [[nodiscard]] Eigen::Vector3d mean() const { return sum / weight; }
+    [[nodiscard]] Eigen::Vector3d mean() const { return detail::scaled(1.0 / weight, sum); }
 
     /// The weighted covariance [m^2]. Precondition: weight > 0.
     [[nodiscard]] Eigen::Matrix3d covariance() const {

@@ -5,6 +5,8 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
+
 namespace gnomon {
 
 /// The points x with normal . x = offset.
@@ -14,7 +16,7 @@ struct plane {
 
     /// Distance [m] of x from the plane, positive on the normal's side.
     [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
-        return normal.dot(x) - offset;
+        return detail::dot(normal, x) - offset;
     }
 };
 

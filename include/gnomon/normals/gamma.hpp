@@ -12,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -20,7 +21,7 @@ namespace gnomon {
 
 /// gamma_i = |<n_i, n^_i>| in [0, 1] for unit vectors, whatever their signs. Eq. (3.12)
 [[nodiscard]] inline double gamma(const Eigen::Vector3d& n, const Eigen::Vector3d& truth) {
-    return std::abs(n.dot(truth));
+    return std::abs(detail::dot(n, truth));
 }
 
 /// gamma, the mean over all points. A missing normal (the zero vector) counts as 0: a method gains

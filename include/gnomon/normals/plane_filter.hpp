@@ -184,7 +184,8 @@ struct plane_filter {
 
             const Eigen::Matrix3d covariance = detail::inverse_of_symmetric(sum.precision);
             const Eigen::Vector3d delta = detail::product(covariance, sum.weighted);
-            if (!delta.allFinite() || !covariance.allFinite()) return unsettled(belief);
+            if (!detail::all_finite(delta) || !detail::all_finite(covariance))
+                return unsettled(belief);
             state = state.moved(delta);
             state.covariance = covariance;
             settled = std::abs(delta[0]) + std::abs(delta[1]) < 1e-9;

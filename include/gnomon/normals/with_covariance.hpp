@@ -103,7 +103,7 @@ struct with_covariance {
                                            w * (r21 * i12 + r22 * i22));
         // Around other methods than PlanePCA, A need not be one of a plane.
         const bool is_plane = a11 > 0.0 && determinant > 0.0;
-        if (!seen || !is_plane || !belief.covariance.allFinite()) {
+        if (!seen || !is_plane || !detail::all_finite(belief.covariance)) {
             constexpr double anywhere = 2.25;  // [rad^2], as far as one can be wrong
             belief.covariance = frame.in_space(anywhere, 0.0, anywhere);
             belief.trust = trust::weak;

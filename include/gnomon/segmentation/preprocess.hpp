@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
@@ -63,7 +64,7 @@ namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    require(std::abs(p.normal.dot(p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 

@@ -4,8 +4,6 @@
 
 double smallest_of_eight() {
     using gnomon::detail::pack;
-    gnomon::detail::symmetric_3x3<pack> planes;
-    planes.zz = planes.xy = planes.xz = planes.yz = pack::Zero();
-    planes.xx = planes.yy = pack::Constant(0.5);
-    return gnomon::detail::separated_eigen<pack>(planes).values[2].abs().maxCoeff();
+    const gnomon::detail::symmetric_3x3<pack> planes{0.5, 0.5, 0.0, 0.0, 0.0, 0.0};
+    return magnitude(gnomon::detail::separated_eigen<pack>(planes).values[2]).sum();
 }

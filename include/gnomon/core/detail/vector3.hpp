@@ -68,6 +68,15 @@ namespace gnomon::detail {
     return r;
 }
 
+[[nodiscard]] inline bool all_finite(const Eigen::Vector3d& a) {
+    return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
+}
+[[nodiscard]] inline bool all_finite(const Eigen::Matrix3d& m) {
+    for (int i = 0; i < 9; ++i)
+        if (!std::isfinite(m.data()[i])) return false;
+    return true;
+}
+
 /// The diagonal matrix of a, b and c.
 [[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
     Eigen::Matrix3d m;

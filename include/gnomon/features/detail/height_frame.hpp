@@ -38,7 +38,7 @@ struct height_frame {
     height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
                  std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
-        if (!is_finite(p) || !normal.allFinite()) {
+        if (!is_finite(p) || !all_finite(normal)) {
             trust = gnomon::trust::not_finite;
             return;
         }
