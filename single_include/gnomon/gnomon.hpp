@@ -1410,9 +1410,9 @@ inline double root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::abs(x); }
 /// a where x >= y, and b elsewhere.
 inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
-/// Whether that is certain: of several numbers it is not asked for.
-inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
-inline bool at_most(const pack&, double) { return false; }
+/// Whether no more steps are needed: of several numbers that is not asked.
+inline bool is_settled(double rest, double limit) { return std::abs(rest) <= limit; }
+inline bool is_settled(const pack&, double) { return false; }
 
 /// A vector whose coordinates are T.
 template <class T>
@@ -1452,7 +1452,7 @@ struct separated_eigen {
             x = inner(v, p);
             const triple<T> r{p.x - x * v.x, p.y - x * v.y, p.z - x * v.z};
             squared_residual = inner(r, r);
-            if (at_most(squared_residual, 1e-31)) break;
+            if (is_settled(squared_residual, 1e-31)) break;
         }
         values[2] = x;
         decompose_across(a);
@@ -1475,7 +1475,7 @@ struct separated_eigen {
             const T slope = (3.0 * x - 2.0) * x + c1;
             const T step = value / slope;
             x = x - step;
-            if (at_most(step, 1e-6)) break;
+            if (is_settled(step, 1e-6)) break;
         }
         return x;
     }
@@ -3862,43 +3862,37 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        std::vector<std::uint64_t> begin;
-        std::vector<point_index> indices;
-        const auto make_room = [&](const position_view<R, Proj>& p, std::size_t ring_size) {
-            begin.assign(p.size() + 1, 0);
-            for (std::size_t i = 0; i < p.size(); ++i)
-                begin[i + 1] = begin[i] + (is_finite(p[i]) ? ring_size : 0);
-            indices.resize(begin.back());
-        };
-        const auto make_visitor = [&] {
+        detail::require(k > 0, "knn: k must be at least 1");
+        const position_view<R, Proj> p(points, projection);
+        const auto tree = leaves_of(p, run);
+        if (!tree) return adjacency(search(points, std::move(projection)), run);
+        const std::size_t ring_size = tree->size() == 0 ? 0 : std::min(k, tree->size() - 1);
+        std::vector<std::uint64_t> begin(p.size() + 1, 0);
+        for (std::size_t i = 0; i < p.size(); ++i)
+            begin[i + 1] = begin[i] + (is_finite(p[i]) ? ring_size : 0);
+        std::vector<point_index> indices(begin.back());
+        detail::for_each_nearest(*tree, k, run, [&] {
             return [&, ring = std::vector<neighbor>()](std::size_t i, const auto& found) mutable {
                 found.sort_into(ring);
                 for (std::size_t j = 0; j < ring.size(); ++j) indices[begin[i] + j] = ring[j].index;
             };
-        };
-        if (sweep(points, run, projection, make_visitor, make_room))
-            return adjacency(std::move(begin), std::move(indices));
-        return adjacency(search(points, std::move(projection)), run);
+        });
+        return adjacency(std::move(begin), std::move(indices));
     }
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
-    /// with a visitor that make_visitor() gives; before, prepare(position_view, size of all rings).
+    /// with a visitor that make_visitor() gives.
     /// @return whether it did: not with the other backend, or `tie_rule::all`, or where so many
     ///         points coincide that one point after the other is faster
     /// @throws std::invalid_argument  if k is 0
-    template <class R, execution X, class Proj, class Prepare = detail::any_visitor>
+    template <class R, execution X, class Proj>
         requires point_range<R, Proj>
     [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
-                             auto&& make_visitor, const Prepare& prepare = {}) const {
+                             auto&& make_visitor) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
-        const position_view<R, Proj> p(points, projection);
-        const detail::leaf_tree tree(p, run);
-        if (tree.crowded()) return false;
-        if constexpr (!std::is_same_v<Prepare, detail::any_visitor>)
-            prepare(p, tree.size() == 0 ? 0 : std::min(k, tree.size() - 1));
-        detail::for_each_nearest(tree, k, run, make_visitor);
-        return true;
+        const auto tree = leaves_of(position_view<R, Proj>(points, projection), run);
+        if (tree) detail::for_each_nearest(*tree, k, run, make_visitor);
+        return tree.has_value();
     }
 
     /// A search that stores nothing but its index; the points must outlive it.
@@ -3917,6 +3911,16 @@ struct knn {
     void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
         tree.nearest(points[i], k, i, ring, ties);
+    }
+
+  private:
+    /// What is swept over, if that is wanted and of use.
+    template <class Points, execution X>
+    [[nodiscard]] std::optional<detail::leaf_tree> leaves_of(const Points& p, const X& run) const {
+        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return std::nullopt;
+        std::optional<detail::leaf_tree> tree(std::in_place, p, run);
+        if (tree->crowded()) tree.reset();
+        return tree;
     }
 };
 

@@ -4,6 +4,11 @@
 /// least, and how it spreads. The result of all estimators that decompose a 3x3 matrix.
 #pragma once
 
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/pack.hpp>

@@ -23,9 +23,9 @@ inline double root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::abs(x); }
 /// a where x >= y, and b elsewhere.
 inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
-/// Whether that is certain: of several numbers it is not asked for.
-inline bool at_most(double x, double limit) { return std::abs(x) <= limit; }
-inline bool at_most(const pack&, double) { return false; }
+/// Whether no more steps are needed: of several numbers that is not asked.
+inline bool is_settled(double rest, double limit) { return std::abs(rest) <= limit; }
+inline bool is_settled(const pack&, double) { return false; }
 
 /// A vector whose coordinates are T.
 template <class T>
@@ -65,7 +65,7 @@ struct separated_eigen {
             x = inner(v, p);
             const triple<T> r{p.x - x * v.x, p.y - x * v.y, p.z - x * v.z};
             squared_residual = inner(r, r);
-            if (at_most(squared_residual, 1e-31)) break;
+            if (is_settled(squared_residual, 1e-31)) break;
         }
         values[2] = x;
         decompose_across(a);
@@ -88,7 +88,7 @@ struct separated_eigen {
             const T slope = (3.0 * x - 2.0) * x + c1;
             const T step = value / slope;
             x = x - step;
-            if (at_most(step, 1e-6)) break;
+            if (is_settled(step, 1e-6)) break;
         }
         return x;
     }
