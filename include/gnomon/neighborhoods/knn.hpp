@@ -99,9 +99,9 @@ struct knn {
     /// What is swept over, if that is wanted and of use.
     template <class Points, execution X>
     [[nodiscard]] std::optional<detail::leaf_tree> leaves_of(const Points& p, const X& run) const {
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return std::nullopt;
-        std::optional<detail::leaf_tree> tree(std::in_place, p, run);
-        if (tree->crowded()) tree.reset();
+        std::optional<detail::leaf_tree> tree;
+        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return tree;
+        if (tree.emplace(p, run).crowded()) tree.reset();
         return tree;
     }
 };
