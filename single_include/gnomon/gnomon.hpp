@@ -1752,14 +1752,15 @@ class union_find {
     }
 
     /// Makes one set of those of i and j.
-    void unite(point_index i, point_index j) {
+    /// @return its smallest element, once no other thread unites
+    point_index unite(point_index i, point_index j) {
         for (;;) {
             i = find(i);
             j = find(j);
-            if (i == j) return;
+            if (i == j) return i;
             if (i > j) std::swap(i, j);
             point_index expected = j;
-            if (at(j).compare_exchange_strong(expected, i, std::memory_order_relaxed)) return;
+            if (at(j).compare_exchange_strong(expected, i, std::memory_order_relaxed)) return i;
         }
     }
 
@@ -2967,51 +2968,6 @@ ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
 
 }  // namespace gnomon
 
-// -------- gnomon/neighborhoods/hybrid.hpp --------------------------------------------------------
-
-/// @file
-/// The k nearest neighbors, but none farther than a radius: `knn` that does not reach across gaps,
-/// or `radius` that does not drown in dense places.
-
-namespace gnomon {
-
-/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
-struct hybrid {
-    std::size_t k = 50;  ///< at most this many neighbors, at least 1
-    double r = 0.30;     ///< and at most this far [m], the distance included
-
-    /// The stored graph. O(n (log n + k log k)).
-    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
-    template <class R, execution X = sequential, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
-                                       Proj projection = {}) const {
-        return adjacency(search(points, std::move(projection)), run);
-    }
-
-    /// A search that stores nothing but its index; the points must outlive it.
-    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
-    template <class R, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
-        detail::require(k > 0, "hybrid: k must be at least 1");
-        detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
-        return detail::tree_search(*this, points, std::move(projection));
-    }
-
-    template <class R, class Proj = std::identity>
-    void search(const R&& points, Proj projection = {}) const = delete;
-
-    /// The ring of the finite point i.
-    void find(const kd_tree& tree, const auto& points, std::size_t i,
-              std::vector<neighbor>& ring) const {
-        tree.nearest(points[i], k, i, ring);
-        while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
-    }
-};
-
-}  // namespace gnomon
-
 // -------- gnomon/neighborhoods/detail/lanes.hpp --------------------------------------------------
 
 /// @file
@@ -3279,6 +3235,14 @@ class leaf_tree {
     [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
     [[nodiscard]] const point_index* index() const { return index_.data(); }
+    [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
+        return {at_[0][place], at_[1][place], at_[2][place]};
+    }
+    /// The canonical one of the points at two places [m^2].
+    [[nodiscard]] double squared_distance(std::size_t p, std::size_t q) const {
+        return gnomon::squared_distance({at_[0][p], at_[1][p], at_[2][p]},
+                                        {at_[0][q], at_[1][q], at_[2][q]});
+    }
     [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
     /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
     /// them then takes too long.
@@ -3391,6 +3355,397 @@ class leaf_tree {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/neighborhoods/detail/leaf_list.hpp ----------------------------------------------
+
+/// @file
+/// The leaves of a tree that matter for some points that lie together, made ready for looking at
+/// all their points from each of these: in floats from the middle between them, 32 side by side, in
+/// the nearest cache. Floats cannot always tell which of two points is nearer; how far they may err
+/// is known, and what is nearer than that to the limit is told by the tree's doubles.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Lengths are in units of the list, in which it reaches to 1, unless in metres. (A template, so
+/// that only who searches compiles it.)
+template <class Tree>
+class leaf_list {
+  public:
+    /// How many points side by side in the tree it is for at most.
+    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;
+    /// Farther than all that is within reach of all.
+    static constexpr float everything = 4.0f;
+    /// How much wider than its reach what it is for should be: beyond, floats tell too little.
+    static constexpr double widest = 256.0;
+
+    /// Precondition: the tree is not empty.
+    explicit leaf_list(const Tree& tree)
+        : tree_(tree), diagonal_(std::sqrt(tree.box().squared_diagonal())) {}
+
+    /// Makes it a list for the points at some places of one group, and an empty one.
+    void enclose(std::span<const std::size_t> places) {
+        group_ = places.front() / group_size;
+        box_ = {tree_.position(places.front()), tree_.position(places.front())};
+        for (const std::size_t p : places) box_.add(tree_.position(p));
+        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
+        half_ = 0.5 * std::sqrt(box_.squared_diagonal());
+    }
+
+    /// Half the diagonal of the box of the points that it is for [m].
+    [[nodiscard]] double half() const { return half_; }
+
+    /// Lists the leaves within `reach` [m], greater than 0, of that box, and the points' own.
+    void extend_to(double reach) {
+        reach_ = std::clamp(reach, least_reach, std::max(diagonal_, least_reach));
+        scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
+        listed_ = 0;
+        tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
+            if (leaf / leaf_tree::group_size == group_)
+                own_[leaf % leaf_tree::group_size] = listed_;
+            list(leaf, b);
+        });
+        for (std::size_t l = listed_; l % lane_count != 0; ++l)
+            boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
+        const std::size_t most = (listed_ + 1) * lane_count;
+        if (distance_.size() * lane_count < most) {
+            distance_.resize(listed_ + 1);
+            candidate_.resize(most);
+        }
+    }
+
+    /// All that is nearer than that is listed [m].
+    [[nodiscard]] double reach() const { return reach_; }
+    /// Whether that is all there is.
+    [[nodiscard]] bool complete() const { return reach_ >= diagonal_; }
+    /// [1/m]
+    [[nodiscard]] double scale() const { return scale_; }
+
+    /// Squared distances between which floats cannot tell whether a point is within d, which is
+    /// counted as `everything` if it is more.
+    [[nodiscard]] std::pair<float, float> doubt_about(double d) const {
+        const auto limit = static_cast<float>(std::min<double>(d, everything));
+        // 2^-24 of each coordinate, at most half + d; the sum of squares its own; and squares under
+        // the least normal float. Of the canonical distances: squares under the least normal
+        // double.
+        const float error = 1e-6f * (static_cast<float>(half_ * scale_) + limit) + 1e-18f +
+                            static_cast<float>(1e-161 * scale_);
+        const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
+        return {below, (limit + error) * (limit + error)};
+    }
+
+    /// Makes candidates of all listed points within a limit of the one at place p, one of those
+    /// that the list is for, but not of that itself. The limit is a squared distance.
+    /// @return how many
+    std::size_t collect(std::size_t p, float limit) {
+        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
+        const lane_points& queries = points_[own];
+        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
+        float* const distance = distance_[0].at;
+        std::size_t n = 0;
+        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
+            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
+            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
+                 near &= near - 1) {
+                const std::size_t b =
+                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                const lanes d2 = points_[b].squared_distances(x, y, z);
+                std::uint32_t within = at_most(d2, limit);
+                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
+                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
+            }
+        }
+        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
+        return candidates_ = n;
+    }
+
+    /// The squared distances of the candidates.
+    [[nodiscard]] std::span<const float> squared_distances() const {
+        return {distance_[0].at, candidates_};
+    }
+
+    /// How many of the candidates are within a limit.
+    [[nodiscard]] std::size_t count(float limit) const {
+        std::size_t within = 0;
+        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
+            within += count_at_most(distance_[b], limit);
+        return within;
+    }
+
+    /// Calls visit(place) for the candidates beyond `below` and within `above`.
+    void for_each_between(float below, float above, auto&& visit) const {
+        for (std::size_t c = 0; c < candidates_; ++c) {
+            const float d2 = distance_[c / lane_count][c % lane_count];
+            if (d2 > below && d2 <= above) visit(candidate_[c]);
+        }
+    }
+
+    /// The places of those candidates that are within a limit, in their order. Ends the candidacy
+    /// of all.
+    /// @return at the start of a buffer that has room for all candidates
+    [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
+        std::uint32_t* taken = candidate_.data();
+        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
+            taken =
+                compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), taken);
+        candidates_ = 0;
+        return {candidate_.data(), taken};
+    }
+
+  private:
+    void list(std::size_t leaf, const leaf_box& box) {
+        if (listed_ == points_.size()) {
+            points_.resize(listed_ + lane_count);
+            starts_.resize(listed_ + lane_count);
+            boxes_.emplace_back();
+        }
+        std::array<float, 3> middle{}, half{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            constexpr double beyond = 64.0;  // all that matters
+            const double low = std::max(-beyond, (box.low[a] - origin_[a]) * scale_);
+            const double high = std::min(beyond, (box.high[a] - origin_[a]) * scale_);
+            middle[a] = static_cast<float>(0.5 * (low + high));
+            half[a] = static_cast<float>(0.5 * (high - low));
+            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);  // floats are off by 2^-24
+        }
+        boxes_[listed_ / lane_count].set(listed_ % lane_count, middle, half);
+        const std::size_t start = leaf * lane_count;
+        starts_[listed_] = static_cast<std::uint32_t>(start);
+        lane_points& block = points_[listed_++];
+        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
+        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
+        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
+        for (std::size_t l = std::min(lane_count, tree_.size() - start); l < lane_count; ++l)
+            block.set(l, {far_, far_, far_});
+    }
+
+    /// A coordinate from the middle.
+    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
+        return static_cast<float>((coordinate - origin_[axis]) * scale_);
+    }
+
+    static constexpr float far_ = std::numeric_limits<float>::infinity();
+    /// The square of `scale_` must not overflow [m].
+    static constexpr double least_reach = 1e-150;
+
+    const Tree& tree_;
+    double diagonal_;  // of all [m]
+    std::size_t group_ = 0;
+    leaf_box box_{};
+    std::array<double, 3> origin_{};  // its middle
+    double half_ = 0.0;
+    double reach_ = 0.0;
+    double scale_ = 1.0;
+    std::size_t listed_ = 0;
+    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
+    std::vector<lane_boxes> boxes_;
+    std::vector<lane_points> points_;
+    std::vector<std::uint32_t> starts_;
+    std::size_t candidates_ = 0;
+    std::vector<lanes> distance_;
+    std::vector<std::uint32_t> candidate_;
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/leaf_search.hpp --------------------------------------------
+
+/// @file
+/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
+/// so one walk through the tree lists the leaves that matter for any of them (leaf_list.hpp), and
+/// what follows is done 32 points at a time:
+///
+///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
+///     bit more than that of the points before)? Half as many points again as needed pass.
+///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
+///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
+///     distances, all that passed are sorted by their canonical distances in double.
+///
+/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
+/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
+/// template, so that only who searches compiles it.)
+template <class Tree>
+class leaf_search {
+  public:
+    /// Finds nothing farther than `radius` [m]. Precondition: the tree is not empty.
+    leaf_search(const Tree& tree, std::size_t k,
+                double radius = std::numeric_limits<double>::infinity())
+        : tree_(tree), k_(std::min(k, tree.size() - 1)), radius_(radius), list_(tree) {}
+
+    /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
+    template <class Visit>
+    void operator()(std::size_t group, Visit&& visit) {
+        const std::size_t first = group * list_.group_size;
+        const std::size_t last = std::min(first + list_.group_size, tree_.size());
+        waiting_.clear();
+        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        list_.enclose(waiting_);
+        // The box of the group, with its diagonal, holds that many neighbors of each.
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half());
+        reached_.clear();
+        if (list_.half() <= list_.widest * reach_ || !(reach_ > 0.0)) {
+            find_waiting(visit);
+        } else {
+            // As where it holds a stray.
+            for (std::size_t p = first; p < last; ++p) {
+                waiting_.assign(1, p);
+                if (guess_ > 0.0) reach_ = std::sqrt(guess_);
+                list_.enclose(waiting_);
+                find_waiting(visit);
+            }
+        }
+        // Stragglers would make the next list too long for all the others.
+        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
+        std::nth_element(reached_.begin(), most, reached_.end());
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
+    }
+
+  private:
+    /// Visits all that are waiting.
+    template <class Visit>
+    void find_waiting(Visit&& visit) {
+        if (!(reach_ > 0.0))
+            reach_ = list_.half() > 0.0 ? list_.half() : std::numeric_limits<double>::infinity();
+        for (;;) {
+            list_.extend_to(std::min(reach_, radius_));
+            const bool complete = list_.complete() || list_.reach() >= radius_;
+            double farther = 0.0;
+            std::size_t left = 0;
+            for (const std::size_t p : waiting_) {
+                const double reached = select(p);
+                if (reached <= list_.reach() || complete) {
+                    visit(p, selected_);
+                    reached_.push_back(reached);
+                } else {
+                    farther = std::max(farther, reached);
+                    waiting_[left++] = p;
+                }
+            }
+            if (left == 0) return;
+            waiting_.resize(left);
+            reach_ = std::min(1.001 * farther, 4.0 * list_.reach());
+            list_.enclose(waiting_);
+        }
+    }
+
+    /// Selects the k nearest of the group's point at place p, of those that are listed.
+    /// @return how far the k-th is [m]; infinity if fewer are listed
+    double select(std::size_t p) {
+        selected_ = {};
+        if (k_ == 0) return 0.0;  // a lonely point
+        const double scale = list_.scale();
+        const float most = list_.doubt_about(radius_ * scale).second;
+        auto limit = static_cast<float>(guess_ * scale * scale);
+        if (!(limit > 0.0f && limit < most)) limit = most;
+        for (;;) {
+            if (list_.collect(p, limit) >= k_) {
+                const float d2 = kth(limit);
+                const auto [below, above] = list_.doubt_about(std::sqrt(d2));
+                if (above <= limit || limit == most) {
+                    selected_ = list_.count(above) - list_.count(below) > 1
+                                    ? settle(p, below, above)
+                                    : list_.take_within(d2);
+                    drop_farther(p);
+                    return learn(static_cast<double>(above) / (scale * scale));
+                }
+                limit = 1.1f * above;  // ties of the k-th may not be among the candidates
+            } else if (limit < most) {
+                limit = 2.5f * limit;
+            } else {
+                selected_ = list_.take_within(most);
+                drop_farther(p);
+                return std::numeric_limits<double>::infinity();
+            }
+            limit = std::min(most, limit);
+        }
+    }
+
+    /// Deselects what is beyond the radius.
+    void drop_farther(std::size_t p) {
+        if (radius_ == std::numeric_limits<double>::infinity()) return;
+        const auto is_farther = [&](std::uint32_t at) {
+            return tree_.squared_distance(p, at) > radius_ * radius_;
+        };
+        const auto farther = std::ranges::remove_if(selected_, is_farther);
+        selected_ = selected_.first(selected_.size() - farther.size());
+    }
+
+    /// Guesses the next squared k-th distance from this one and that before, lest a straggler makes
+    /// the next one sift through too much.
+    /// @return the distance
+    double learn(double squared) {
+        guess_ = (1.0 + 2.0 / std::sqrt(static_cast<double>(k_))) * std::min(squared, last_);
+        last_ = squared;
+        return std::sqrt(squared);
+    }
+
+    /// A limit that k of the candidates are within, or more if floats cannot tell them apart.
+    /// Precondition: there are k, and all are within `high`.
+    [[nodiscard]] float kth(float high) {
+        const auto candidates = list_.squared_distances();
+        float low = 0.0f;
+        auto below = 0.0f, within = static_cast<float>(candidates.size());
+        const auto wanted = static_cast<float>(k_);
+        for (int i = 0; i < 5 && candidates.size() > k_; ++i) {
+            const float limit =
+                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
+            const std::size_t c = list_.count(limit);
+            if (c == k_) return limit;
+            if (c < k_)
+                low = limit, below = static_cast<float>(c);
+            else
+                high = limit, within = static_cast<float>(c);
+        }
+        sorted_.assign(candidates.begin(), candidates.end());
+        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+        std::nth_element(sorted_.begin(), last, sorted_.end());
+        return *last;
+    }
+
+    /// The k nearest: those within `below`, and of those up to `above`, among which floats cannot
+    /// tell the k-th from the next, the nearest by canonical distances.
+    std::span<std::uint32_t> settle(std::size_t from, float below, float above) {
+        doubtful_.clear();
+        list_.for_each_between(below, above, [&](std::uint32_t at) {
+            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, at});
+        });
+        const std::span certain = list_.take_within(below);
+        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain.size());
+        const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
+        if (wanted < std::ssize(doubtful_))
+            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
+                             nearer);
+        const std::span all(certain.data(), k_);
+        for (std::ptrdiff_t c = 0; c < wanted; ++c)
+            *(certain.data() + certain.size() + c) = doubtful_[static_cast<std::size_t>(c)].second;
+        // In the order of the tree, whatever way they were found.
+        std::sort(all.begin(), all.end());
+        return all;
+    }
+
+    const Tree& tree_;
+    std::size_t k_;
+    double radius_;
+    leaf_list<Tree> list_;
+    double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
+    double guess_ = 0.0;                                     // of the next one
+    double reach_ = 0.0;                                     // within which leaves are listed [m]
+    std::vector<double> reached_;                            // the k-th distances in a group [m]
+    std::vector<std::size_t> waiting_;
+    std::span<std::uint32_t> selected_;
+    std::vector<float> sorted_;
+    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/found_neighbors.hpp ----------------------------------------
 
 /// @file
@@ -3406,13 +3761,10 @@ class found_neighbors {
   public:
     static constexpr std::size_t stride = pack::size;
 
-    explicit found_neighbors(std::size_t k)
-        : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
-
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Coordinate `axis` of the ways from the point to them [m].
     [[nodiscard]] const double* way(std::size_t axis) const {
-        return numbers_.data() + axis * capacity();
+        return numbers_.data() + axis * capacity_;
     }
     /// Canonical squared distances [m^2].
     [[nodiscard]] const double* squared_distance() const { return way(3); }
@@ -3422,7 +3774,7 @@ class found_neighbors {
     [[nodiscard]] moments moments_about_point() const {
         pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
         pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size) {
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
             const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
             x_sum += x;
             y_sum += y;
@@ -3450,26 +3802,29 @@ class found_neighbors {
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
         pack sum(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size)
+        for (std::size_t j = 0; j < filled(); j += pack::size)
             sum += root(pack(squared_distance() + j));
         return sum.sum() / static_cast<double>(count_);
     }
 
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
-        ring.clear();
-        for (std::size_t j = 0; j < count_; ++j) ring.push_back({squared_distance()[j], index_[j]});
+        ring.resize(count_);
+        constexpr std::size_t few = 128;  // beyond, comparing all with all takes longer
+        if (count_ <= few && rank_into(ring)) return;
+        for (std::size_t j = 0; j < count_; ++j) ring[j] = {squared_distance()[j], index_[j]};
         std::sort(ring.begin(), ring.end());
     }
 
-    /// Takes the points at the given places of the tree, seen from that at `from`.
+    /// Replaces them by the points at the given places of the tree, seen from that at `from`.
     void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
+        resize(places.size());
         const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
         const point_index* all_indices = tree.index();
         const double px = all_x[from], py = all_y[from], pz = all_z[from];
         double* way_x = numbers_.data();
-        double* way_y = way_x + capacity();
-        double* way_z = way_y + capacity();
+        double* way_y = way_x + capacity_;
+        double* way_z = way_y + capacity_;
         point_index* index = index_.data();
         for (std::size_t j = 0; j < count_; ++j) {
             const std::size_t at = places[j];
@@ -3479,18 +3834,49 @@ class found_neighbors {
             index[j] = all_indices[at];
         }
         const double *x = way(0), *y = way(1), *z = way(2);
-        for (std::size_t j = 0; j < capacity(); j += stride) {
+        for (std::size_t j = 0; j < filled(); j += stride) {
             std::array<double, stride> d2;
             for (std::size_t l = 0; l < stride; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
-            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity() + j);
+            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
     }
 
   private:
-    [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
+    /// Puts each where as many are nearer, for which all are compared with all, eight at a time.
+    /// @return whether that is an order: not if there are ties
+    bool rank_into(std::vector<neighbor>& ring) const {
+        const std::size_t not_there = filled() - count_;  // zeros, as near as anything
+        std::size_t sum = 0;
+        for (std::size_t j = 0; j < count_; ++j) {
+            const pack d2(squared_distance()[j]);
+            pack not_farther(0.0);
+            for (std::size_t i = 0; i < filled(); i += pack::size)
+                not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
+            const std::size_t rank =
+                static_cast<std::size_t>(not_farther.sum()) - not_there - 1;  // but itself
+            ring[rank] = {squared_distance()[j], index_[j]};
+            sum += rank;
+        }
+        return 2 * sum == count_ * (count_ - 1);
+    }
 
-    std::size_t count_;
+    void resize(std::size_t count) {
+        count_ = count;
+        if (filled() > capacity_) {
+            capacity_ = filled();
+            index_.resize(capacity_);
+            numbers_.resize(4 * capacity_);
+        }
+        for (std::size_t a = 0; a < 3; ++a)
+            std::fill(numbers_.data() + a * capacity_ + count_,
+                      numbers_.data() + a * capacity_ + filled(), 0.0);
+    }
+
+    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+
+    std::size_t count_ = 0;
+    std::size_t capacity_ = 0;
     std::vector<point_index> index_;
     std::vector<double> numbers_;  // x, y, z and squared distance
 };
@@ -3498,332 +3884,23 @@ class found_neighbors {
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
-// -------- gnomon/neighborhoods/detail/leaf_search.hpp --------------------------------------------
+// -------- gnomon/neighborhoods/detail/leaf_sweep.hpp ---------------------------------------------
 
 /// @file
-/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
-/// so one walk through the tree lists the leaves that matter for any of them, and what follows is
-/// done in the nearest cache, in floats relative to the group's middle, 32 points at a time:
-///
-///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the points before)? Half as many points again as needed pass.
-///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
-///     evenly spread in their squares, so interpolation finds it in three or four counts.
-///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
-///     distances, all that passed are sorted by their canonical distances in double.
-///
-/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
-/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+/// From group to group of a tree, in chunks that run side by side.
 
 namespace gnomon::detail {
-
 inline namespace GNOMON_LANES {
 
-/// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
-/// template, so that only who searches compiles it.)
-template <class Tree>
-class leaf_search {
-  public:
-    /// Precondition: the tree is not empty.
-    leaf_search(const Tree& tree, std::size_t k)
-        : tree_(tree),
-          k_(std::min(k, tree.size() - 1)),
-          diagonal_(std::sqrt(tree.box().squared_diagonal())),
-          found_(k_) {}
-
-    /// Calls visit(index, found_neighbors) for each point of the group number `group`.
-    template <class Visit>
-    void operator()(std::size_t group, Visit&& visit) {
-        const std::size_t first = group * group_size;
-        const std::size_t last = std::min(first + group_size, tree_.size());
-        waiting_.clear();
-        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
-        enclose_waiting();
-        // The box of the group, whose diagonal is 2 half_, holds that many neighbors of each.
-        if (last - first > k_) reach_ = std::min(reach_, 2.0 * half_);
-        reached_.clear();
-        if (half_ <= widest * reach_ || !(reach_ > 0.0)) {
-            find_waiting(visit);
-        } else {
-            for (std::size_t p = first; p < last; ++p) {
-                waiting_.assign(1, p);
-                if (guess_ > 0.0) reach_ = std::sqrt(guess_);
-                enclose_waiting();
-                find_waiting(visit);
-            }
-        }
-        // Stragglers would make the next list too long for all the others.
-        const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
-        std::nth_element(reached_.begin(), most, reached_.end());
-        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
-    }
-
-  private:
-    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;  // in points
-    /// How much wider than its neighborhoods a group may be: beyond, as where it holds a stray, its
-    /// points are taken one by one, lest floats from its middle tell too little.
-    static constexpr double widest = 256.0;
-
-    /// Visits all that are waiting.
-    template <class Visit>
-    void find_waiting(Visit&& visit) {
-        for (;;) {
-            list_around_waiting();
-            double farther = 0.0;
-            std::size_t left = 0;
-            for (const std::size_t p : waiting_) {
-                const double reached = select(p);
-                if (reached <= reach_ || complete_) {
-                    found_.look_up(tree_, p, candidate_);
-                    visit(tree_.index()[p], found_);
-                    reached_.push_back(reached);
-                } else {
-                    farther = std::max(farther, reached);
-                    waiting_[left++] = p;
-                }
-            }
-            if (left == 0) return;
-            waiting_.resize(left);
-            reach_ = std::min(1.001 * farther, 4.0 * reach_);
-            enclose_waiting();
-        }
-    }
-
-    void enclose_waiting() {
-        box_ = {position(waiting_[0]), position(waiting_[0])};
-        for (const std::size_t p : waiting_) box_.add(position(p));
-        for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
-        half_ = 0.5 * std::sqrt(box_.squared_diagonal());
-    }
-
-    /// Lists the leaves within `reach_` of the points that are waiting, their own among them.
-    void list_around_waiting() {
-        if (!(reach_ > 0.0)) reach_ = half_ > 0.0 ? half_ : diagonal_;
-        reach_ = std::max(reach_, least_reach);
-        complete_ = reach_ >= diagonal_;
-        scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
-        listed_ = 0;
-        tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
-            if (leaf / leaf_tree::group_size == waiting_[0] / group_size)
-                own_[leaf % leaf_tree::group_size] = listed_;
-            list(leaf, b);
-        });
-        for (std::size_t l = listed_; l % lane_count != 0; ++l)
-            boxes_[l / lane_count].set(l % lane_count, {far_, far_, far_}, {0.0f, 0.0f, 0.0f});
-        const std::size_t most = (listed_ + 1) * lane_count;
-        if (distance_.size() * lane_count < most) {
-            distance_.resize(listed_ + 1);
-            candidate_.resize(most);
-        }
-    }
-
-    void list(std::size_t leaf, const leaf_box& box) {
-        if (listed_ == points_.size()) {
-            points_.resize(listed_ + lane_count);
-            starts_.resize(listed_ + lane_count);
-            boxes_.emplace_back();
-        }
-        std::array<float, 3> middle{}, half{};
-        for (std::size_t a = 0; a < 3; ++a) {
-            constexpr double beyond = 64.0;  // all that matters
-            const double low = std::max(-beyond, (box.low[a] - origin_[a]) * scale_);
-            const double high = std::min(beyond, (box.high[a] - origin_[a]) * scale_);
-            middle[a] = static_cast<float>(0.5 * (low + high));
-            half[a] = static_cast<float>(0.5 * (high - low));
-            half[a] += 1e-6f * (std::abs(middle[a]) + half[a]);  // floats are off by 2^-24
-        }
-        boxes_[listed_ / lane_count].set(listed_ % lane_count, middle, half);
-        const std::size_t start = leaf * lane_count;
-        starts_[listed_] = static_cast<std::uint32_t>(start);
-        lane_points& block = points_[listed_++];
-        for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
-        for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
-        for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
-        for (std::size_t l = std::min(lane_count, tree_.size() - start); l < lane_count; ++l)
-            block.set(l, {far_, far_, far_});
-    }
-
-    [[nodiscard]] std::array<double, 3> position(std::size_t at) const {
-        return {tree_.at(0)[at], tree_.at(1)[at], tree_.at(2)[at]};
-    }
-
-    /// A coordinate in floats from the middle of the group, in units in which the list reaches
-    /// to 1.
-    [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
-        return static_cast<float>((coordinate - origin_[axis]) * scale_);
-    }
-
-    /// Leaves as candidates the k nearest of the group's point at place p, as far as they are
-    /// listed.
-    /// @return how far the k-th is [m]; infinity if fewer are listed
-    double select(std::size_t p) {
-        if (k_ == 0) return 0.0;             // a lonely point
-        constexpr float everything = 16.0f;  // beyond all that is within reach of all
-        auto limit = static_cast<float>(guess_ * scale_ * scale_);
-        if (!(limit > 0.0f && limit < everything)) limit = everything;
-        for (;;) {
-            const std::size_t n = collect(p, limit);
-            if (n >= k_) {
-                const float d2 = kth(n, limit);
-                // Of the floats: 2^-24 of each coordinate, at most half + d; the sum of squares its
-                // own; and squares under the least normal float. Of the canonical distances:
-                // squares under the least normal double.
-                const float d = std::sqrt(d2);
-                const float error = 1e-6f * (static_cast<float>(half_ * scale_) + d) + 1e-18f +
-                                    static_cast<float>(1e-161 * scale_);
-                const float above = (d + error) * (d + error);
-                const float below = d > error ? (d - error) * (d - error) : -1.0f;
-                if (above <= limit || limit == everything) {
-                    if (count(n, above) - count(n, below) > 1)
-                        settle(p, n, below, above);
-                    else
-                        keep_within(n, d2);
-                    return learn(static_cast<double>(above) / (scale_ * scale_));
-                }
-                limit = 1.1f * above;  // ties of the k-th may not be among the candidates
-            } else {
-                if (limit == everything) return std::numeric_limits<double>::infinity();
-                limit = 2.5f * limit;
-            }
-            limit = std::min(everything, limit);
-        }
-    }
-
-    /// Guesses the next squared k-th distance from this one and that before, lest a straggler makes
-    /// the next one sift through too much.
-    /// @return the distance
-    double learn(double squared) {
-        guess_ = (1.0 + 2.0 / std::sqrt(static_cast<double>(k_))) * std::min(squared, last_);
-        last_ = squared;
-        return std::sqrt(squared);
-    }
-
-    /// All listed points within the limit of the one at place p, and their squared distances.
-    /// @return how many
-    std::size_t collect(std::size_t p, float limit) {
-        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
-        const lane_points& queries = points_[own];
-        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
-        float* const distance = distance_[0].at;
-        std::size_t n = 0;
-        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
-            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
-                 near &= near - 1) {
-                const std::size_t b =
-                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
-                const lanes d2 = points_[b].squared_distances(x, y, z);
-                std::uint32_t within = at_most(d2, limit);
-                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
-                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
-            }
-        }
-        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
-        return n;
-    }
-
-    /// How many of the n candidates are within a limit.
-    [[nodiscard]] std::size_t count(std::size_t n, float limit) const {
-        std::size_t within = 0;
-        for (std::size_t b = 0; b * lane_count < n; ++b)
-            within += count_at_most(distance_[b], limit);
-        return within;
-    }
-
-    /// A limit that k of the n >= k candidates are within, or more if floats cannot tell them
-    /// apart. Precondition: all are within `high`.
-    [[nodiscard]] float kth(std::size_t n, float high) {
-        float low = 0.0f;
-        auto below = 0.0f, within = static_cast<float>(n);
-        const auto wanted = static_cast<float>(k_);
-        for (int i = 0; i < 5 && n > k_; ++i) {
-            const float limit =
-                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
-            const std::size_t c = count(n, limit);
-            if (c == k_) return limit;
-            if (c < k_)
-                low = limit, below = static_cast<float>(c);
-            else
-                high = limit, within = static_cast<float>(c);
-        }
-        sorted_.assign(distance_[0].at, distance_[0].at + n);
-        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
-        std::nth_element(sorted_.begin(), last, sorted_.end());
-        return *last;
-    }
-
-    /// Leaves as candidates, in their order, those within a limit.
-    /// @return how many
-    std::size_t keep_within(std::size_t n, float limit) {
-        std::uint32_t* kept = candidate_.data();
-        for (std::size_t b = 0; b * lane_count < n; ++b)
-            kept = compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), kept);
-        return static_cast<std::size_t>(kept - candidate_.data());
-    }
-
-    /// Leaves as candidates the k nearest: those within `below`, and of those up to `above`, among
-    /// which floats cannot tell the k-th from the next, the nearest by canonical distances.
-    void settle(std::size_t from, std::size_t n, float below, float above) {
-        doubtful_.clear();
-        const Eigen::Vector3d p = Eigen::Vector3d::Map(position(from).data());
-        for (std::size_t c = 0; c < n; ++c) {
-            const float d2 = distance_[c / lane_count][c % lane_count];
-            if (d2 <= below || d2 > above) continue;
-            const std::uint32_t at = candidate_[c];
-            const Eigen::Vector3d o = Eigen::Vector3d::Map(position(at).data());
-            doubtful_.push_back({{squared_distance(p, o), tree_.index()[at]}, at});
-        }
-        const std::size_t certain = keep_within(n, below);
-        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain);
-        const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (wanted < std::ssize(doubtful_))
-            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
-                             nearer);
-        for (std::ptrdiff_t c = 0; c < wanted; ++c)
-            candidate_[certain + static_cast<std::size_t>(c)] =
-                doubtful_[static_cast<std::size_t>(c)].second;
-        // In the order of the tree, whatever way they were found.
-        std::sort(candidate_.begin(), candidate_.begin() + static_cast<std::ptrdiff_t>(k_));
-    }
-
-    static constexpr float far_ = std::numeric_limits<float>::infinity();
-    /// The square of `scale_` must not overflow [m].
-    static constexpr double least_reach = 1e-150;
-
-    const Tree& tree_;
-    std::size_t k_;
-    double diagonal_;
-    double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
-    double guess_ = 0.0;                                     // of the next one
-    double reach_ = 0.0;                                     // within which leaves are listed [m]
-    bool complete_ = false;                                  // whether that is all of them
-    std::vector<double> reached_;                            // the k-th distances in a group [m]
-    std::vector<std::size_t> waiting_;
-    leaf_box box_{};                  // of them
-    std::array<double, 3> origin_{};  // its middle
-    double half_ = 0.0;               // half its diagonal [m]
-    double scale_ = 1.0;
-    std::size_t listed_ = 0;
-    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
-    std::vector<lane_boxes> boxes_;
-    std::vector<lane_points> points_;
-    std::vector<std::uint32_t> starts_;
-    std::vector<lanes> distance_;
-    std::vector<std::uint32_t> candidate_;
-    std::vector<float> sorted_;
-    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
-    found_neighbors found_;
-};
-
-/// Calls visit(i, found_neighbors) for every point i of the tree, with its k nearest neighbors.
-/// Each chunk of work has a visitor of its own, which make_visitor() gives, and whose finish(), if
-/// it has one, is called at the end of the chunk.
+/// Calls search(group, visit) for all groups of a tree, with a search and a visitor for each chunk
+/// of work, which make_search() and make_visitor() give. The visitor's finish(), if it has one, is
+/// called at the end of the chunk.
 template <execution X>
-void for_each_nearest(const leaf_tree& tree, std::size_t k, const X& run, auto&& make_visitor) {
+void search_all_groups(const leaf_tree& tree, const X& run, auto&& make_search,
+                       auto&& make_visitor) {
     constexpr std::size_t groups_per_chunk = 16;
-    if (tree.size() == 0) return;
     run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
-        leaf_search search(tree, k);
+        auto search = make_search();
         auto visit = make_visitor();
         const std::size_t first = chunk * groups_per_chunk;
         const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
@@ -3832,8 +3909,179 @@ void for_each_nearest(const leaf_tree& tree, std::size_t k, const X& run, auto&&
     });
 }
 
+/// Shows a visitor of neighbors what was found of places.
+template <class Visit>
+class place_visitor {
+  public:
+    place_visitor(const leaf_tree& tree, Visit visit) : tree_(tree), visit_(std::move(visit)) {}
+
+    void operator()(std::size_t place, std::span<const std::uint32_t> places) {
+        found_.look_up(tree_, place, places);
+        visit_(tree_.index()[place], std::as_const(found_));
+    }
+
+    void finish() {
+        if constexpr (requires { visit_.finish(); }) visit_.finish();
+    }
+
+  private:
+    const leaf_tree& tree_;
+    Visit visit_;
+    found_neighbors found_;
+};
+
+/// The sweep of a `sweeping_neighborhood`: visit(i, found_neighbors) for all points i of the tree
+/// that a search finds neighbors of.
+template <execution X>
+void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&& make_visitor) {
+    search_all_groups(tree, run, make_search, [&] { return place_visitor(tree, make_visitor()); });
+}
+
+/// A tree for searches of the k nearest; none where so many points coincide that one point after
+/// the other is faster.
+template <class Points, execution X>
+[[nodiscard]] std::optional<leaf_tree> tree_unless_crowded(const Points& points, const X& run) {
+    std::optional<leaf_tree> tree;
+    if (tree.emplace(points, run).crowded()) tree.reset();
+    return tree;
+}
+
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/swept_graph.hpp --------------------------------------------
+
+/// @file
+/// The stored graph of what a sweep finds, in whatever order it does.
+
+namespace gnomon::detail {
+
+/// The rings that the visitors of a sweep have seen.
+struct seen_rings {
+    struct part {
+        std::vector<point_index> points, indices;  // the rings of these, one after the other
+    };
+
+    std::vector<std::uint64_t> size_before;  // of the ring of each point, at the place after
+    std::vector<part> parts = {};
+    std::mutex guard = {};
+};
+
+/// Remembers what it is shown, and hands it over in the end.
+class ring_recorder {
+  public:
+    explicit ring_recorder(seen_rings& all) : all_(all) {}
+
+    void operator()(std::size_t i, const auto& found) {
+        found.sort_into(ring_);
+        all_.size_before[i + 1] = ring_.size();
+        seen_.points.push_back(static_cast<point_index>(i));
+        for (const neighbor& q : ring_) seen_.indices.push_back(q.index);
+    }
+
+    void finish() {
+        const std::lock_guard lock(all_.guard);
+        all_.parts.push_back(std::move(seen_));
+    }
+
+  private:
+    seen_rings& all_;
+    std::vector<neighbor> ring_;
+    seen_rings::part seen_;
+};
+
+/// The stored graph of a `sweeping_neighborhood`. While building, the indices exist twice.
+template <class Policy, class R, execution X, class Proj>
+[[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
+                                    Proj projection) {
+    const std::size_t n = position_view<R, Proj>(points, projection).size();
+    seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
+    if (!policy.sweep(points, run, projection, [&] { return ring_recorder(all); }))
+        return adjacency(policy.search(points, std::move(projection)), run);
+
+    std::vector<std::uint64_t>& begin = all.size_before;
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    std::vector<point_index> indices(begin.back());
+    run(all.parts.size(), [&](std::size_t c) {
+        auto from = all.parts[c].indices.begin();
+        for (const point_index i : all.parts[c].points) {
+            const auto size = static_cast<std::ptrdiff_t>(begin[i + 1] - begin[i]);
+            std::copy(from, from + size, indices.begin() + static_cast<std::ptrdiff_t>(begin[i]));
+            from += size;
+        }
+    });
+    return adjacency(std::move(begin), std::move(indices));
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/hybrid.hpp --------------------------------------------------------
+
+/// @file
+/// The k nearest neighbors, but none farther than a radius: `knn` that does not reach across gaps,
+/// or `radius` that does not drown in dense places.
+
+namespace gnomon {
+
+/// Models `sweeping_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
+struct hybrid {
+    std::size_t k = 50;  ///< at most this many neighbors, at least 1
+    double r = 0.30;     ///< and at most this far [m], the distance included
+
+    /// The stored graph. O(n (log n + k log k)).
+    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return detail::swept_graph(*this, points, run, std::move(projection));
+    }
+
+    /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
+    /// with a visitor that make_visitor() gives.
+    /// @return whether it did: not where so many points coincide that one point after the other is
+    ///         faster
+    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
+    template <class R, execution X, class Proj>
+        requires point_range<R, Proj>
+    [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
+                             auto&& make_visitor) const {
+        check();
+        const auto tree =
+            detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
+        if (!tree) return false;
+        const auto make_search = [&] { return detail::leaf_search(*tree, k, r); };
+        detail::sweep_leaves(*tree, run, make_search, make_visitor);
+        return true;
+    }
+
+    /// A search that stores nothing but its index; the points must outlive it.
+    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+        check();
+        return detail::tree_search(*this, points, std::move(projection));
+    }
+
+    template <class R, class Proj = std::identity>
+    void search(const R&& points, Proj projection = {}) const = delete;
+
+    /// The ring of the finite point i.
+    void find(const kd_tree& tree, const auto& points, std::size_t i,
+              std::vector<neighbor>& ring) const {
+        tree.nearest(points[i], k, i, ring);
+        while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
+    }
+
+  private:
+    void check() const {
+        detail::require(k > 0, "hybrid: k must be at least 1");
+        detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
+    }
+};
+
+}  // namespace gnomon
 
 // -------- gnomon/neighborhoods/knn.hpp -----------------------------------------------------------
 
@@ -3862,22 +4110,7 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        detail::require(k > 0, "knn: k must be at least 1");
-        const position_view<R, Proj> p(points, projection);
-        const auto tree = leaves_of(p, run);
-        if (!tree) return adjacency(search(points, std::move(projection)), run);
-        const std::size_t ring_size = tree->size() == 0 ? 0 : std::min(k, tree->size() - 1);
-        std::vector<std::uint64_t> begin(p.size() + 1, 0);
-        for (std::size_t i = 0; i < p.size(); ++i)
-            begin[i + 1] = begin[i] + (is_finite(p[i]) ? ring_size : 0);
-        std::vector<point_index> indices(begin.back());
-        detail::for_each_nearest(*tree, k, run, [&] {
-            return [&, ring = std::vector<neighbor>()](std::size_t i, const auto& found) mutable {
-                found.sort_into(ring);
-                for (std::size_t j = 0; j < ring.size(); ++j) indices[begin[i] + j] = ring[j].index;
-            };
-        });
-        return adjacency(std::move(begin), std::move(indices));
+        return detail::swept_graph(*this, points, run, std::move(projection));
     }
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
@@ -3890,9 +4123,13 @@ struct knn {
     [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
                              auto&& make_visitor) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        const auto tree = leaves_of(position_view<R, Proj>(points, projection), run);
-        if (tree) detail::for_each_nearest(*tree, k, run, make_visitor);
-        return tree.has_value();
+        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
+        const auto tree =
+            detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
+        if (!tree) return false;
+        detail::sweep_leaves(
+            *tree, run, [&] { return detail::leaf_search(*tree, k); }, make_visitor);
+        return true;
     }
 
     /// A search that stores nothing but its index; the points must outlive it.
@@ -3912,19 +4149,101 @@ struct knn {
               std::vector<neighbor>& ring) const {
         tree.nearest(points[i], k, i, ring, ties);
     }
-
-  private:
-    /// What is swept over, if that is wanted and of use.
-    template <class Points, execution X>
-    [[nodiscard]] std::optional<detail::leaf_tree> leaves_of(const Points& p, const X& run) const {
-        std::optional<detail::leaf_tree> tree;
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return tree;
-        if (tree.emplace(p, run).crowded()) tree.reset();
-        return tree;
-    }
 };
 
 }  // namespace gnomon
+
+// -------- gnomon/neighborhoods/detail/leaf_balls.hpp ---------------------------------------------
+
+/// @file
+/// All neighbors within a radius, of all points of a group of leaves at once: as leaf_search.hpp,
+/// but that the limit is known. Every point may have a radius of its own; points of like radii
+/// share a list of leaves.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Searches group by group: one for each thread. (A template, so that only who searches compiles
+/// it.)
+template <class Tree, class Radius>
+class leaf_balls {
+  public:
+    /// The radius of the point of a certain index is radius_of(index) [m]. Precondition: the tree
+    /// is not empty.
+    leaf_balls(const Tree& tree, Radius radius_of)
+        : tree_(tree), radius_of_(std::move(radius_of)), list_(tree) {}
+
+    /// Calls visit(place, places of all others within its radius) for each point of the group
+    /// number `group` whose radius is not negative. The radius itself is within.
+    template <class Visit>
+    void operator()(std::size_t group, Visit&& visit) {
+        const std::size_t begin = group * list_.group_size;
+        const std::size_t end = std::min(begin + list_.group_size, tree_.size());
+        balls_.clear();
+        for (std::size_t p = begin; p < end; ++p) {
+            const double radius = radius_of_(tree_.index()[p]);
+            if (radius >= 0.0) balls_.push_back({radius, p});
+        }
+        std::sort(balls_.begin(), balls_.end());
+        for (std::span<const ball> left = balls_; !left.empty();) {
+            std::size_t alike = 1;
+            while (alike < left.size() && left[alike].radius <= 2.0 * left[0].radius) ++alike;
+            if (!is_compact(left.first(alike))) alike = enclose(left.first(1));
+            list_.extend_to(left[alike - 1].radius);
+            for (const ball& b : left.first(alike)) visit(b.place, within(b));
+            left = left.subspan(alike);
+        }
+    }
+
+  private:
+    struct ball {
+        double radius;  // [m]
+        std::size_t place;
+
+        friend auto operator<=>(const ball&, const ball&) = default;
+    };
+
+    /// Makes the list one for these balls.
+    /// @return how many they are
+    std::size_t enclose(std::span<const ball> balls) {
+        places_.clear();
+        for (const ball& b : balls) places_.push_back(b.place);
+        list_.enclose(places_);
+        return balls.size();
+    }
+
+    /// Whether floats can tell much of these balls seen from their middle; if so, they are
+    /// enclosed.
+    bool is_compact(std::span<const ball> balls) {
+        enclose(balls);
+        return list_.half() <= list_.widest * balls.back().radius;
+    }
+
+    std::span<const std::uint32_t> within(const ball& b) {
+        const auto [below, above] = list_.doubt_about(b.radius * list_.scale());
+        list_.collect(b.place, above);
+        doubtful_.clear();
+        list_.for_each_between(below, above, [&](std::uint32_t at) {
+            if (tree_.squared_distance(b.place, at) <= b.radius * b.radius) doubtful_.push_back(at);
+        });
+        const std::span certain = list_.take_within(below);
+        std::copy(doubtful_.begin(), doubtful_.end(), certain.data() + certain.size());
+        const std::span all(certain.data(), certain.size() + doubtful_.size());
+        // In the order of the tree, whatever way they were found.
+        if (!doubtful_.empty()) std::sort(all.begin(), all.end());
+        return all;
+    }
+
+    const Tree& tree_;
+    Radius radius_of_;
+    leaf_list<Tree> list_;
+    std::vector<ball> balls_;
+    std::vector<std::size_t> places_;
+    std::vector<std::uint32_t> doubtful_;
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/radius.hpp --------------------------------------------------------
 
@@ -3934,7 +4253,7 @@ struct knn {
 
 namespace gnomon {
 
-/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
+/// Models `sweeping_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
 struct radius {
     double r = 0.05;  ///< [m], finite and not negative
 
@@ -3944,7 +4263,24 @@ struct radius {
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        return adjacency(search(points, std::move(projection)), run);
+        return detail::swept_graph(*this, points, run, std::move(projection));
+    }
+
+    /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
+    /// with a visitor that make_visitor() gives.
+    /// @return true
+    /// @throws std::invalid_argument  if r is negative, infinite or NaN
+    template <class R, execution X, class Proj>
+        requires point_range<R, Proj>
+    [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
+                             auto&& make_visitor) const {
+        check();
+        const detail::leaf_tree tree(position_view<R, Proj>(points, projection), run);
+        const auto make_search = [&] {
+            return detail::leaf_balls(tree, [this](std::size_t) { return r; });
+        };
+        detail::sweep_leaves(tree, run, make_search, make_visitor);
+        return true;
     }
 
     /// A search that stores nothing but its index; the points must outlive it.
@@ -3952,7 +4288,7 @@ struct radius {
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
-        detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
+        check();
         return detail::tree_search(*this, points, std::move(projection));
     }
 
@@ -3967,6 +4303,11 @@ struct radius {
             if (q.index != i) ring.push_back(q);
         });
         std::sort(ring.begin(), ring.end());
+    }
+
+  private:
+    void check() const {
+        detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
     }
 };
 
@@ -7831,12 +8172,22 @@ class linker {
     explicit linker(const Points& points) : points_(points), sets_(points.size()) {}
 
     /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
-    /// q being the neighbor j with its squared distance.
+    /// q being the neighbor j with its squared distance. Where they are joined already, by whatever
+    /// way, link is not asked.
     template <execution X>
-    void link_all(const kd_tree& tree, auto&& radius_of, auto&& link, const X& run) {
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) link_one(tree, i, radius_of(i), link);
-        });
+    void link_all(auto&& radius_of, auto&& link, const X& run) {
+        const leaf_tree tree(points_, run);
+        const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
+        const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
+            const point_index i = tree.index()[place];
+            point_index root = sets_.find(i);
+            for (const std::uint32_t at : places) {
+                const point_index j = tree.index()[at];
+                if (sets_.find(j) != root && link(i, neighbor{tree.squared_distance(place, at), j}))
+                    root = sets_.unite(i, j);
+            }
+        };
+        search_all_groups(tree, run, make_search, [&] { return join; });
     }
 
     /// Joins every finite point with all points within the radius. Coincident points are looked at
@@ -7983,7 +8334,6 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
     const auto alike = dissimilarity.criterion();
-    const kd_tree tree(points, std::move(projection));
     const auto radius_of = [&](std::size_t i) {
         return is_missing(surface[i].normal) ? detail::no_search : double{dissimilarity.radius};
     };
@@ -7993,9 +8343,9 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     };
     detail::linker linker(p);
     if (options.greedy) {
-        linker.link_greedily(tree, radius_of, similar);
+        linker.link_greedily(kd_tree(points, std::move(projection)), radius_of, similar);
     } else {
-        linker.link_all(tree, radius_of, similar, run);
+        linker.link_all(radius_of, similar, run);
     }
     return linker.result(options.min_points);
 }
@@ -8388,18 +8738,17 @@ class smooth_link {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
 ///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: one kd-tree and n radius searches. The same bytes for every execution.
+/// Complexity: one kd-tree and n radius searches, several points at once. The same bytes for every
+/// execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
                                         const surface_segmentation& options = {}, const X& run = {},
                                         Proj projection = {}) {
-    const position_view<R, Proj> p(points, projection);
+    const position_view<R, Proj> p(points, std::move(projection));
     const detail::smooth_link<Surface> link(surface, options, p.size());
-    const kd_tree tree(points, std::move(projection));
     detail::linker linker(p);
-    linker.link_all(
-        tree, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
     return linker.result(options.min_points);
 }
 

@@ -8,110 +8,16 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include "neighborhoods/sweep_clouds.hpp"
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
+#include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 
 namespace {
 
 using gnomon::knn, gnomon::knn_backend;
 using gnomon::detail::found_neighbors, gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
-
-/// points[i] = make(random) for n points.
-clouds::cloud cloud_of(std::size_t n, auto&& make) {
-    gnomon::random_stream random(n);
-    clouds::cloud points;
-    for (std::size_t i = 0; i < n; ++i) points.push_back(make(i, random));
-    return points;
-}
-
-clouds::cloud scaled(const clouds::cloud& points, double scale) {
-    return clouds::moved(points, scale * Eigen::Matrix3d::Identity(), {0, 0, 0});
-}
-
-/// `points`, some of which are made anew: those whose number is a multiple of `every`.
-clouds::cloud with_every(std::size_t every, clouds::cloud points, auto&& make) {
-    for (std::size_t i = 0; i < points.size(); i += every) points[i] = make(i);
-    return points;
-}
-
-/// As a depth camera gives them: disparities in steps of an eighth of a pixel.
-Eigen::Vector3d depth_camera_point(std::size_t i) {
-    const double u = double(i % 60) - 30, v = double(i / 60) - 20;
-    const double z = 8.0 / std::round(16.0 + 8.0 * std::sin(0.1 * u));
-    return {u * z / 60, v * z / 60, z};
-}
-
-std::vector<clouds::named_cloud> clouds_to_sweep() {
-    constexpr std::size_t n = 1500;
-    using stream = gnomon::random_stream&;
-    const auto cube = clouds::in_cube(n, 1), sheet = clouds::sheet(n, 2);
-    auto all = clouds::degenerate();
-    all.push_back({"volume", cube});
-    all.push_back({"surface", sheet});
-    all.push_back({"line", cloud_of(n, [](auto, stream random) {
-                       return Eigen::Vector3d(100 * random.uniform(), 0, 0);
-                   })});
-    all.push_back({"even line", cloud_of(n, [](auto i, auto&) {
-                       return Eigen::Vector3d(double(i), 2 * double(i), 0);
-                   })});
-    all.push_back(
-        {"clusters of different density", cloud_of(n, [](auto i, stream random) -> Eigen::Vector3d {
-             const double spread = std::pow(10.0, -3.0 * double(i % 4));
-             return Eigen::Vector3d(double(i % 4), 0, 0) + spread * clouds::gaussian_vector(random);
-         })});
-    for (const double decades : {8.0, 100.0, 300.0})
-        all.push_back({"no scale over " + std::to_string(decades) + " decades",
-                       cloud_of(n, [decades](auto, stream random) -> Eigen::Vector3d {
-                           return std::pow(10.0, -decades * random.uniform()) *
-                                  clouds::gaussian_vector(random);
-                       })});
-    all.push_back({"clumps of 20", cloud_of(n, [](auto i, stream random) -> Eigen::Vector3d {
-                       return Eigen::Vector3d(1e3 * double(i / 20), 0, 0) +
-                              clouds::gaussian_vector(random);
-                   })});
-    all.push_back({"grid", clouds::on_grid(n, 3, 0.01)});
-    all.push_back({"full grid", cloud_of(n, [](auto i, auto&) {
-                       return Eigen::Vector3d(double(i % 14), double(i / 14 % 14), double(i / 196));
-                   })});
-    all.push_back({"millimetres", cloud_of(n, [&](auto i, auto&) -> Eigen::Vector3d {
-                       return (1e3 * sheet[i]).array().round() / 1e3;
-                   })});
-    all.push_back(
-        {"depth camera", cloud_of(n, [](auto i, auto&) { return depth_camera_point(i); })});
-    all.push_back(
-        {"UTM coordinates", clouds::moved(sheet, Eigen::Matrix3d::Identity(), {6e5, 4.8e6, 100})});
-    all.push_back(
-        {"UTM coordinates, millimetres", cloud_of(n, [&](auto i, auto&) -> Eigen::Vector3d {
-             const Eigen::Vector3d p = sheet[i] + Eigen::Vector3d(6e5, 4.8e6, 100);
-             return Eigen::Vector3d((1e3 * p).array().round() / 1e3);
-         })});
-    all.push_back(
-        {"pairs", with_every(2, cube, [&](auto i) -> Eigen::Vector3d { return cube[i + 1]; })});
-    all.push_back({"triples, a hair apart", cloud_of(n, [&](auto i, auto&) -> Eigen::Vector3d {
-                       return cube[i / 3] * (1 + double(i % 3) * 1e-15);
-                   })});
-    for (const std::size_t heap : {31u, 32u, 62u})
-        all.push_back(
-            {"heaps of " + std::to_string(heap),
-             cloud_of(n, [&](auto i, auto&) -> Eigen::Vector3d { return cube[i / heap]; })});
-    all.push_back({"a heap at the origin",
-                   with_every(2, cube, [](auto) { return Eigen::Vector3d(0, 0, 0); })});
-    all.push_back({"NaN and infinities", with_every(7, cube, [](auto i) {
-                       return Eigen::Vector3d(i % 2 ? clouds::nan : clouds::infinity, 0, 0);
-                   })});
-    for (const double far : {1e9, 1e30, 1e140})
-        all.push_back({"strays at " + std::to_string(far),
-                       with_every(500, cube, [&](auto i) -> Eigen::Vector3d {
-                           return Eigen::Vector3d(i % 1000 ? far : -far, 0, 0);
-                       })});
-    for (const double scale : {1e-300, 1e-160, 1e-158, 1e-154, 1e-140, 1e140})
-        all.push_back({"cube of " + std::to_string(std::log10(scale)), scaled(cube, scale)});
-    all.push_back(
-        {"a cluster whose squares underflow", with_every(4, cube, [&](auto i) -> Eigen::Vector3d {
-             return Eigen::Vector3d(1e-160 * cube[i]);
-         })});
-    return all;
-}
+using gnomon::detail::place_visitor;
 
 void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k) {
     const auto found = knn{.k = k}(points);
@@ -122,7 +28,7 @@ void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k) {
 }
 
 TEST(leaf_search, finds_what_nanoflann_finds) {
-    for (const auto& [name, points] : clouds_to_sweep()) {
+    for (const auto& [name, points] : clouds::to_sweep()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 8u, 26u, 130u}) expect_the_same_neighbors(points, k);
     }
@@ -146,7 +52,7 @@ TEST(leaf_search, finds_what_nanoflann_finds_of_any_number_of_points) {
 /// other way, which would make the comparison worthless.
 TEST(leaf_search, is_what_was_tried) {
     std::size_t left_out = 0;
-    for (const auto& [name, points] : clouds_to_sweep()) {
+    for (const auto& [name, points] : clouds::to_sweep()) {
         const bool swept = knn{.k = 8}.sweep(points, gnomon::sequential{}, std::identity{},
                                              [] { return gnomon::detail::any_visitor{}; });
         left_out += !swept;
@@ -171,19 +77,19 @@ struct finding {
 
 /// Guesses come from what was found before; what is found does not, to the last bit.
 TEST(leaf_search, does_not_depend_on_what_was_found_before) {
-    for (const auto& [name, points] : clouds_to_sweep()) {
+    for (const auto& [name, points] : clouds::to_sweep()) {
         const leaf_tree tree(gnomon::position_view<clouds::cloud>(points), gnomon::sequential{});
         if (tree.size() == 0 || tree.crowded()) continue;
         SCOPED_TRACE(name);
         for (const std::size_t k : {5u, 20u}) {
             std::vector<finding> once(points.size()), afresh(points.size());
-            const auto into = [](std::vector<finding>& all) {
-                return [&all](std::size_t i, const found_neighbors& found) {
+            const auto into = [&tree](std::vector<finding>& all) {
+                return place_visitor(tree, [&all](std::size_t i, const found_neighbors& found) {
                     EXPECT_TRUE(all[i].neighbors.empty()) << "visited twice";
                     all[i] = {{found.index(), found.index() + found.size()},
                               found.moments_about_point(),
                               found.mean_distance()};
-                };
+                });
             };
             leaf_search learning(tree, k);
             for (std::size_t g = tree.groups(); g-- > 0;) learning(g, into(once));
@@ -215,7 +121,8 @@ TEST(leaf_search, sums_up_what_it_finds) {
             ASSERT_NEAR(found.mean_distance(), distance, 1e-14 * distance);
         };
         leaf_search search(tree, k);
-        for (std::size_t g = 0; g < tree.groups(); ++g) search(g, visit);
+        place_visitor show(tree, visit);
+        for (std::size_t g = 0; g < tree.groups(); ++g) search(g, show);
     }
 }
 

@@ -36,14 +36,15 @@ class union_find {
     }
 
     /// Makes one set of those of i and j.
-    void unite(point_index i, point_index j) {
+    /// @return its smallest element, once no other thread unites
+    point_index unite(point_index i, point_index j) {
         for (;;) {
             i = find(i);
             j = find(j);
-            if (i == j) return;
+            if (i == j) return i;
             if (i > j) std::swap(i, j);
             point_index expected = j;
-            if (at(j).compare_exchange_strong(expected, i, std::memory_order_relaxed)) return;
+            if (at(j).compare_exchange_strong(expected, i, std::memory_order_relaxed)) return i;
         }
     }
 

@@ -4,21 +4,18 @@
 /// duplicates of it do count), with a rule for ties at the k-th place (Klasing 2010, Sec. 3.2.2).
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <utility>
 #include <vector>
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
-#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
+#include <gnomon/neighborhoods/detail/swept_graph.hpp>
 #include <gnomon/neighborhoods/detail/tree_search.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -44,22 +41,7 @@ struct knn {
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        detail::require(k > 0, "knn: k must be at least 1");
-        const position_view<R, Proj> p(points, projection);
-        const auto tree = leaves_of(p, run);
-        if (!tree) return adjacency(search(points, std::move(projection)), run);
-        const std::size_t ring_size = tree->size() == 0 ? 0 : std::min(k, tree->size() - 1);
-        std::vector<std::uint64_t> begin(p.size() + 1, 0);
-        for (std::size_t i = 0; i < p.size(); ++i)
-            begin[i + 1] = begin[i] + (is_finite(p[i]) ? ring_size : 0);
-        std::vector<point_index> indices(begin.back());
-        detail::for_each_nearest(*tree, k, run, [&] {
-            return [&, ring = std::vector<neighbor>()](std::size_t i, const auto& found) mutable {
-                found.sort_into(ring);
-                for (std::size_t j = 0; j < ring.size(); ++j) indices[begin[i] + j] = ring[j].index;
-            };
-        });
-        return adjacency(std::move(begin), std::move(indices));
+        return detail::swept_graph(*this, points, run, std::move(projection));
     }
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
@@ -72,9 +54,13 @@ struct knn {
     [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
                              auto&& make_visitor) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        const auto tree = leaves_of(position_view<R, Proj>(points, projection), run);
-        if (tree) detail::for_each_nearest(*tree, k, run, make_visitor);
-        return tree.has_value();
+        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
+        const auto tree =
+            detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
+        if (!tree) return false;
+        detail::sweep_leaves(
+            *tree, run, [&] { return detail::leaf_search(*tree, k); }, make_visitor);
+        return true;
     }
 
     /// A search that stores nothing but its index; the points must outlive it.
@@ -93,16 +79,6 @@ struct knn {
     void find(const kd_tree& tree, const auto& points, std::size_t i,
               std::vector<neighbor>& ring) const {
         tree.nearest(points[i], k, i, ring, ties);
-    }
-
-  private:
-    /// What is swept over, if that is wanted and of use.
-    template <class Points, execution X>
-    [[nodiscard]] std::optional<detail::leaf_tree> leaves_of(const Points& p, const X& run) const {
-        std::optional<detail::leaf_tree> tree;
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return tree;
-        if (tree.emplace(p, run).crowded()) tree.reset();
-        return tree;
     }
 };
 

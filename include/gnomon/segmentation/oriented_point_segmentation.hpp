@@ -93,7 +93,6 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     detail::require(std::ranges::size(surface) == p.size(),
                     "segment_oriented_points: the surface is of other points");
     const auto alike = dissimilarity.criterion();
-    const kd_tree tree(points, std::move(projection));
     const auto radius_of = [&](std::size_t i) {
         return is_missing(surface[i].normal) ? detail::no_search : double{dissimilarity.radius};
     };
@@ -103,9 +102,9 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     };
     detail::linker linker(p);
     if (options.greedy) {
-        linker.link_greedily(tree, radius_of, similar);
+        linker.link_greedily(kd_tree(points, std::move(projection)), radius_of, similar);
     } else {
-        linker.link_all(tree, radius_of, similar, run);
+        linker.link_all(radius_of, similar, run);
     }
     return linker.result(options.min_points);
 }

@@ -22,7 +22,6 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -92,18 +91,17 @@ class smooth_link {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
 ///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: one kd-tree and n radius searches. The same bytes for every execution.
+/// Complexity: one kd-tree and n radius searches, several points at once. The same bytes for every
+/// execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
                                         const surface_segmentation& options = {}, const X& run = {},
                                         Proj projection = {}) {
-    const position_view<R, Proj> p(points, projection);
+    const position_view<R, Proj> p(points, std::move(projection));
     const detail::smooth_link<Surface> link(surface, options, p.size());
-    const kd_tree tree(points, std::move(projection));
     detail::linker linker(p);
-    linker.link_all(
-        tree, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
     return linker.result(options.min_points);
 }
 

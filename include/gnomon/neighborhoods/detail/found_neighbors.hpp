@@ -26,13 +26,10 @@ class found_neighbors {
   public:
     static constexpr std::size_t stride = pack::size;
 
-    explicit found_neighbors(std::size_t k)
-        : count_(k), index_(k), numbers_(4 * ((k + stride - 1) / stride * stride)) {}
-
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Coordinate `axis` of the ways from the point to them [m].
     [[nodiscard]] const double* way(std::size_t axis) const {
-        return numbers_.data() + axis * capacity();
+        return numbers_.data() + axis * capacity_;
     }
     /// Canonical squared distances [m^2].
     [[nodiscard]] const double* squared_distance() const { return way(3); }
@@ -42,7 +39,7 @@ class found_neighbors {
     [[nodiscard]] moments moments_about_point() const {
         pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
         pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size) {
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
             const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
             x_sum += x;
             y_sum += y;
@@ -70,26 +67,29 @@ class found_neighbors {
     [[nodiscard]] double mean_distance() const {
         if (count_ == 0) return 0.0;
         pack sum(0.0);
-        for (std::size_t j = 0; j < capacity(); j += pack::size)
+        for (std::size_t j = 0; j < filled(); j += pack::size)
             sum += root(pack(squared_distance() + j));
         return sum.sum() / static_cast<double>(count_);
     }
 
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
-        ring.clear();
-        for (std::size_t j = 0; j < count_; ++j) ring.push_back({squared_distance()[j], index_[j]});
+        ring.resize(count_);
+        constexpr std::size_t few = 128;  // beyond, comparing all with all takes longer
+        if (count_ <= few && rank_into(ring)) return;
+        for (std::size_t j = 0; j < count_; ++j) ring[j] = {squared_distance()[j], index_[j]};
         std::sort(ring.begin(), ring.end());
     }
 
-    /// Takes the points at the given places of the tree, seen from that at `from`.
+    /// Replaces them by the points at the given places of the tree, seen from that at `from`.
     void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
+        resize(places.size());
         const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
         const point_index* all_indices = tree.index();
         const double px = all_x[from], py = all_y[from], pz = all_z[from];
         double* way_x = numbers_.data();
-        double* way_y = way_x + capacity();
-        double* way_z = way_y + capacity();
+        double* way_y = way_x + capacity_;
+        double* way_z = way_y + capacity_;
         point_index* index = index_.data();
         for (std::size_t j = 0; j < count_; ++j) {
             const std::size_t at = places[j];
@@ -99,18 +99,49 @@ class found_neighbors {
             index[j] = all_indices[at];
         }
         const double *x = way(0), *y = way(1), *z = way(2);
-        for (std::size_t j = 0; j < capacity(); j += stride) {
+        for (std::size_t j = 0; j < filled(); j += stride) {
             std::array<double, stride> d2;
             for (std::size_t l = 0; l < stride; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
-            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity() + j);
+            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
     }
 
   private:
-    [[nodiscard]] std::size_t capacity() const { return numbers_.size() / 4; }
+    /// Puts each where as many are nearer, for which all are compared with all, eight at a time.
+    /// @return whether that is an order: not if there are ties
+    bool rank_into(std::vector<neighbor>& ring) const {
+        const std::size_t not_there = filled() - count_;  // zeros, as near as anything
+        std::size_t sum = 0;
+        for (std::size_t j = 0; j < count_; ++j) {
+            const pack d2(squared_distance()[j]);
+            pack not_farther(0.0);
+            for (std::size_t i = 0; i < filled(); i += pack::size)
+                not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
+            const std::size_t rank =
+                static_cast<std::size_t>(not_farther.sum()) - not_there - 1;  // but itself
+            ring[rank] = {squared_distance()[j], index_[j]};
+            sum += rank;
+        }
+        return 2 * sum == count_ * (count_ - 1);
+    }
 
-    std::size_t count_;
+    void resize(std::size_t count) {
+        count_ = count;
+        if (filled() > capacity_) {
+            capacity_ = filled();
+            index_.resize(capacity_);
+            numbers_.resize(4 * capacity_);
+        }
+        for (std::size_t a = 0; a < 3; ++a)
+            std::fill(numbers_.data() + a * capacity_ + count_,
+                      numbers_.data() + a * capacity_ + filled(), 0.0);
+    }
+
+    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+
+    std::size_t count_ = 0;
+    std::size_t capacity_ = 0;
     std::vector<point_index> index_;
     std::vector<double> numbers_;  // x, y, z and squared distance
 };

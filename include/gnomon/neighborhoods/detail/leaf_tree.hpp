@@ -84,6 +84,14 @@ class leaf_tree {
     [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
     [[nodiscard]] const point_index* index() const { return index_.data(); }
+    [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
+        return {at_[0][place], at_[1][place], at_[2][place]};
+    }
+    /// The canonical one of the points at two places [m^2].
+    [[nodiscard]] double squared_distance(std::size_t p, std::size_t q) const {
+        return gnomon::squared_distance({at_[0][p], at_[1][p], at_[2][p]},
+                                        {at_[0][q], at_[1][q], at_[2][q]});
+    }
     [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
     /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
     /// them then takes too long.

@@ -7,6 +7,9 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -16,6 +19,9 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/union_find.hpp>
+#include <gnomon/neighborhoods/detail/leaf_balls.hpp>
+#include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -32,12 +38,22 @@ class linker {
     explicit linker(const Points& points) : points_(points), sets_(points.size()) {}
 
     /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
-    /// q being the neighbor j with its squared distance.
+    /// q being the neighbor j with its squared distance. Where they are joined already, by whatever
+    /// way, link is not asked.
     template <execution X>
-    void link_all(const kd_tree& tree, auto&& radius_of, auto&& link, const X& run) {
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) link_one(tree, i, radius_of(i), link);
-        });
+    void link_all(auto&& radius_of, auto&& link, const X& run) {
+        const leaf_tree tree(points_, run);
+        const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
+        const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
+            const point_index i = tree.index()[place];
+            point_index root = sets_.find(i);
+            for (const std::uint32_t at : places) {
+                const point_index j = tree.index()[at];
+                if (sets_.find(j) != root && link(i, neighbor{tree.squared_distance(place, at), j}))
+                    root = sets_.unite(i, j);
+            }
+        };
+        search_all_groups(tree, run, make_search, [&] { return join; });
     }
 
     /// Joins every finite point with all points within the radius. Coincident points are looked at

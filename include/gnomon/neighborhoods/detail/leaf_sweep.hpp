@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// From group to group of a tree, in chunks that run side by side.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/neighborhoods/detail/found_neighbors.hpp>
+#include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Calls search(group, visit) for all groups of a tree, with a search and a visitor for each chunk
+/// of work, which make_search() and make_visitor() give. The visitor's finish(), if it has one, is
+/// called at the end of the chunk.
+template <execution X>
+void search_all_groups(const leaf_tree& tree, const X& run, auto&& make_search,
+                       auto&& make_visitor) {
+    constexpr std::size_t groups_per_chunk = 16;
+    run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
+        auto search = make_search();
+        auto visit = make_visitor();
+        const std::size_t first = chunk * groups_per_chunk;
+        const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
+        for (std::size_t group = first; group < last; ++group) search(group, visit);
+        if constexpr (requires { visit.finish(); }) visit.finish();
+    });
+}
+
+/// Shows a visitor of neighbors what was found of places.
+template <class Visit>
+class place_visitor {
+  public:
+    place_visitor(const leaf_tree& tree, Visit visit) : tree_(tree), visit_(std::move(visit)) {}
+
+    void operator()(std::size_t place, std::span<const std::uint32_t> places) {
+        found_.look_up(tree_, place, places);
+        visit_(tree_.index()[place], std::as_const(found_));
+    }
+
+    void finish() {
+        if constexpr (requires { visit_.finish(); }) visit_.finish();
+    }
+
+  private:
+    const leaf_tree& tree_;
+    Visit visit_;
+    found_neighbors found_;
+};
+
+/// The sweep of a `sweeping_neighborhood`: visit(i, found_neighbors) for all points i of the tree
+/// that a search finds neighbors of.
+template <execution X>
+void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&& make_visitor) {
+    search_all_groups(tree, run, make_search, [&] { return place_visitor(tree, make_visitor()); });
+}
+
+/// A tree for searches of the k nearest; none where so many points coincide that one point after
+/// the other is faster.
+template <class Points, execution X>
+[[nodiscard]] std::optional<leaf_tree> tree_unless_crowded(const Points& points, const X& run) {
+    std::optional<leaf_tree> tree;
+    if (tree.emplace(points, run).crowded()) tree.reset();
+    return tree;
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
