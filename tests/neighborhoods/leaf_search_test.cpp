@@ -15,13 +15,14 @@
 
 namespace {
 
-using gnomon::knn, gnomon::knn_backend;
+using gnomon::knn, gnomon::knn_backend, gnomon::tie_rule;
 using gnomon::detail::found_neighbors, gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
 using gnomon::detail::place_visitor;
 
-void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k) {
-    const auto found = knn{.k = k}(points);
-    const auto expected = knn{.k = k, .backend = knn_backend::nanoflann}(points);
+void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k,
+                               tie_rule ties = tie_rule::by_index) {
+    const auto found = knn{.k = k, .ties = ties}(points);
+    const auto expected = knn{.k = k, .ties = ties, .backend = knn_backend::nanoflann}(points);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         ASSERT_TRUE(std::ranges::equal(found[i], expected[i])) << "k " << k << ", point " << i;
@@ -31,6 +32,13 @@ TEST(leaf_search, finds_what_nanoflann_finds) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 8u, 26u, 130u}) expect_the_same_neighbors(points, k);
+    }
+}
+
+TEST(leaf_search, keeps_the_ties_that_nanoflann_keeps) {
+    for (const auto& [name, points] : clouds::to_sweep()) {
+        SCOPED_TRACE(name);
+        for (const std::size_t k : {1u, 17u}) expect_the_same_neighbors(points, k, tie_rule::all);
     }
 }
 
@@ -91,9 +99,9 @@ TEST(leaf_search, does_not_depend_on_what_was_found_before) {
                               found.mean_distance()};
                 });
             };
-            leaf_search learning(tree, k);
+            leaf_search learning(tree, {k});
             for (std::size_t g = tree.groups(); g-- > 0;) learning(g, into(once));
-            for (std::size_t g = 0; g < tree.groups(); ++g) leaf_search(tree, k)(g, into(afresh));
+            for (std::size_t g = 0; g < tree.groups(); ++g) leaf_search(tree, {k})(g, into(afresh));
             EXPECT_EQ(once, afresh);
         }
     }
@@ -120,7 +128,7 @@ TEST(leaf_search, sums_up_what_it_finds) {
             ASSERT_LE((m.outer - expected.outer).norm(), 1e-14 * expected.outer.norm());
             ASSERT_NEAR(found.mean_distance(), distance, 1e-14 * distance);
         };
-        leaf_search search(tree, k);
+        leaf_search search(tree, {k});
         place_visitor show(tree, visit);
         for (std::size_t g = 0; g < tree.groups(); ++g) search(g, show);
     }

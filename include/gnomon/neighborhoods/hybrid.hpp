@@ -50,7 +50,7 @@ struct hybrid {
         const auto tree =
             detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
         if (!tree) return false;
-        const auto make_search = [&] { return detail::leaf_search(*tree, k, r); };
+        const auto make_search = [&] { return detail::leaf_search(*tree, {.k = k, .radius = r}); };
         detail::sweep_leaves(*tree, run, make_search, make_visitor);
         return true;
     }

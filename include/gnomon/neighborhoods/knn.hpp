@@ -46,7 +46,7 @@ struct knn {
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
     /// with a visitor that make_visitor() gives.
-    /// @return whether it did: not with the other backend, or `tie_rule::all`, or where so many
+    /// @return whether it did: not with the other backend, or where so many
     ///         points coincide that one point after the other is faster
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X, class Proj>
@@ -54,12 +54,13 @@ struct knn {
     [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
                              auto&& make_visitor) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
+        if (backend != knn_backend::leaves) return false;
         const auto tree =
             detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
         if (!tree) return false;
         detail::sweep_leaves(
-            *tree, run, [&] { return detail::leaf_search(*tree, k); }, make_visitor);
+            *tree, run, [&] { return detail::leaf_search(*tree, {.k = k, .ties = ties}); },
+            make_visitor);
         return true;
     }
 

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include <gnomon/core/detail/pack.hpp>
@@ -75,10 +76,12 @@ class found_neighbors {
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
         ring.resize(count_);
-        constexpr std::size_t few = 128;  // beyond, comparing all with all takes longer
-        if (count_ <= few && rank_into(ring)) return;
-        for (std::size_t j = 0; j < count_; ++j) ring[j] = {squared_distance()[j], index_[j]};
-        std::sort(ring.begin(), ring.end());
+        if (count_ <= few) {
+            rank_into(ring);
+        } else {
+            for (std::size_t j = 0; j < count_; ++j) ring[j] = at(j);
+            std::sort(ring.begin(), ring.end());
+        }
     }
 
     /// Replaces them by the points at the given places of the tree, seen from that at `from`.
@@ -108,22 +111,28 @@ class found_neighbors {
     }
 
   private:
-    /// Puts each where as many are nearer, for which all are compared with all, eight at a time.
-    /// @return whether that is an order: not if there are ties
-    bool rank_into(std::vector<neighbor>& ring) const {
+    /// Beyond so many, comparing all with all takes longer than sorting.
+    static constexpr std::size_t few = 128;
+
+    [[nodiscard]] neighbor at(std::size_t j) const { return {squared_distance()[j], index_[j]}; }
+
+    /// Puts each where as many are nearer, for which all are compared with all, eight at a time;
+    /// then sets ties right.
+    void rank_into(std::vector<neighbor>& ring) const {
         const std::size_t not_there = filled() - count_;  // zeros, as near as anything
-        std::size_t sum = 0;
+        std::array<std::uint8_t, few> ties{};             // found up to now, by their last place
         for (std::size_t j = 0; j < count_; ++j) {
             const pack d2(squared_distance()[j]);
             pack not_farther(0.0);
             for (std::size_t i = 0; i < filled(); i += pack::size)
                 not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
-            const std::size_t rank =
-                static_cast<std::size_t>(not_farther.sum()) - not_there - 1;  // but itself
-            ring[rank] = {squared_distance()[j], index_[j]};
-            sum += rank;
+            const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
+            ring[last - ties[last]++] = at(j);
         }
-        return 2 * sum == count_ * (count_ - 1);
+        for (std::size_t j = 1; j < count_; ++j) {
+            for (std::size_t t = j; t > 0 && ring[t] < ring[t - 1]; --t)
+                std::swap(ring[t], ring[t - 1]);
+        }
     }
 
     void resize(std::size_t count) {

@@ -79,16 +79,11 @@ class leaf_balls {
     std::span<const std::uint32_t> within(const ball& b) {
         const auto [below, above] = list_.doubt_about(b.radius * list_.scale());
         list_.collect(b.place, above);
-        doubtful_.clear();
-        list_.for_each_between(below, above, [&](std::uint32_t at) {
-            if (tree_.squared_distance(b.place, at) <= b.radius * b.radius) doubtful_.push_back(at);
+        list_.for_each_between(below, above, [&](std::size_t c) {
+            if (!(tree_.squared_distance(b.place, list_.place(c)) <= b.radius * b.radius))
+                list_.dismiss(c);
         });
-        const std::span certain = list_.take_within(below);
-        std::copy(doubtful_.begin(), doubtful_.end(), certain.data() + certain.size());
-        const std::span all(certain.data(), certain.size() + doubtful_.size());
-        // In the order of the tree, whatever way they were found.
-        if (!doubtful_.empty()) std::sort(all.begin(), all.end());
-        return all;
+        return list_.take_within(above);
     }
 
     const Tree& tree_;
@@ -96,7 +91,6 @@ class leaf_balls {
     leaf_list<Tree> list_;
     std::vector<ball> balls_;
     std::vector<std::size_t> places_;
-    std::vector<std::uint32_t> doubtful_;
 };
 
 }  // namespace GNOMON_LANES

@@ -128,17 +128,25 @@ class leaf_list {
         return within;
     }
 
-    /// Calls visit(place) for the candidates beyond `below` and within `above`.
+    /// Calls visit(candidate) for those beyond `below` and within `above`.
     void for_each_between(float below, float above, auto&& visit) const {
-        for (std::size_t c = 0; c < candidates_; ++c) {
-            const float d2 = distance_[c / lane_count][c % lane_count];
-            if (d2 > below && d2 <= above) visit(candidate_[c]);
+        for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
+            std::uint32_t between = at_most(distance_[b], above) & ~at_most(distance_[b], below);
+            for (; between != 0; between &= between - 1)
+                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
         }
+    }
+
+    /// The place of a candidate.
+    [[nodiscard]] std::uint32_t place(std::size_t candidate) const { return candidate_[candidate]; }
+
+    /// Puts a candidate beyond all limits.
+    void dismiss(std::size_t candidate) {
+        distance_[candidate / lane_count][candidate % lane_count] = far_;
     }
 
     /// The places of those candidates that are within a limit, in their order. Ends the candidacy
     /// of all.
-    /// @return at the start of a buffer that has room for all candidates
     [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
         std::uint32_t* taken = candidate_.data();
         for (std::size_t b = 0; b * lane_count < candidates_; ++b)

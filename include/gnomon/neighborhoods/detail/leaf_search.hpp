@@ -32,15 +32,25 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
+/// What is looked for: the k nearest, and those that the rule adds to them, none beyond a radius.
+struct nearest_wanted {
+    std::size_t k;
+    tie_rule ties = tie_rule::by_index;
+    double radius = std::numeric_limits<double>::infinity();  // [m]
+};
+
 /// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
 /// template, so that only who searches compiles it.)
 template <class Tree>
 class leaf_search {
   public:
-    /// Finds nothing farther than `radius` [m]. Precondition: the tree is not empty.
-    leaf_search(const Tree& tree, std::size_t k,
-                double radius = std::numeric_limits<double>::infinity())
-        : tree_(tree), k_(std::min(k, tree.size() - 1)), radius_(radius), list_(tree) {}
+    /// Precondition: the tree is not empty.
+    leaf_search(const Tree& tree, const nearest_wanted& wanted)
+        : tree_(tree),
+          k_(std::min(wanted.k, tree.size() - 1)),
+          ties_(wanted.ties),
+          radius_(wanted.radius),
+          list_(tree) {}
 
     /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
     template <class Visit>
@@ -166,35 +176,43 @@ class leaf_search {
             else
                 high = limit, within = static_cast<float>(c);
         }
-        sorted_.assign(candidates.begin(), candidates.end());
-        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
-        std::nth_element(sorted_.begin(), last, sorted_.end());
+        // Several are about as far.
+        between_.clear();
+        list_.for_each_between(below > 0.0f ? low : -1.0f, high,
+                               [&](std::size_t c) { between_.push_back(candidates[c]); });
+        const auto last = between_.begin() + static_cast<std::ptrdiff_t>(wanted - below) - 1;
+        std::nth_element(between_.begin(), last, between_.end());
         return *last;
     }
 
-    /// The k nearest: those within `below`, and of those up to `above`, among which floats cannot
-    /// tell the k-th from the next, the nearest by canonical distances.
+    /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
+    /// `above`, among which floats cannot tell the k-th from the next, the nearest by canonical
+    /// distances.
     std::span<std::uint32_t> settle(std::size_t from, float below, float above) {
         doubtful_.clear();
-        list_.for_each_between(below, above, [&](std::uint32_t at) {
-            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, at});
+        list_.for_each_between(below, above, [&](std::size_t c) {
+            const std::uint32_t at = list_.place(c);
+            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::span certain = list_.take_within(below);
-        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain.size());
+        const std::size_t wanted = k_ - list_.count(below);
+        std::size_t kept = wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (wanted < std::ssize(doubtful_))
-            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
-                             nearer);
-        const std::span all(certain.data(), k_);
-        for (std::ptrdiff_t c = 0; c < wanted; ++c)
-            *(certain.data() + certain.size() + c) = doubtful_[static_cast<std::size_t>(c)].second;
-        // In the order of the tree, whatever way they were found.
-        std::sort(all.begin(), all.end());
-        return all;
+        if (ties_ == tie_rule::all) {
+            std::sort(doubtful_.begin(), doubtful_.end(), nearer);
+            kept = size_with_ties(doubtful_, wanted, k_ + wanted,
+                                  [](const auto& d) { return d.first; });
+        } else if (wanted < doubtful_.size()) {
+            std::nth_element(doubtful_.begin(),
+                             doubtful_.begin() + static_cast<std::ptrdiff_t>(wanted),
+                             doubtful_.end(), nearer);
+        }
+        for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
+        return list_.take_within(above);
     }
 
     const Tree& tree_;
     std::size_t k_;
+    tie_rule ties_;
     double radius_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
@@ -203,8 +221,8 @@ class leaf_search {
     std::vector<double> reached_;                            // the k-th distances in a group [m]
     std::vector<std::size_t> waiting_;
     std::span<std::uint32_t> selected_;
-    std::vector<float> sorted_;
-    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
+    std::vector<float> between_;
+    std::vector<std::pair<neighbor, std::size_t>> doubtful_;
 };
 
 }  // namespace GNOMON_LANES

@@ -82,14 +82,7 @@ struct nanoflann_result_set {
 /// Precondition: k > 0.
 inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule rule) {
     if (found.size() <= k) return;
-    std::size_t kept = k;
-    if (rule == tie_rule::all) {
-        const double limit = found[k - 1].squared_distance * (1.0 + 1e-9);
-        while (kept < std::min(found.size(), 2 * k) && found[kept].squared_distance <= limit) {
-            ++kept;
-        }
-    }
-    found.resize(kept);
+    found.resize(rule == tie_rule::all ? size_with_ties(found, k, 2 * k) : k);
 }
 
 /// Collects the k nearest points, and those that the rule adds to them; finish() leaves them in
