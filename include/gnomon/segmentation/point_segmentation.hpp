@@ -14,7 +14,9 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/union_find.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/components_within.hpp>
@@ -44,26 +46,17 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.radius >= 0.0 && std::isfinite(options.radius),
                     "segment_points: the radius must be finite and not negative");
     const position_view<R, Proj> p(points, projection);
-    if (!options.greedy) {
-        const detail::leaf_tree tree(p, run);
-        union_find sets(p.size());
-        if (tree.size() > 0) {
-        union_find c = detail::component_walk(tree, options.radius)(run);
-        for (std::size_t i = 0; i < tree.size(); ++i)
-            sets.unite(tree.index()[i],
-                       tree.index()[c.find(static_cast<point_index>(i))]);
-        }
-        return detail::segments_of(sets, options.min_points,
-                                   [&](std::size_t i) { return is_finite(p[i]); });
-    }
-    const kd_tree tree(points, std::move(projection));
-    detail::linker linker(p);
-    {
+    if (options.greedy) {
+        const kd_tree tree(points, std::move(projection));
+        detail::linker linker(p);
         linker.link_greedily(
             tree, [&](std::size_t) { return options.radius; },
             [](std::size_t, const neighbor&) { return true; });
+        return linker.result(options.min_points);
     }
-    return linker.result(options.min_points);
+    union_find sets = detail::components_within(p, options.radius, run);
+    return detail::segments_of(sets, options.min_points,
+                               [&p](std::size_t i) { return is_finite(p[i]); });
 }
 
 }  // namespace gnomon

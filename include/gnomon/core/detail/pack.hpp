@@ -62,6 +62,13 @@ class pack {
                                                       const pack& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
+    /// The nearest from low to high. Precondition: low <= high.
+    [[gnu::always_inline]] friend pack clamp(const pack& a, const pack& low, const pack& high) {
+        return of([&](std::size_t v) {
+            const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
+            return high.at_[v] < x ? high.at_[v] : x;
+        });
+    }
     /// Bit l of the result tells whether a[l] <= limit.
     [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack& a, double limit) {
         std::uint32_t bits = 0;

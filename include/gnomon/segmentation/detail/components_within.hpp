@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The connected components of the graph that joins points at most r apart, without looking at most
-/// of its edges. A walk through pairs of subtrees of a kd-tree, from the bottom up, passes over two
-/// whose boxes are farther apart than r, and over two each of which is known to lie in one
-/// component, the same for both: in dense places that are nearly all. (A dual-tree algorithm, as
-/// those of Gray and Moore 2001 and of March, Ram and Gray 2010.)
+/// The connected components of the graph that joins points at most r apart, without a look at most
+/// of its edges. From the leaves of a kd-tree upward, each node's children are joined, by a walk
+/// through pairs of their subtrees (a dual-tree algorithm, in the manner of March, Ram and Gray
+/// 2010). It passes over a pair
 ///
-/// Two subtrees that each lie in one component need but one edge between them. Where points lie so
-/// densely that the diagonal of a box is at most r, no distance is calculated at all.
+///  - whose boxes are more than r apart, and
+///  - whose points are all in one component already, as most are where points are dense.
+///
+/// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
+/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
+/// box whose diagonal is at most r are one piece as they are.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +18,7 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -28,159 +32,218 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Walks. (A template, so that only who searches compiles it.)
+/// The walk through one tree. (A template, so that only who needs it compiles it.)
 template <class Tree>
 class component_walk {
-    using subtree = typename Tree::subtree;
-
   public:
     component_walk(const Tree& tree, double radius)
         : tree_(tree),
           limit_(radius * radius),
-          certain_(limit_ > least ? limit_ * (1.0 - 1e-12) : 0.0),
-          possible_(limit_ > least ? limit_ * (1.0 + 1e-12) : least),
+          certain_(limit_ > least ? limit_ * (1.0 - margin) : 0.0),
+          possible_(limit_ > least ? limit_ * (1.0 + margin) : least),
           sets_(tree.size()),
+          piece_(tree.size()),
           whole_(tree.nodes()) {}
 
+    /// The components of the places of the tree.
     template <execution X>
-    union_find operator()(const X& run) {
-        std::vector<subtree> parts = this->parts();
-        run(parts.size(), [&](std::size_t p) { join(parts[p]); });
-        run(parts.size(), [&](std::size_t p) {
-            for (std::size_t q = p + 1; q < parts.size(); ++q) join(parts[p], parts[q]);
+    [[nodiscard]] union_find operator()(const X& run) {
+        if (tree_.size() > 0) cut(tree_.root());
+        run(parts_.size(), [this](std::size_t p) { join_within(parts_[p]); });
+        run(parts_.size(), [this](std::size_t p) {
+            for (std::size_t q = p + 1; q < parts_.size(); ++q) join(parts_[p], parts_[q]);
         });
         return std::move(sets_);
     }
 
   private:
-    static constexpr double least = 1e-290;
+    using subtree = typename Tree::subtree;
+    using lane_set = std::uint32_t;  // points of a leaf: bit l is for its l-th
 
-    std::vector<subtree> parts() const {
+    /// How far other orders of summation, or fused ones, may be from the canonical distance, and
+    /// below which square [m^2] that is no longer a matter of proportion.
+    static constexpr double margin = 1e-12, least = 1e-290;
+
+    /// Into parts for the threads.
+    void cut(const subtree& t) {
         constexpr std::size_t enough = 64;
-        std::vector<subtree> level{tree_.root()}, next;
-        while (level.size() < enough && level.front().last - level.front().first > 16) {
-            next.clear();
-            for (const subtree& t : level)
-                for (const subtree& child : t.children()) next.push_back(child);
-            level.swap(next);
+        if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
+            parts_.push_back(t);
+        } else {
+            for (const subtree& child : t.children()) cut(child);
         }
-        return level;
     }
 
-    static point_index first_of(const subtree& t) {
-        return static_cast<point_index>(t.first * Tree::leaf_size);
-    }
-    bool one(const subtree& a, const subtree& b) {
-        return whole_[a.node] != 0 && whole_[b.node] != 0 &&
-               sets_.find(first_of(a)) == sets_.find(first_of(b));
-    }
-
-    void join(const subtree& t) {
-        if (t.is_leaf()) return join_leaf(t);
+    void join_within(const subtree& t) {
+        if (t.is_leaf()) return join_within_leaf(t);
         const auto [left, right] = t.children();
-        join(left);
-        join(right);
+        join_within(left);
+        join_within(right);
         join(left, right);
-        whole_[t.node] = one(left, right);
+        whole_[t.node] = in_one_set(left, right);
     }
 
     void join(const subtree& a, const subtree& b) {
-        if (!(tree_.box(a).squared_distance_to(tree_.box(b)) <= possible_)) return;
-        if (one(a, b)) return;
-        if (a.is_leaf() && b.is_leaf()) return join_leaves(a, b);
-        if (a.last - a.first >= b.last - b.first) {
+        if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
+        if (a.is_leaf() && b.is_leaf()) {
+            join_leaves(a, b);
+        } else if (a.last - a.first >= b.last - b.first) {
             for (const subtree& child : a.children()) join(child, b);
         } else {
             for (const subtree& child : b.children()) join(a, child);
         }
     }
 
-    std::uint32_t lanes_of(const subtree& t) const {
-        const std::size_t n = std::min(tree_.size() - first_of(t), Tree::leaf_size);
-        return ~std::uint32_t{0} >> (Tree::leaf_size - n);
+    /// Whether all points of both are known to be in the same component.
+    [[nodiscard]] bool in_one_set(const subtree& a, const subtree& b) {
+        return whole_[a.node] && whole_[b.node] &&
+               sets_.find(first_of(a)) == sets_.find(first_of(b));
     }
 
-    void join_leaf(const subtree& t) {
-        const point_index first = first_of(t);
-        std::uint32_t left = lanes_of(t);
-        int pieces = 0;
-        if (tree_.box(t).squared_diagonal() <= certain_) {
-            for (left &= left - 1; left != 0; left &= left - 1)
-                sets_.unite(first, first + static_cast<point_index>(std::countr_zero(left)));
-            pieces = 1;
-        }
-        for (; left != 0; ++pieces) {
-            std::uint32_t pending = left & (~left + 1);
-            left ^= pending;
-            for (; pending != 0 && left != 0;) {
-                const auto l = first + static_cast<point_index>(std::countr_zero(pending));
-                pending &= pending - 1;
-                const std::uint32_t found = near(l, t) & left;
-                left ^= found;
-                pending |= found;
-                for (std::uint32_t f = found; f != 0; f &= f - 1)
-                    sets_.unite(l, first + static_cast<point_index>(std::countr_zero(f)));
+    /// Finds the pieces of a leaf.
+    void join_within_leaf(const subtree& leaf) {
+        const lane_set all = lanes_of(leaf);
+        if (tree_.box(leaf).squared_diagonal() <= certain_) {
+            make_piece(leaf, all);
+        } else {
+            lane_set left = all;
+            while (left != 0) {
+                const lane_set before = left;
+                lane_set next = lowest(left);  // points of the piece whose neighbors are unknown
+                left ^= next;
+                while (next != 0 && left != 0) {
+                    const lane_set found = near(point_at(leaf, next), leaf, left);
+                    left ^= found;
+                    next ^= lowest(next) | found;
+                }
+                make_piece(leaf, before ^ left);
             }
         }
-        whole_[t.node] = pieces == 1;
+        whole_[leaf.node] = piece_[first_of(leaf)] == all;
     }
 
+    void make_piece(const subtree& leaf, lane_set piece) {
+        const point_index first = point_at(leaf, piece);
+        for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
+            sets_.unite(first, point_at(leaf, rest));
+            piece_[point_at(leaf, rest)] = piece;
+        }
+    }
+
+    /// Joins the pieces of two leaves.
     void join_leaves(const subtree& a, const subtree& b) {
-        const bool both = whole_[a.node] != 0 && whole_[b.node] != 0;
-        for (std::uint32_t n = near(a, tree_.box(b)); n != 0; n &= n - 1) {
-            const auto l = first_of(a) + static_cast<point_index>(std::countr_zero(n));
-            for (std::uint32_t f = near(l, b); f != 0; f &= f - 1) {
-                sets_.unite(l, first_of(b) + static_cast<point_index>(std::countr_zero(f)));
-                if (both) return;
+        lane_set in_a = near(tree_.box(b), a);
+        const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
+        while (in_a != 0 && in_b != 0) {
+            lane_set piece = in_a & piece_[point_at(a, in_a)];
+            in_a ^= piece;
+            lane_set others = pieces_apart_from(point_at(a, piece), b, in_b);
+            for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
+                const point_index p = point_at(a, piece);
+                lane_set found = near(p, b, others);
+                while (found != 0) {
+                    const point_index q = point_at(b, found);
+                    sets_.unite(p, q);
+                    found &= ~piece_[q];
+                    others &= ~piece_[q];
+                }
             }
         }
     }
 
-    std::uint32_t near(const subtree& t, const leaf_box& box) {
-        std::uint32_t bits = 0;
+    /// Those of some points of a leaf whose pieces are not known to be connected with point p.
+    [[nodiscard]] lane_set pieces_apart_from(point_index p, const subtree& leaf, lane_set some) {
+        const point_index set = sets_.find(p);
+        lane_set apart = 0;
+        while (some != 0) {
+            const point_index q = point_at(leaf, some);
+            const lane_set piece = some & piece_[q];
+            some ^= piece;
+            if (sets_.find(q) != set) apart |= piece;
+        }
+        return apart;
+    }
+
+    /// The points of a leaf that may be within the radius of a box.
+    [[nodiscard]] lane_set near(const leaf_box& box, const subtree& leaf) const {
+        lane_set possible = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
-            pack sum(0.0);
+            pack d2(0.0);
             for (std::size_t a = 0; a < 3; ++a) {
-                const pack x(tree_.at(a) + first_of(t) + l);
-                const pack below = box.low[a] - x, above = x - box.high[a];
-                const pack twice = below + magnitude(below) + above + magnitude(above);
-                sum += twice * twice;
+                const pack x(tree_.at(a) + first_of(leaf) + l);
+                const pack d = x - clamp(x, box.low[a], box.high[a]);
+                d2 += d * d;
             }
-            bits |= at_most(sum, 4.0 * possible_) << l;
-        }
-        return bits & lanes_of(t);
-    }
-
-    std::uint32_t near(point_index p, const subtree& t) {
-        const std::size_t first = first_of(t);
-        const pack px(tree_.at(0)[p]), py(tree_.at(1)[p]), pz(tree_.at(2)[p]);
-        std::uint32_t certain = 0, possible = 0;
-        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
-            const pack dx = pack(tree_.at(0) + first + l) - px;
-            const pack dy = pack(tree_.at(1) + first + l) - py;
-            const pack dz = pack(tree_.at(2) + first + l) - pz;
-            const pack d2 = dx * dx + dy * dy + dz * dz;
-            certain |= at_most(d2, certain_) << l;
             possible |= at_most(d2, possible_) << l;
         }
-        for (std::uint32_t doubt = possible & ~certain; doubt != 0; doubt &= doubt - 1) {
-            const auto l = std::countr_zero(doubt);
-            if (squared_distance(position(p), position(first + static_cast<std::size_t>(l))) <=
-                limit_)
-                certain |= std::uint32_t{1} << l;
-        }
-        return certain & lanes_of(t);
+        return possible & lanes_of(leaf);
     }
 
-    Eigen::Vector3d position(std::size_t at) const {
-        return {tree_.at(0)[at], tree_.at(1)[at], tree_.at(2)[at]};
+    /// Those of some points of a leaf that are within the radius of point p.
+    [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
+        const std::size_t first = first_of(leaf);
+        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
+        const pack px(x[p]), py(y[p]), pz(z[p]);
+        std::array<pack, Tree::leaf_size / pack::size> d2;
+        lane_set possible = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
+            const pack dx = pack(x + first + l) - px;
+            const pack dy = pack(y + first + l) - py;
+            const pack dz = pack(z + first + l) - pz;
+            d2[l / pack::size] = dx * dx + dy * dy + dz * dz;
+            possible |= at_most(d2[l / pack::size], possible_) << l;
+        }
+        possible &= some;
+        if (possible == 0) return 0;
+        lane_set certain = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size)
+            certain |= at_most(d2[l / pack::size], certain_) << l;
+        certain &= possible;
+        for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
+            if (squared_distance(position(p), position(point_at(leaf, doubt))) <= limit_)
+                certain |= lowest(doubt);
+        }
+        return certain;
+    }
+
+    [[nodiscard]] Eigen::Vector3d position(point_index p) const {
+        return {tree_.at(0)[p], tree_.at(1)[p], tree_.at(2)[p]};
+    }
+    [[nodiscard]] static point_index first_of(const subtree& t) {
+        return static_cast<point_index>(t.first * Tree::leaf_size);
+    }
+    [[nodiscard]] lane_set lanes_of(const subtree& leaf) const {
+        const std::size_t n = std::min(tree_.size() - first_of(leaf), Tree::leaf_size);
+        return ~lane_set{0} >> (Tree::leaf_size - n);
+    }
+    [[nodiscard]] static lane_set lowest(lane_set some) { return some & (~some + 1); }
+    /// The first of some points of a leaf.
+    [[nodiscard]] static point_index point_at(const subtree& leaf, lane_set some) {
+        return first_of(leaf) + static_cast<point_index>(std::countr_zero(some));
     }
 
     const Tree& tree_;
-    double limit_, certain_, possible_;
-    union_find sets_;
-    std::vector<char> whole_;
+    double limit_, certain_, possible_;  // squared: the radius, and what is within or beyond anyway
+    union_find sets_;                    // of places in the tree
+    std::vector<lane_set> piece_;        // of its leaf that each is of
+    std::vector<char> whole_;            // nodes all of whose points are known to be connected
+    std::vector<subtree> parts_;
 };
+
+/// The connected components of the finite points, where points at most `radius` [m] apart are
+/// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
+/// are hardly farther than the radius from many of another component.
+template <class Points, execution X>
+[[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
+    const leaf_tree tree(points, run);
+    union_find places = component_walk(tree, radius)(run);
+    union_find sets(points.size());
+    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
+    });
+    return sets;
+}
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
