@@ -29,8 +29,9 @@ namespace gnomon {
 struct point_segmentation {
     double radius = 0.01;           ///< r, the largest gap within a segment [m]
     std::size_t min_points = 1000;  ///< n_min, smaller groups are noise
-    /// Skip the search at points that were found as somebody's neighbor: several times faster, and
-    /// now and then two groups stay apart that belong together. Runs on one thread.
+    /// The thesis's shortcut: skip the search at points that were found as somebody's neighbor. Now
+    /// and then two groups stay apart that belong together. Runs on one thread, no faster than the
+    /// exact way.
     bool greedy = false;
 };
 
@@ -38,7 +39,8 @@ struct point_segmentation {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
+/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
+/// farther than that from many of another group; greedy as well.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_points(const R& points, const point_segmentation& options = {},
