@@ -74,6 +74,13 @@ clouds::cloud heaps(std::size_t n, std::uint64_t seed, double width) {
     return points;
 }
 
+/// Each point that often.
+clouds::cloud repeated(const clouds::cloud& points, std::size_t times) {
+    clouds::cloud all;
+    for (const auto& p : points) all.insert(all.end(), times, p);
+    return all;
+}
+
 /// What a walk over boxes may trip over: distances equal to the radius, leaves all of whose points
 /// are near, leaves none of whose are, numbers whose squares are no numbers.
 std::vector<planted> planted_clouds() {
@@ -83,7 +90,9 @@ std::vector<planted> planted_clouds() {
     std::vector<planted> all{
         {"sparse to dense", cube, {0.0, 0.01, 0.03, 0.05, 0.06, 0.07, 0.1, 0.3, 1.0, 3.0}},
         {"many", clouds::in_cube(7000, 8), {0.02, 0.04, 0.05}},
-        {"many heaps", heaps(160, 9, 1e-3), {1e-3, 0.03, 0.1}},
+        {"as many at a place as a leaf holds",
+         repeated(clouds::in_cube(200, 9), 32),
+         {0.13, 0.15, 0.17}},
         {"at UTM coordinates", clouds::moved(cube, upright, utm), {0.03, 0.06, 0.3}},
         {"heaps", heaps(50, 2, 1e-3), {0.0, 1e-4, 1e-3, 0.05, 0.15, 0.2}},
         {"points of heaps alike", heaps(50, 3, 0.0), {0.0, 1e-200, 0.05, 0.15, 0.2}},
@@ -97,14 +106,16 @@ std::vector<planted> planted_clouds() {
         planted grid{"grid from " + std::to_string(origin), clouds::on_grid(1500, 6, 0.125), {}};
         for (auto& p : grid.points) p = d * (8.0 * p) + Eigen::Vector3d::Constant(origin);
         for (const double r : {d, d * std::sqrt(2.0), d * std::sqrt(3.0)})
-            for (const double by : {1.0 - 1e-13, 1.0, 1.0 + 1e-13}) grid.radii.push_back(by * r);
+            for (const double off : {-1e-13, -2e-16, -1e-16, 0.0, 2e-16, 4e-16, 1e-13})
+                grid.radii.push_back((1.0 + off) * r);
         all.push_back(grid);
     }
-    for (const double scale : {1e-160, 1e-155, 1e-146, 1e-145, 1e-144, 0.9e150}) {
+    for (const double scale : {1e-161, 1e-160, 1e-155, 1e-146, 1e-145, 1e-144, 0.9e150}) {
         planted scaled{
             "times " + std::to_string(std::log10(scale)), clouds::on_grid(1500, 7, 0.125), {}};
         for (auto& p : scaled.points) p *= scale / 2.0;
-        for (const double r : {0.0, 0.0624, 0.0625, 0.1, 1.0}) scaled.radii.push_back(r * scale);
+        for (const double r : {0.0, 0.0624, 0.0625, 0.0884, 0.1, 0.108, 1.0})
+            scaled.radii.push_back(r * scale);
         all.push_back(scaled);
     }
     for (const std::size_t n : {31u, 32u, 33u, 64u, 65u, 97u, 129u})  // what fills leaves, or not
