@@ -1355,6 +1355,21 @@ class pack {
                                                       const pack& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
+    /// The nearest from low to high. Precondition: low <= high.
+    [[gnu::always_inline]] friend pack clamp(const pack& a, const pack& low, const pack& high) {
+        return of([&](std::size_t v) {
+            const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
+            return high.at_[v] < x ? high.at_[v] : x;
+        });
+    }
+    /// Bit l of the result tells whether a[l] <= limit.
+    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack& a, double limit) {
+        std::uint32_t bits = 0;
+#pragma GCC unroll 4
+        for (std::size_t v = 0; v < size / width; ++v)
+            bits |= at_most(a.at_[v], limit) << v * width;
+        return bits;
+    }
     /// The square roots.
     [[gnu::always_inline]] friend pack root(const pack& a) {
         return of([&](std::size_t v) {
@@ -1383,6 +1398,23 @@ class pack {
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
         return p;
+    }
+
+    [[gnu::always_inline]] static std::uint32_t at_most(const vector& a, double limit) {
+#if GNOMON_LANE_BITS == 512
+        return _mm512_cmp_pd_mask(static_cast<__m512d>(a), _mm512_set1_pd(limit), _CMP_LE_OQ);
+#elif GNOMON_LANE_BITS == 256
+        const __m256d le =
+            _mm256_cmp_pd(static_cast<__m256d>(a), _mm256_set1_pd(limit), _CMP_LE_OQ);
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(le));
+#elif GNOMON_LANE_BITS == 128
+        return static_cast<std::uint32_t>(
+            _mm_movemask_pd(_mm_cmple_pd(static_cast<__m128d>(a), _mm_set1_pd(limit))));
+#else
+        std::uint32_t bits = 0;
+        for (std::size_t l = 0; l < width; ++l) bits |= (a[l] <= limit ? 1u : 0u) << l;
+        return bits;
+#endif
     }
 
     vector at_[size / width];
@@ -1883,6 +1915,21 @@ ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ri
 
 namespace detail {
 
+/// How many of a list in canonical order are kept by `tie_rule::all`: the k nearest, and those that
+/// are as far, as long as they are `most` together at most.
+template <class Sorted, class Proj = std::identity>
+[[nodiscard]] std::size_t size_with_ties(const Sorted& found, std::size_t k, std::size_t most,
+                                         Proj neighbor_of = {}) {
+    if (k == 0 || found.size() <= k) return k;
+    const double limit = neighbor_of(found[k - 1]).squared_distance * (1.0 + 1e-9);
+    std::size_t kept = k;
+    while (kept < std::min(found.size(), most) &&
+           neighbor_of(found[kept]).squared_distance <= limit) {
+        ++kept;
+    }
+    return kept;
+}
+
 struct any_visitor {
     void operator()(std::size_t, const auto&) const {}
 };
@@ -2163,14 +2210,7 @@ struct nanoflann_result_set {
 /// Precondition: k > 0.
 inline void keep_nearest(std::vector<neighbor>& found, std::size_t k, tie_rule rule) {
     if (found.size() <= k) return;
-    std::size_t kept = k;
-    if (rule == tie_rule::all) {
-        const double limit = found[k - 1].squared_distance * (1.0 + 1e-9);
-        while (kept < std::min(found.size(), 2 * k) && found[kept].squared_distance <= limit) {
-            ++kept;
-        }
-    }
-    found.resize(kept);
+    found.resize(rule == tie_rule::all ? size_with_ties(found, k, 2 * k) : k);
 }
 
 /// Collects the k nearest points, and those that the rule adds to them; finish() leaves them in
@@ -2323,17 +2363,8 @@ class kd_tree {
     /// included, in no particular order. Precondition: p is finite.
     template <std::invocable<neighbor> Visitor>
     void for_each_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
-        for_each_place_within(p, radius, [&](double squared_distance, auto points) {
-            for (const point_index i : points) visit(neighbor{squared_distance, i});
-        });
-    }
-
-    /// The same by place: calls visit(squared distance [m^2], indices of all points there), the
-    /// indices ascending, once for points that coincide.
-    template <std::invocable<double, std::span<const point_index>> Visitor>
-    void for_each_place_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
         const auto visit_place = [&](double squared_distance, point_index place) {
-            visit(squared_distance, places_->at(place));
+            for (const point_index i : places_->at(place)) visit(neighbor{squared_distance, i});
         };
         detail::ball_result_set results(radius * radius, visit_place);
         find(p, results);
@@ -3250,23 +3281,40 @@ class leaf_tree {
     /// The box of all. Precondition: there are points.
     [[nodiscard]] const leaf_box& box() const { return boxes_[0]; }
 
+    /// A node, by its number in preorder, and the leaves that it is over.
+    struct subtree {
+        std::size_t node, first, last;
+
+        [[nodiscard]] bool is_leaf() const { return last - first == 1; }
+        /// Its children. Precondition: it is no leaf.
+        [[nodiscard]] std::array<subtree, 2> children() const {
+            const std::size_t middle = middle_of(first, last);
+            return {{{node + 1, first, middle}, {node + 2 * (middle - first), middle, last}}};
+        }
+    };
+    /// All of it. Precondition: there are points.
+    [[nodiscard]] subtree root() const { return {0, 0, leaves()}; }
+    /// The number of nodes, leaves among them.
+    [[nodiscard]] std::size_t nodes() const { return boxes_.size(); }
+    [[nodiscard]] const leaf_box& box(const subtree& t) const { return boxes_[t.node]; }
+
     /// Calls visit(leaf, box) for all leaves within `distance` of a box, in their order.
     template <class Visit>
     void for_each_leaf_near(const leaf_box& box, double distance, Visit&& visit) const {
         std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
-        stack[depth++] = {0, 0, leaves()};
+        stack[depth++] = root();
         while (depth > 0) {
-            const auto [node, first, last] = stack[--depth];
-            if (!(boxes_[node].squared_distance_to(box) <= limit)) continue;
-            if (last - first == 1) {
-                visit(first, boxes_[node]);
+            const subtree t = stack[--depth];
+            if (!(boxes_[t.node].squared_distance_to(box) <= limit)) continue;
+            if (t.is_leaf()) {
+                visit(t.first, boxes_[t.node]);
                 continue;
             }
-            const std::size_t middle = middle_of(first, last);
-            stack[depth++] = {node + 2 * (middle - first), middle, last};
-            stack[depth++] = {node + 1, first, middle};
+            const auto [left, right] = t.children();
+            stack[depth++] = right;
+            stack[depth++] = left;
         }
     }
 
@@ -3283,15 +3331,11 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
-    struct subtree {
-        std::size_t node, first, last;  // of the leaves
-    };
-
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
     void build(std::span<entry> all, const X& run) {
         constexpr std::size_t enough = 64;  // subtrees, to keep all threads busy
-        std::vector<subtree> level{{0, 0, leaves()}}, next;
+        std::vector<subtree> level{root()}, next;
         while (level.size() < enough && level.front().last - level.front().first > 64) {
             next.assign(2 * level.size(), {});
             run(level.size(), [&](std::size_t s) {
@@ -3305,7 +3349,7 @@ class leaf_tree {
     }
 
     void build_below(auto all, const subtree& t) {
-        if (t.last - t.first == 1) {
+        if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
             boxes_[t.node] = box_of(entries);
             for (std::size_t l = 0; l < entries.size(); ++l) {
@@ -3337,12 +3381,12 @@ class leaf_tree {
         std::size_t axis = 0;
         for (std::size_t a = 1; a < 3; ++a)
             if (box.high[a] - box.low[a] > box.high[axis] - box.low[axis]) axis = a;
-        const std::size_t middle = middle_of(t.first, t.last);
-        const auto at = static_cast<std::ptrdiff_t>((middle - t.first) * leaf_size);
+        const auto children = t.children();
+        const auto at = static_cast<std::ptrdiff_t>((children[1].first - t.first) * leaf_size);
         std::nth_element(
             entries.begin(), entries.begin() + at, entries.end(),
             [axis](const entry& p, const entry& q) { return p.at[axis] < q.at[axis]; });
-        return {{{t.node + 1, t.first, middle}, {t.node + 2 * (middle - t.first), middle, t.last}}};
+        return children;
     }
 
     std::size_t size_ = 0;
@@ -3471,17 +3515,25 @@ class leaf_list {
         return within;
     }
 
-    /// Calls visit(place) for the candidates beyond `below` and within `above`.
+    /// Calls visit(candidate) for those beyond `below` and within `above`.
     void for_each_between(float below, float above, auto&& visit) const {
-        for (std::size_t c = 0; c < candidates_; ++c) {
-            const float d2 = distance_[c / lane_count][c % lane_count];
-            if (d2 > below && d2 <= above) visit(candidate_[c]);
+        for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
+            std::uint32_t between = at_most(distance_[b], above) & ~at_most(distance_[b], below);
+            for (; between != 0; between &= between - 1)
+                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
         }
+    }
+
+    /// The place of a candidate.
+    [[nodiscard]] std::uint32_t place(std::size_t candidate) const { return candidate_[candidate]; }
+
+    /// Puts a candidate beyond all limits.
+    void dismiss(std::size_t candidate) {
+        distance_[candidate / lane_count][candidate % lane_count] = far_;
     }
 
     /// The places of those candidates that are within a limit, in their order. Ends the candidacy
     /// of all.
-    /// @return at the start of a buffer that has room for all candidates
     [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
         std::uint32_t* taken = candidate_.data();
         for (std::size_t b = 0; b * lane_count < candidates_; ++b)
@@ -3568,15 +3620,25 @@ class leaf_list {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
+/// What is looked for: the k nearest, and those that the rule adds to them, none beyond a radius.
+struct nearest_wanted {
+    std::size_t k;
+    tie_rule ties = tie_rule::by_index;
+    double radius = std::numeric_limits<double>::infinity();  // [m]
+};
+
 /// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
 /// template, so that only who searches compiles it.)
 template <class Tree>
 class leaf_search {
   public:
-    /// Finds nothing farther than `radius` [m]. Precondition: the tree is not empty.
-    leaf_search(const Tree& tree, std::size_t k,
-                double radius = std::numeric_limits<double>::infinity())
-        : tree_(tree), k_(std::min(k, tree.size() - 1)), radius_(radius), list_(tree) {}
+    /// Precondition: the tree is not empty.
+    leaf_search(const Tree& tree, const nearest_wanted& wanted)
+        : tree_(tree),
+          k_(std::min(wanted.k, tree.size() - 1)),
+          ties_(wanted.ties),
+          radius_(wanted.radius),
+          list_(tree) {}
 
     /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
     template <class Visit>
@@ -3702,35 +3764,43 @@ class leaf_search {
             else
                 high = limit, within = static_cast<float>(c);
         }
-        sorted_.assign(candidates.begin(), candidates.end());
-        const auto last = sorted_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
-        std::nth_element(sorted_.begin(), last, sorted_.end());
+        // Several are about as far.
+        between_.clear();
+        list_.for_each_between(below > 0.0f ? low : -1.0f, high,
+                               [&](std::size_t c) { between_.push_back(candidates[c]); });
+        const auto last = between_.begin() + static_cast<std::ptrdiff_t>(wanted - below) - 1;
+        std::nth_element(between_.begin(), last, between_.end());
         return *last;
     }
 
-    /// The k nearest: those within `below`, and of those up to `above`, among which floats cannot
-    /// tell the k-th from the next, the nearest by canonical distances.
+    /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
+    /// `above`, among which floats cannot tell the k-th from the next, the nearest by canonical
+    /// distances.
     std::span<std::uint32_t> settle(std::size_t from, float below, float above) {
         doubtful_.clear();
-        list_.for_each_between(below, above, [&](std::uint32_t at) {
-            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, at});
+        list_.for_each_between(below, above, [&](std::size_t c) {
+            const std::uint32_t at = list_.place(c);
+            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::span certain = list_.take_within(below);
-        const auto wanted = static_cast<std::ptrdiff_t>(k_ - certain.size());
+        const std::size_t wanted = k_ - list_.count(below);
+        std::size_t kept = wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (wanted < std::ssize(doubtful_))
-            std::nth_element(doubtful_.begin(), doubtful_.begin() + wanted, doubtful_.end(),
-                             nearer);
-        const std::span all(certain.data(), k_);
-        for (std::ptrdiff_t c = 0; c < wanted; ++c)
-            *(certain.data() + certain.size() + c) = doubtful_[static_cast<std::size_t>(c)].second;
-        // In the order of the tree, whatever way they were found.
-        std::sort(all.begin(), all.end());
-        return all;
+        if (ties_ == tie_rule::all) {
+            std::sort(doubtful_.begin(), doubtful_.end(), nearer);
+            kept = size_with_ties(doubtful_, wanted, k_ + wanted,
+                                  [](const auto& d) { return d.first; });
+        } else if (wanted < doubtful_.size()) {
+            std::nth_element(doubtful_.begin(),
+                             doubtful_.begin() + static_cast<std::ptrdiff_t>(wanted),
+                             doubtful_.end(), nearer);
+        }
+        for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
+        return list_.take_within(above);
     }
 
     const Tree& tree_;
     std::size_t k_;
+    tie_rule ties_;
     double radius_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
@@ -3739,8 +3809,8 @@ class leaf_search {
     std::vector<double> reached_;                            // the k-th distances in a group [m]
     std::vector<std::size_t> waiting_;
     std::span<std::uint32_t> selected_;
-    std::vector<float> sorted_;
-    std::vector<std::pair<neighbor, std::uint32_t>> doubtful_;
+    std::vector<float> between_;
+    std::vector<std::pair<neighbor, std::size_t>> doubtful_;
 };
 
 }  // namespace GNOMON_LANES
@@ -3810,10 +3880,12 @@ class found_neighbors {
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
         ring.resize(count_);
-        constexpr std::size_t few = 128;  // beyond, comparing all with all takes longer
-        if (count_ <= few && rank_into(ring)) return;
-        for (std::size_t j = 0; j < count_; ++j) ring[j] = {squared_distance()[j], index_[j]};
-        std::sort(ring.begin(), ring.end());
+        if (count_ <= few) {
+            rank_into(ring);
+        } else {
+            for (std::size_t j = 0; j < count_; ++j) ring[j] = at(j);
+            std::sort(ring.begin(), ring.end());
+        }
     }
 
     /// Replaces them by the points at the given places of the tree, seen from that at `from`.
@@ -3843,22 +3915,28 @@ class found_neighbors {
     }
 
   private:
-    /// Puts each where as many are nearer, for which all are compared with all, eight at a time.
-    /// @return whether that is an order: not if there are ties
-    bool rank_into(std::vector<neighbor>& ring) const {
+    /// Beyond so many, comparing all with all takes longer than sorting.
+    static constexpr std::size_t few = 128;
+
+    [[nodiscard]] neighbor at(std::size_t j) const { return {squared_distance()[j], index_[j]}; }
+
+    /// Puts each where as many are nearer, for which all are compared with all, eight at a time;
+    /// then sets ties right.
+    void rank_into(std::vector<neighbor>& ring) const {
         const std::size_t not_there = filled() - count_;  // zeros, as near as anything
-        std::size_t sum = 0;
+        std::array<std::uint8_t, few> ties{};             // found up to now, by their last place
         for (std::size_t j = 0; j < count_; ++j) {
             const pack d2(squared_distance()[j]);
             pack not_farther(0.0);
             for (std::size_t i = 0; i < filled(); i += pack::size)
                 not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
-            const std::size_t rank =
-                static_cast<std::size_t>(not_farther.sum()) - not_there - 1;  // but itself
-            ring[rank] = {squared_distance()[j], index_[j]};
-            sum += rank;
+            const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
+            ring[last - ties[last]++] = at(j);
         }
-        return 2 * sum == count_ * (count_ - 1);
+        for (std::size_t j = 1; j < count_; ++j) {
+            for (std::size_t t = j; t > 0 && ring[t] < ring[t - 1]; --t)
+                std::swap(ring[t], ring[t - 1]);
+        }
     }
 
     void resize(std::size_t count) {
@@ -4050,7 +4128,7 @@ struct hybrid {
         const auto tree =
             detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
         if (!tree) return false;
-        const auto make_search = [&] { return detail::leaf_search(*tree, k, r); };
+        const auto make_search = [&] { return detail::leaf_search(*tree, {.k = k, .radius = r}); };
         detail::sweep_leaves(*tree, run, make_search, make_visitor);
         return true;
     }
@@ -4115,7 +4193,7 @@ struct knn {
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
     /// with a visitor that make_visitor() gives.
-    /// @return whether it did: not with the other backend, or `tie_rule::all`, or where so many
+    /// @return whether it did: not with the other backend, or where so many
     ///         points coincide that one point after the other is faster
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X, class Proj>
@@ -4123,12 +4201,13 @@ struct knn {
     [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
                              auto&& make_visitor) const {
         detail::require(k > 0, "knn: k must be at least 1");
-        if (backend != knn_backend::leaves || ties != tie_rule::by_index) return false;
+        if (backend != knn_backend::leaves) return false;
         const auto tree =
             detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
         if (!tree) return false;
         detail::sweep_leaves(
-            *tree, run, [&] { return detail::leaf_search(*tree, k); }, make_visitor);
+            *tree, run, [&] { return detail::leaf_search(*tree, {.k = k, .ties = ties}); },
+            make_visitor);
         return true;
     }
 
@@ -4222,16 +4301,11 @@ class leaf_balls {
     std::span<const std::uint32_t> within(const ball& b) {
         const auto [below, above] = list_.doubt_about(b.radius * list_.scale());
         list_.collect(b.place, above);
-        doubtful_.clear();
-        list_.for_each_between(below, above, [&](std::uint32_t at) {
-            if (tree_.squared_distance(b.place, at) <= b.radius * b.radius) doubtful_.push_back(at);
+        list_.for_each_between(below, above, [&](std::size_t c) {
+            if (!(tree_.squared_distance(b.place, list_.place(c)) <= b.radius * b.radius))
+                list_.dismiss(c);
         });
-        const std::span certain = list_.take_within(below);
-        std::copy(doubtful_.begin(), doubtful_.end(), certain.data() + certain.size());
-        const std::span all(certain.data(), certain.size() + doubtful_.size());
-        // In the order of the tree, whatever way they were found.
-        if (!doubtful_.empty()) std::sort(all.begin(), all.end());
-        return all;
+        return list_.take_within(above);
     }
 
     const Tree& tree_;
@@ -4239,7 +4313,6 @@ class leaf_balls {
     leaf_list<Tree> list_;
     std::vector<ball> balls_;
     std::vector<std::size_t> places_;
-    std::vector<std::uint32_t> doubtful_;
 };
 
 }  // namespace GNOMON_LANES
@@ -8190,21 +8263,6 @@ class linker {
         search_all_groups(tree, run, make_search, [&] { return join; });
     }
 
-    /// Joins every finite point with all points within the radius. Coincident points are looked at
-    /// together, so that thousands at one place cost no more than thousands elsewhere.
-    template <execution X>
-    void link_all(const kd_tree& tree, double radius, const X& run) {
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Eigen::Vector3d p = points_[i];
-                if (!is_finite(p)) continue;
-                tree.for_each_place_within(p, radius, [&](double, auto place) {
-                    sets_.unite(static_cast<point_index>(i), place.front());
-                });
-            }
-        });
-    }
-
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
     /// result depends on the order of the points, so it runs on one thread.
     void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
@@ -8311,7 +8369,7 @@ struct joint_distance {
 /// What remains to choose, with the values of Fig. 4.2.
 struct oriented_point_segmentation {
     std::size_t min_points = 40;  ///< n_min, smaller groups are noise
-    bool greedy = false;          ///< as in `point_segmentation`
+    bool greedy = false;          ///< as in `point_segmentation`, but several times faster
 };
 
 /// The groups that chains of similar oriented points connect.
@@ -8320,7 +8378,7 @@ struct oriented_point_segmentation {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
-/// Complexity: as segment_points.
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
 template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -8352,6 +8410,240 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
+// -------- gnomon/segmentation/detail/components_within.hpp ---------------------------------------
+
+/// @file
+/// The connected components of the graph that joins points at most r apart, without a look at most
+/// of its edges. From the leaves of a kd-tree upward, each node's children are joined, by a walk
+/// through pairs of their subtrees (a dual-tree algorithm, in the manner of March, Ram and Gray
+/// 2010). It passes over a pair
+///
+///  - whose boxes are more than r apart, and
+///  - whose points are all in one component already, as most are where points are dense.
+///
+/// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
+/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
+/// box whose diagonal is at most r are one piece as they are.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// The walk through one tree. (A template, so that only who needs it compiles it.)
+template <class Tree>
+class component_walk {
+  public:
+    component_walk(const Tree& tree, double radius)
+        : tree_(tree),
+          limit_(radius * radius),
+          certain_(limit_ > least ? limit_ * (1.0 - margin) : 0.0),
+          possible_(limit_ > least ? limit_ * (1.0 + margin) : least),
+          sets_(tree.size()),
+          piece_(tree.size()),
+          whole_(tree.nodes()) {}
+
+    /// The components of the places of the tree.
+    template <execution X>
+    [[nodiscard]] union_find operator()(const X& run) {
+        if (tree_.size() > 0) cut(tree_.root());
+        run(parts_.size(), [this](std::size_t p) { join_within(parts_[p]); });
+        run(parts_.size(), [this](std::size_t p) {
+            for (std::size_t q = p + 1; q < parts_.size(); ++q) join(parts_[p], parts_[q]);
+        });
+        return std::move(sets_);
+    }
+
+  private:
+    using subtree = typename Tree::subtree;
+    using lane_set = std::uint32_t;  // points of a leaf: bit l is for its l-th
+
+    /// How far other orders of summation, or fused ones, may be from the canonical distance, and
+    /// below which square [m^2] that is no longer a matter of proportion.
+    static constexpr double margin = 1e-12, least = 1e-290;
+
+    /// Into parts for the threads.
+    void cut(const subtree& t) {
+        constexpr std::size_t enough = 64;
+        if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
+            parts_.push_back(t);
+        } else {
+            for (const subtree& child : t.children()) cut(child);
+        }
+    }
+
+    void join_within(const subtree& t) {
+        if (t.is_leaf()) return join_within_leaf(t);
+        const auto [left, right] = t.children();
+        join_within(left);
+        join_within(right);
+        join(left, right);
+        whole_[t.node] = in_one_set(left, right);
+    }
+
+    void join(const subtree& a, const subtree& b) {
+        if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
+        if (a.is_leaf() && b.is_leaf()) {
+            join_leaves(a, b);
+        } else if (a.last - a.first >= b.last - b.first) {
+            for (const subtree& child : a.children()) join(child, b);
+        } else {
+            for (const subtree& child : b.children()) join(a, child);
+        }
+    }
+
+    /// Whether all points of both are known to be in the same component.
+    [[nodiscard]] bool in_one_set(const subtree& a, const subtree& b) {
+        return whole_[a.node] && whole_[b.node] &&
+               sets_.find(first_of(a)) == sets_.find(first_of(b));
+    }
+
+    /// Finds the pieces of a leaf.
+    void join_within_leaf(const subtree& leaf) {
+        const lane_set all = lanes_of(leaf);
+        if (tree_.box(leaf).squared_diagonal() <= certain_) {
+            make_piece(leaf, all);
+        } else {
+            lane_set left = all;
+            while (left != 0) {
+                const lane_set before = left;
+                lane_set next = lowest(left);  // points of the piece whose neighbors are unknown
+                left ^= next;
+                while (next != 0 && left != 0) {
+                    const lane_set found = near(point_at(leaf, next), leaf, left);
+                    left ^= found;
+                    next ^= lowest(next) | found;
+                }
+                make_piece(leaf, before ^ left);
+            }
+        }
+        whole_[leaf.node] = piece_[first_of(leaf)] == all;
+    }
+
+    void make_piece(const subtree& leaf, lane_set piece) {
+        const point_index first = point_at(leaf, piece);
+        for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
+            sets_.unite(first, point_at(leaf, rest));
+            piece_[point_at(leaf, rest)] = piece;
+        }
+    }
+
+    /// Joins the pieces of two leaves.
+    void join_leaves(const subtree& a, const subtree& b) {
+        lane_set in_a = near(tree_.box(b), a);
+        const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
+        while (in_a != 0 && in_b != 0) {
+            lane_set piece = in_a & piece_[point_at(a, in_a)];
+            in_a ^= piece;
+            lane_set others = pieces_apart_from(point_at(a, piece), b, in_b);
+            for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
+                const point_index p = point_at(a, piece);
+                lane_set found = near(p, b, others);
+                while (found != 0) {
+                    const point_index q = point_at(b, found);
+                    sets_.unite(p, q);
+                    found &= ~piece_[q];
+                    others &= ~piece_[q];
+                }
+            }
+        }
+    }
+
+    /// Those of some points of a leaf whose pieces are not known to be connected with point p.
+    [[nodiscard]] lane_set pieces_apart_from(point_index p, const subtree& leaf, lane_set some) {
+        const point_index set = sets_.find(p);
+        lane_set apart = 0;
+        while (some != 0) {
+            const point_index q = point_at(leaf, some);
+            const lane_set piece = some & piece_[q];
+            some ^= piece;
+            if (sets_.find(q) != set) apart |= piece;
+        }
+        return apart;
+    }
+
+    /// The points of a leaf that may be within the radius of a box.
+    [[nodiscard]] lane_set near(const leaf_box& box, const subtree& leaf) const {
+        lane_set possible = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
+            pack d2(0.0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const pack x(tree_.at(a) + first_of(leaf) + l);
+                const pack d = x - clamp(x, box.low[a], box.high[a]);
+                d2 += d * d;
+            }
+            possible |= at_most(d2, possible_) << l;
+        }
+        return possible & lanes_of(leaf);
+    }
+
+    /// Those of some points of a leaf that are within the radius of point p.
+    [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
+        const std::size_t first = first_of(leaf);
+        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
+        const pack px(x[p]), py(y[p]), pz(z[p]);
+        std::array<pack, Tree::leaf_size / pack::size> d2;
+        lane_set possible = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
+            const pack dx = pack(x + first + l) - px;
+            const pack dy = pack(y + first + l) - py;
+            const pack dz = pack(z + first + l) - pz;
+            d2[l / pack::size] = dx * dx + dy * dy + dz * dz;
+            possible |= at_most(d2[l / pack::size], possible_) << l;
+        }
+        possible &= some;
+        if (possible == 0) return 0;
+        lane_set certain = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size)
+            certain |= at_most(d2[l / pack::size], certain_) << l;
+        certain &= possible;
+        for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
+            if (squared_distance(position(p), position(point_at(leaf, doubt))) <= limit_)
+                certain |= lowest(doubt);
+        }
+        return certain;
+    }
+
+    [[nodiscard]] Eigen::Vector3d position(point_index p) const {
+        return {tree_.at(0)[p], tree_.at(1)[p], tree_.at(2)[p]};
+    }
+    [[nodiscard]] static point_index first_of(const subtree& t) {
+        return static_cast<point_index>(t.first * Tree::leaf_size);
+    }
+    [[nodiscard]] lane_set lanes_of(const subtree& leaf) const {
+        const std::size_t n = std::min(tree_.size() - first_of(leaf), Tree::leaf_size);
+        return ~lane_set{0} >> (Tree::leaf_size - n);
+    }
+    [[nodiscard]] static lane_set lowest(lane_set some) { return some & (~some + 1); }
+    /// The first of some points of a leaf.
+    [[nodiscard]] static point_index point_at(const subtree& leaf, lane_set some) {
+        return first_of(leaf) + static_cast<point_index>(std::countr_zero(some));
+    }
+
+    const Tree& tree_;
+    double limit_, certain_, possible_;  // squared: the radius, and what is within or beyond anyway
+    union_find sets_;                    // of places in the tree
+    std::vector<lane_set> piece_;        // of its leaf that each is of
+    std::vector<char> whole_;            // nodes all of whose points are known to be connected
+    std::vector<subtree> parts_;
+};
+
+/// The connected components of the finite points, where points at most `radius` [m] apart are
+/// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
+/// are hardly farther than the radius from many of another component.
+template <class Points, execution X>
+[[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
+    const leaf_tree tree(points, run);
+    union_find places = component_walk(tree, radius)(run);
+    union_find sets(points.size());
+    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
+    });
+    return sets;
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/point_segmentation.hpp ---------------------------------------------
 
 /// @file
@@ -8367,8 +8659,9 @@ namespace gnomon {
 struct point_segmentation {
     double radius = 0.01;           ///< r, the largest gap within a segment [m]
     std::size_t min_points = 1000;  ///< n_min, smaller groups are noise
-    /// Skip the search at points that were found as somebody's neighbor: several times faster, and
-    /// now and then two groups stay apart that belong together. Runs on one thread.
+    /// The thesis's shortcut: skip the search at points that were found as somebody's neighbor. Now
+    /// and then two groups stay apart that belong together. Runs on one thread, no faster than the
+    /// exact way.
     bool greedy = false;
 };
 
@@ -8376,7 +8669,8 @@ struct point_segmentation {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
+/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
+/// farther than that from many of another group; greedy as well.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_points(const R& points, const point_segmentation& options = {},
@@ -8384,16 +8678,17 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.radius >= 0.0 && std::isfinite(options.radius),
                     "segment_points: the radius must be finite and not negative");
     const position_view<R, Proj> p(points, projection);
-    const kd_tree tree(points, std::move(projection));
-    detail::linker linker(p);
     if (options.greedy) {
+        const kd_tree tree(points, std::move(projection));
+        detail::linker linker(p);
         linker.link_greedily(
             tree, [&](std::size_t) { return options.radius; },
             [](std::size_t, const neighbor&) { return true; });
-    } else {
-        linker.link_all(tree, options.radius, run);
+        return linker.result(options.min_points);
     }
-    return linker.result(options.min_points);
+    union_find sets = detail::components_within(p, options.radius, run);
+    return detail::segments_of(sets, options.min_points,
+                               [&p](std::size_t i) { return is_finite(p[i]); });
 }
 
 }  // namespace gnomon

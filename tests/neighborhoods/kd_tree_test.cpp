@@ -144,17 +144,17 @@ TEST(kd_tree, looks_at_coincident_points_once) {
     const gnomon::kd_tree tree(points);
     EXPECT_EQ(tree.size(), points.size());
     std::vector<gnomon::neighbor> found;
-    std::size_t visits = 0;
     for (std::size_t i = 0; i < points.size(); i += 3) {
         tree.nearest(points[i], 8, i, found);
         ASSERT_EQ(found.size(), 8u);
         ASSERT_EQ(found.back(),
                   (gnomon::neighbor{0.0, static_cast<gnomon::point_index>(i < 24 ? 24 : 21)}));
-        tree.for_each_place_within(points[i], 0.0, [&](double, auto place) {
-            EXPECT_EQ(place.size(), 50'000u);
-            ++visits;
-        });
     }
+    std::size_t visits = 0;
+    tree.for_each_within(points[3], 0.0, [&](const gnomon::neighbor& q) {
+        EXPECT_EQ(q.squared_distance, 0.0);
+        EXPECT_EQ(q.index, 3 * visits++);
+    });
     EXPECT_EQ(visits, 50'000u);
 }
 

@@ -76,6 +76,32 @@ TEST(leaf_tree, gives_all_leaves_near_a_box) {
     }
 }
 
+/// Walks through the nodes below one, and holds their boxes against the points in them.
+/// @return the next in preorder
+std::size_t walk(const leaf_tree& tree, const leaf_tree::subtree& t) {
+    const std::size_t first = t.first * leaf_tree::leaf_size;
+    leaf_box box{position(tree, first), position(tree, first)};
+    for (std::size_t at = first; at < end_of(tree, t.last - 1); ++at) box.add(position(tree, at));
+    EXPECT_TRUE(tree.box(t).low == box.low && tree.box(t).high == box.high);
+    if (t.is_leaf()) return t.node + 1;
+    const auto [left, right] = t.children();
+    EXPECT_EQ(left.node, t.node + 1);
+    EXPECT_EQ(left.first, t.first);
+    EXPECT_EQ(left.last, right.first);
+    EXPECT_EQ(right.last, t.last);
+    EXPECT_EQ(walk(tree, left), right.node);
+    return walk(tree, right);
+}
+
+TEST(leaf_tree, can_be_walked_through_in_preorder) {
+    for (const auto& [name, points] : planted_clouds()) {
+        SCOPED_TRACE(name);
+        const leaf_tree tree = tree_of(points);
+        if (tree.size() == 0) continue;
+        EXPECT_EQ(walk(tree, tree.root()), tree.nodes());
+    }
+}
+
 /// Six leaves are split into four and two, not into halves: what is longest, x, parts the groups.
 TEST(leaf_tree, splits_between_groups_before_it_splits_groups) {
     auto points = clouds::in_cube(6 * leaf_tree::leaf_size, 6);

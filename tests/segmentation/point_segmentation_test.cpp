@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -47,6 +49,91 @@ TEST(segment_points, exact_equals_the_connected_components_of_the_r_graph) {
                     ASSERT_EQ(gnomon::segment_points(points, options, gnomon::threads{t}).labels(),
                               expected);
                 }
+            }
+        }
+    }
+}
+
+/// A cloud, and radii to segment it by.
+struct planted {
+    std::string name;
+    clouds::cloud points;
+    std::vector<double> radii;
+};
+
+/// Each of some points, copied to about 50 places so near that they are hardly told apart, but for
+/// every fifth.
+clouds::cloud heaps(std::size_t n, std::uint64_t seed, double width) {
+    gnomon::random_stream random(seed, 1);
+    clouds::cloud points;
+    for (const auto& p : clouds::in_cube(n, seed)) {
+        const std::size_t copies = random.bits() % 5 == 0 ? 1 : random.bits() % 100;
+        for (std::size_t i = 0; i < copies; ++i)
+            points.push_back(p + width * clouds::gaussian_vector(random));
+    }
+    return points;
+}
+
+/// Each point that often.
+clouds::cloud repeated(const clouds::cloud& points, std::size_t times) {
+    clouds::cloud all;
+    for (const auto& p : points) all.insert(all.end(), times, p);
+    return all;
+}
+
+/// What a walk over boxes may trip over: distances equal to the radius, leaves all of whose points
+/// are near, leaves none of whose are, numbers whose squares are no numbers.
+std::vector<planted> planted_clouds() {
+    const auto cube = clouds::in_cube(2000, 1);
+    const Eigen::Matrix3d upright = Eigen::Matrix3d::Identity();
+    const Eigen::Vector3d utm(6e5, 4.8e6, 100.0);
+    std::vector<planted> all{
+        {"sparse to dense", cube, {0.0, 0.01, 0.03, 0.05, 0.06, 0.07, 0.1, 0.3, 1.0, 3.0}},
+        {"many", clouds::in_cube(7000, 8), {0.02, 0.04, 0.05}},
+        {"as many at a place as a leaf holds",
+         repeated(clouds::in_cube(200, 9), 32),
+         {0.13, 0.15, 0.17}},
+        {"at UTM coordinates", clouds::moved(cube, upright, utm), {0.03, 0.06, 0.3}},
+        {"heaps", heaps(50, 2, 1e-3), {0.0, 1e-4, 1e-3, 0.05, 0.15, 0.2}},
+        {"points of heaps alike", heaps(50, 3, 0.0), {0.0, 1e-200, 0.05, 0.15, 0.2}},
+        {"heaps at UTM coordinates", clouds::moved(heaps(50, 4, 1e-3), upright, utm), {1e-3, 0.2}},
+        {"a sheet and strays far away", clouds::sheet(1500, 5), {0.01, 0.02, 0.04, 1e3, 1e200}},
+    };
+    for (std::size_t i = 0; i < 1500; i += 15) all.back().points[i] *= 1e3 * static_cast<double>(i);
+    // The distances on a grid, and some that cannot be told from them but by rounding.
+    const double d = 0.01;
+    for (const double origin : {0.0, 5e5}) {
+        planted grid{"grid from " + std::to_string(origin), clouds::on_grid(1500, 6, 0.125), {}};
+        for (auto& p : grid.points) p = d * (8.0 * p) + Eigen::Vector3d::Constant(origin);
+        for (const double r : {d, d * std::sqrt(2.0), d * std::sqrt(3.0)})
+            for (const double off : {-1e-13, -2e-16, -1e-16, 0.0, 2e-16, 4e-16, 1e-13})
+                grid.radii.push_back((1.0 + off) * r);
+        all.push_back(grid);
+    }
+    for (const double scale : {1e-161, 1e-160, 1e-155, 1e-146, 1e-145, 1e-144, 0.9e150}) {
+        planted scaled{
+            "times " + std::to_string(std::log10(scale)), clouds::on_grid(1500, 7, 0.125), {}};
+        for (auto& p : scaled.points) p *= scale / 2.0;
+        for (const double r : {0.0, 0.0624, 0.0625, 0.0884, 0.1, 0.108, 1.0})
+            scaled.radii.push_back(r * scale);
+        all.push_back(scaled);
+    }
+    for (const std::size_t n : {31u, 32u, 33u, 64u, 65u, 97u, 129u})  // what fills leaves, or not
+        all.push_back({std::to_string(n), clouds::in_cube(n, n), {0.1, 0.2, 0.3, 2.0}});
+    for (auto& c : all)
+        for (std::size_t i = 0; i < c.points.size(); i += 97) c.points[i].y() = clouds::nan;
+    return all;
+}
+
+TEST(segment_points, exact_is_exact_at_any_density_and_scale) {
+    for (const auto& [name, points, radii] : planted_clouds()) {
+        for (const double r : radii) {
+            SCOPED_TRACE(name + ", radius " + std::to_string(r));
+            const auto expected = oracle(points, r, 1);
+            for (const unsigned t : {1u, 2u, 4u}) {
+                const gnomon::point_segmentation options{.radius = r, .min_points = 1};
+                const auto found = gnomon::segment_points(points, options, gnomon::threads{t});
+                ASSERT_EQ(found.labels(), expected);
             }
         }
     }
@@ -106,6 +193,12 @@ TEST(segment_points, takes_a_hundred_thousand_points_at_one_place) {
         EXPECT_EQ(found[0].size(), 100'000u);
         EXPECT_EQ(found[1].size(), 100'000u);
     }
+    const auto coincident = gnomon::segment_points(points, {.radius = 0.0});
+    ASSERT_EQ(coincident.size(), 1u);
+    EXPECT_EQ(coincident[0].size(), 100'000u);
+    std::fill(points.begin(), points.end(), Eigen::Vector3d(1.0, 2.0, 3.0));
+    const auto alike = gnomon::segment_points(points, {.radius = 0.0});
+    EXPECT_EQ(alike.labels(), std::vector<std::int32_t>(200'000, 0));
 }
 
 TEST(segment_points, refuses_what_is_no_radius) {

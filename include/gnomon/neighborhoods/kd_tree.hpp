@@ -10,7 +10,6 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -66,17 +65,8 @@ class kd_tree {
     /// included, in no particular order. Precondition: p is finite.
     template <std::invocable<neighbor> Visitor>
     void for_each_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
-        for_each_place_within(p, radius, [&](double squared_distance, auto points) {
-            for (const point_index i : points) visit(neighbor{squared_distance, i});
-        });
-    }
-
-    /// The same by place: calls visit(squared distance [m^2], indices of all points there), the
-    /// indices ascending, once for points that coincide.
-    template <std::invocable<double, std::span<const point_index>> Visitor>
-    void for_each_place_within(const Eigen::Vector3d& p, double radius, Visitor&& visit) const {
         const auto visit_place = [&](double squared_distance, point_index place) {
-            visit(squared_distance, places_->at(place));
+            for (const point_index i : places_->at(place)) visit(neighbor{squared_distance, i});
         };
         detail::ball_result_set results(radius * radius, visit_place);
         find(p, results);

@@ -14,9 +14,12 @@
 
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/union_find.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/segmentation/detail/components_within.hpp>
 #include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -26,8 +29,9 @@ namespace gnomon {
 struct point_segmentation {
     double radius = 0.01;           ///< r, the largest gap within a segment [m]
     std::size_t min_points = 1000;  ///< n_min, smaller groups are noise
-    /// Skip the search at points that were found as somebody's neighbor: several times faster, and
-    /// now and then two groups stay apart that belong together. Runs on one thread.
+    /// The thesis's shortcut: skip the search at points that were found as somebody's neighbor. Now
+    /// and then two groups stay apart that belong together. Runs on one thread, no faster than the
+    /// exact way.
     bool greedy = false;
 };
 
@@ -35,7 +39,8 @@ struct point_segmentation {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
+/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
+/// farther than that from many of another group; greedy as well.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_points(const R& points, const point_segmentation& options = {},
@@ -43,16 +48,17 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.radius >= 0.0 && std::isfinite(options.radius),
                     "segment_points: the radius must be finite and not negative");
     const position_view<R, Proj> p(points, projection);
-    const kd_tree tree(points, std::move(projection));
-    detail::linker linker(p);
     if (options.greedy) {
+        const kd_tree tree(points, std::move(projection));
+        detail::linker linker(p);
         linker.link_greedily(
             tree, [&](std::size_t) { return options.radius; },
             [](std::size_t, const neighbor&) { return true; });
-    } else {
-        linker.link_all(tree, options.radius, run);
+        return linker.result(options.min_points);
     }
-    return linker.result(options.min_points);
+    union_find sets = detail::components_within(p, options.radius, run);
+    return detail::segments_of(sets, options.min_points,
+                               [&p](std::size_t i) { return is_finite(p[i]); });
 }
 
 }  // namespace gnomon

@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <cstring>
 
 #include <gnomon/core/detail/instruction_set.hpp>
@@ -61,6 +62,21 @@ class pack {
                                                       const pack& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
+    /// The nearest from low to high. Precondition: low <= high.
+    [[gnu::always_inline]] friend pack clamp(const pack& a, const pack& low, const pack& high) {
+        return of([&](std::size_t v) {
+            const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
+            return high.at_[v] < x ? high.at_[v] : x;
+        });
+    }
+    /// Bit l of the result tells whether a[l] <= limit.
+    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack& a, double limit) {
+        std::uint32_t bits = 0;
+#pragma GCC unroll 4
+        for (std::size_t v = 0; v < size / width; ++v)
+            bits |= at_most(a.at_[v], limit) << v * width;
+        return bits;
+    }
     /// The square roots.
     [[gnu::always_inline]] friend pack root(const pack& a) {
         return of([&](std::size_t v) {
@@ -89,6 +105,23 @@ class pack {
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
         return p;
+    }
+
+    [[gnu::always_inline]] static std::uint32_t at_most(const vector& a, double limit) {
+#if GNOMON_LANE_BITS == 512
+        return _mm512_cmp_pd_mask(static_cast<__m512d>(a), _mm512_set1_pd(limit), _CMP_LE_OQ);
+#elif GNOMON_LANE_BITS == 256
+        const __m256d le =
+            _mm256_cmp_pd(static_cast<__m256d>(a), _mm256_set1_pd(limit), _CMP_LE_OQ);
+        return static_cast<std::uint32_t>(_mm256_movemask_pd(le));
+#elif GNOMON_LANE_BITS == 128
+        return static_cast<std::uint32_t>(
+            _mm_movemask_pd(_mm_cmple_pd(static_cast<__m128d>(a), _mm_set1_pd(limit))));
+#else
+        std::uint32_t bits = 0;
+        for (std::size_t l = 0; l < width; ++l) bits |= (a[l] <= limit ? 1u : 0u) << l;
+        return bits;
+#endif
     }
 
     vector at_[size / width];

@@ -99,23 +99,40 @@ class leaf_tree {
     /// The box of all. Precondition: there are points.
     [[nodiscard]] const leaf_box& box() const { return boxes_[0]; }
 
+    /// A node, by its number in preorder, and the leaves that it is over.
+    struct subtree {
+        std::size_t node, first, last;
+
+        [[nodiscard]] bool is_leaf() const { return last - first == 1; }
+        /// Its children. Precondition: it is no leaf.
+        [[nodiscard]] std::array<subtree, 2> children() const {
+            const std::size_t middle = middle_of(first, last);
+            return {{{node + 1, first, middle}, {node + 2 * (middle - first), middle, last}}};
+        }
+    };
+    /// All of it. Precondition: there are points.
+    [[nodiscard]] subtree root() const { return {0, 0, leaves()}; }
+    /// The number of nodes, leaves among them.
+    [[nodiscard]] std::size_t nodes() const { return boxes_.size(); }
+    [[nodiscard]] const leaf_box& box(const subtree& t) const { return boxes_[t.node]; }
+
     /// Calls visit(leaf, box) for all leaves within `distance` of a box, in their order.
     template <class Visit>
     void for_each_leaf_near(const leaf_box& box, double distance, Visit&& visit) const {
         std::array<subtree, 64> stack;  // as deep as the tree, which has fewer than 2^32 leaves
         std::size_t depth = 0;
         const double limit = distance * distance * (1.0 + 1e-12);
-        stack[depth++] = {0, 0, leaves()};
+        stack[depth++] = root();
         while (depth > 0) {
-            const auto [node, first, last] = stack[--depth];
-            if (!(boxes_[node].squared_distance_to(box) <= limit)) continue;
-            if (last - first == 1) {
-                visit(first, boxes_[node]);
+            const subtree t = stack[--depth];
+            if (!(boxes_[t.node].squared_distance_to(box) <= limit)) continue;
+            if (t.is_leaf()) {
+                visit(t.first, boxes_[t.node]);
                 continue;
             }
-            const std::size_t middle = middle_of(first, last);
-            stack[depth++] = {node + 2 * (middle - first), middle, last};
-            stack[depth++] = {node + 1, first, middle};
+            const auto [left, right] = t.children();
+            stack[depth++] = right;
+            stack[depth++] = left;
         }
     }
 
@@ -132,15 +149,11 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
-    struct subtree {
-        std::size_t node, first, last;  // of the leaves
-    };
-
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
     void build(std::span<entry> all, const X& run) {
         constexpr std::size_t enough = 64;  // subtrees, to keep all threads busy
-        std::vector<subtree> level{{0, 0, leaves()}}, next;
+        std::vector<subtree> level{root()}, next;
         while (level.size() < enough && level.front().last - level.front().first > 64) {
             next.assign(2 * level.size(), {});
             run(level.size(), [&](std::size_t s) {
@@ -154,7 +167,7 @@ class leaf_tree {
     }
 
     void build_below(auto all, const subtree& t) {
-        if (t.last - t.first == 1) {
+        if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
             boxes_[t.node] = box_of(entries);
             for (std::size_t l = 0; l < entries.size(); ++l) {
@@ -186,12 +199,12 @@ class leaf_tree {
         std::size_t axis = 0;
         for (std::size_t a = 1; a < 3; ++a)
             if (box.high[a] - box.low[a] > box.high[axis] - box.low[axis]) axis = a;
-        const std::size_t middle = middle_of(t.first, t.last);
-        const auto at = static_cast<std::ptrdiff_t>((middle - t.first) * leaf_size);
+        const auto children = t.children();
+        const auto at = static_cast<std::ptrdiff_t>((children[1].first - t.first) * leaf_size);
         std::nth_element(
             entries.begin(), entries.begin() + at, entries.end(),
             [axis](const entry& p, const entry& q) { return p.at[axis] < q.at[axis]; });
-        return {{{t.node + 1, t.first, middle}, {t.node + 2 * (middle - t.first), middle, t.last}}};
+        return children;
     }
 
     std::size_t size_ = 0;

@@ -56,21 +56,6 @@ class linker {
         search_all_groups(tree, run, make_search, [&] { return join; });
     }
 
-    /// Joins every finite point with all points within the radius. Coincident points are looked at
-    /// together, so that thousands at one place cost no more than thousands elsewhere.
-    template <execution X>
-    void link_all(const kd_tree& tree, double radius, const X& run) {
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                const Eigen::Vector3d p = points_[i];
-                if (!is_finite(p)) continue;
-                tree.for_each_place_within(p, radius, [&](double, auto place) {
-                    sets_.unite(static_cast<point_index>(i), place.front());
-                });
-            }
-        });
-    }
-
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
     /// result depends on the order of the points, so it runs on one thread.
     void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {

@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The connected components of the graph that joins points at most r apart, without a look at most
+/// of its edges. From the leaves of a kd-tree upward, each node's children are joined, by a walk
+/// through pairs of their subtrees (a dual-tree algorithm, in the manner of March, Ram and Gray
+/// 2010). It passes over a pair
+///
+///  - whose boxes are more than r apart, and
+///  - whose points are all in one component already, as most are where points are dense.
+///
+/// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
+/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
+/// box whose diagonal is at most r are one piece as they are.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/union_find.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// The walk through one tree. (A template, so that only who needs it compiles it.)
+template <class Tree>
+class component_walk {
+  public:
+    component_walk(const Tree& tree, double radius)
+        : tree_(tree),
+          limit_(radius * radius),
+          certain_(limit_ > least ? limit_ * (1.0 - margin) : 0.0),
+          possible_(limit_ > least ? limit_ * (1.0 + margin) : least),
+          sets_(tree.size()),
+          piece_(tree.size()),
+          whole_(tree.nodes()) {}
+
+    /// The components of the places of the tree.
+    template <execution X>
+    [[nodiscard]] union_find operator()(const X& run) {
+        if (tree_.size() > 0) cut(tree_.root());
+        run(parts_.size(), [this](std::size_t p) { join_within(parts_[p]); });
+        run(parts_.size(), [this](std::size_t p) {
+            for (std::size_t q = p + 1; q < parts_.size(); ++q) join(parts_[p], parts_[q]);
+        });
+        return std::move(sets_);
+    }
+
+  private:
+    using subtree = typename Tree::subtree;
+    using lane_set = std::uint32_t;  // points of a leaf: bit l is for its l-th
+
+    /// How far other orders of summation, or fused ones, may be from the canonical distance, and
+    /// below which square [m^2] that is no longer a matter of proportion.
+    static constexpr double margin = 1e-12, least = 1e-290;
+
+    /// Into parts for the threads.
+    void cut(const subtree& t) {
+        constexpr std::size_t enough = 64;
+        if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
+            parts_.push_back(t);
+        } else {
+            for (const subtree& child : t.children()) cut(child);
+        }
+    }
+
+    void join_within(const subtree& t) {
+        if (t.is_leaf()) return join_within_leaf(t);
+        const auto [left, right] = t.children();
+        join_within(left);
+        join_within(right);
+        join(left, right);
+        whole_[t.node] = in_one_set(left, right);
+    }
+
+    void join(const subtree& a, const subtree& b) {
+        if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
+        if (a.is_leaf() && b.is_leaf()) {
+            join_leaves(a, b);
+        } else if (a.last - a.first >= b.last - b.first) {
+            for (const subtree& child : a.children()) join(child, b);
+        } else {
+            for (const subtree& child : b.children()) join(a, child);
+        }
+    }
+
+    /// Whether all points of both are known to be in the same component.
+    [[nodiscard]] bool in_one_set(const subtree& a, const subtree& b) {
+        return whole_[a.node] && whole_[b.node] &&
+               sets_.find(first_of(a)) == sets_.find(first_of(b));
+    }
+
+    /// Finds the pieces of a leaf.
+    void join_within_leaf(const subtree& leaf) {
+        const lane_set all = lanes_of(leaf);
+        if (tree_.box(leaf).squared_diagonal() <= certain_) {
+            make_piece(leaf, all);
+        } else {
+            lane_set left = all;
+            while (left != 0) {
+                const lane_set before = left;
+                lane_set next = lowest(left);  // points of the piece whose neighbors are unknown
+                left ^= next;
+                while (next != 0 && left != 0) {
+                    const lane_set found = near(point_at(leaf, next), leaf, left);
+                    left ^= found;
+                    next ^= lowest(next) | found;
+                }
+                make_piece(leaf, before ^ left);
+            }
+        }
+        whole_[leaf.node] = piece_[first_of(leaf)] == all;
+    }
+
+    void make_piece(const subtree& leaf, lane_set piece) {
+        const point_index first = point_at(leaf, piece);
+        for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
+            sets_.unite(first, point_at(leaf, rest));
+            piece_[point_at(leaf, rest)] = piece;
+        }
+    }
+
+    /// Joins the pieces of two leaves.
+    void join_leaves(const subtree& a, const subtree& b) {
+        lane_set in_a = near(tree_.box(b), a);
+        const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
+        while (in_a != 0 && in_b != 0) {
+            lane_set piece = in_a & piece_[point_at(a, in_a)];
+            in_a ^= piece;
+            lane_set others = pieces_apart_from(point_at(a, piece), b, in_b);
+            for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
+                const point_index p = point_at(a, piece);
+                lane_set found = near(p, b, others);
+                while (found != 0) {
+                    const point_index q = point_at(b, found);
+                    sets_.unite(p, q);
+                    found &= ~piece_[q];
+                    others &= ~piece_[q];
+                }
+            }
+        }
+    }
+
+    /// Those of some points of a leaf whose pieces are not known to be connected with point p.
+    [[nodiscard]] lane_set pieces_apart_from(point_index p, const subtree& leaf, lane_set some) {
+        const point_index set = sets_.find(p);
+        lane_set apart = 0;
+        while (some != 0) {
+            const point_index q = point_at(leaf, some);
+            const lane_set piece = some & piece_[q];
+            some ^= piece;
+            if (sets_.find(q) != set) apart |= piece;
+        }
+        return apart;
+    }
+
+    /// The points of a leaf that may be within the radius of a box.
+    [[nodiscard]] lane_set near(const leaf_box& box, const subtree& leaf) const {
+        lane_set possible = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
+            pack d2(0.0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const pack x(tree_.at(a) + first_of(leaf) + l);
+                const pack d = x - clamp(x, box.low[a], box.high[a]);
+                d2 += d * d;
+            }
+            possible |= at_most(d2, possible_) << l;
+        }
+        return possible & lanes_of(leaf);
+    }
+
+    /// Those of some points of a leaf that are within the radius of point p.
+    [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
+        const std::size_t first = first_of(leaf);
+        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
+        const pack px(x[p]), py(y[p]), pz(z[p]);
+        std::array<pack, Tree::leaf_size / pack::size> d2;
+        lane_set possible = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
+            const pack dx = pack(x + first + l) - px;
+            const pack dy = pack(y + first + l) - py;
+            const pack dz = pack(z + first + l) - pz;
+            d2[l / pack::size] = dx * dx + dy * dy + dz * dz;
+            possible |= at_most(d2[l / pack::size], possible_) << l;
+        }
+        possible &= some;
+        if (possible == 0) return 0;
+        lane_set certain = 0;
+        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size)
+            certain |= at_most(d2[l / pack::size], certain_) << l;
+        certain &= possible;
+        for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
+            if (squared_distance(position(p), position(point_at(leaf, doubt))) <= limit_)
+                certain |= lowest(doubt);
+        }
+        return certain;
+    }
+
+    [[nodiscard]] Eigen::Vector3d position(point_index p) const {
+        return {tree_.at(0)[p], tree_.at(1)[p], tree_.at(2)[p]};
+    }
+    [[nodiscard]] static point_index first_of(const subtree& t) {
+        return static_cast<point_index>(t.first * Tree::leaf_size);
+    }
+    [[nodiscard]] lane_set lanes_of(const subtree& leaf) const {
+        const std::size_t n = std::min(tree_.size() - first_of(leaf), Tree::leaf_size);
+        return ~lane_set{0} >> (Tree::leaf_size - n);
+    }
+    [[nodiscard]] static lane_set lowest(lane_set some) { return some & (~some + 1); }
+    /// The first of some points of a leaf.
+    [[nodiscard]] static point_index point_at(const subtree& leaf, lane_set some) {
+        return first_of(leaf) + static_cast<point_index>(std::countr_zero(some));
+    }
+
+    const Tree& tree_;
+    double limit_, certain_, possible_;  // squared: the radius, and what is within or beyond anyway
+    union_find sets_;                    // of places in the tree
+    std::vector<lane_set> piece_;        // of its leaf that each is of
+    std::vector<char> whole_;            // nodes all of whose points are known to be connected
+    std::vector<subtree> parts_;
+};
+
+/// The connected components of the finite points, where points at most `radius` [m] apart are
+/// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
+/// are hardly farther than the radius from many of another component.
+template <class Points, execution X>
+[[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
+    const leaf_tree tree(points, run);
+    union_find places = component_walk(tree, radius)(run);
+    union_find sets(points.size());
+    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t p = begin; p < end; ++p)
+            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
+    });
+    return sets;
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
