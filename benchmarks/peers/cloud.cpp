@@ -3,7 +3,9 @@
 // have 15 mm of noise along the rays; the large ones are seen from nine places by a rotational
 // scanner of the density that this takes. Of a file, the finite points are taken. With POINTS, only
 // so many of them, evenly over the scan.
-//     cloud kitchen|kitchen_medium|kitchen_million|kitchen_ten_million|FILE DIRECTORY [POINTS]
+//     cloud NAME DIRECTORY [POINTS]
+// NAME: kitchen, kitchen_preprocessed (without floor and ceiling), kitchen_medium, kitchen_million,
+// kitchen_ten_million, or a file
 #include <charconv>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +22,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/io/read.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
@@ -41,6 +44,19 @@ cloud scan_of_kitchen(const gnomon::pose& sensor, const gnomon::scanner& finder,
 
 cloud kitchen(const gnomon::scanner& finder) {
     return scan_of_kitchen(gnomon::scenes::kitchen().sensor, finder, 1);
+}
+
+/// What is left of a cloud without floor and ceiling.
+cloud preprocessed(const cloud& all) {
+    const auto floor = gnomon::find_floor(all.points);
+    if (!floor) throw std::runtime_error("there is no floor");
+    cloud rest;
+    const auto ceiling = gnomon::find_ceiling(all.points, *floor);
+    for (const gnomon::point_index i : gnomon::between_bands(all.points, *floor, ceiling)) {
+        rest.points.push_back(all.points[i]);
+        rest.normals.push_back(all.normals[i]);
+    }
+    return rest;
 }
 
 /// From random places above the table, looking anywhere.
@@ -81,6 +97,7 @@ cloud finite_points_of(const std::string& path) {
 
 cloud called(const std::string& name) {
     if (name == "kitchen") return kitchen(gnomon::densities::high());
+    if (name == "kitchen_preprocessed") return preprocessed(called("kitchen"));
     if (name == "kitchen_medium") return kitchen(gnomon::densities::medium());
     if (name == "kitchen_million") return kitchen_of(1'000'000);
     if (name == "kitchen_ten_million") return kitchen_of(10'000'000);
@@ -105,8 +122,10 @@ int main(int argc, char** argv) {
     const bool counts = problem == std::errc{} && *end == '\0' && (argc == 3 || points > 0);
     if (argc < 3 || argc > 4 || !counts) {
         std::fputs(
-            "usage: cloud kitchen|kitchen_medium|kitchen_million|kitchen_ten_million|FILE "
-            "DIRECTORY [POINTS]\n",
+            "usage: cloud NAME DIRECTORY [POINTS]\n"
+            "NAME: kitchen kitchen_preprocessed kitchen_medium kitchen_million "
+            "kitchen_ten_million, "
+            "or a file\n",
             stderr);
         return 2;
     }
