@@ -134,7 +134,8 @@ def section(rows, times=("Milliseconds", time_text), extras=EXTRAS):
             parts.append(f"{name}, compiled with `{flags}`:\n")
             parts.append(table(own, columns_of(own), cell))
         shown = [row for row in rows if row["library"] in measured]
-    own = [row for row in shown if row["flags"] == all_flags[0] and row["threads"] == 1]
+    fewest = min(row["threads"] for row in rows)
+    own = [row for row in shown if row["flags"] == all_flags[0] and row["threads"] == fewest]
     for name, cell, known in extras:
         if known(own):
             parts.append(f"{name}:\n")
