@@ -11,6 +11,7 @@ import argparse
 import io
 import json
 import pathlib
+import re
 import sys
 
 try:
@@ -173,7 +174,8 @@ def draw(axes, rows):
     for library in libraries:
         own = [row for row in rows if row["library"] == library]
         if not any(row["seconds"] for row in own):
-            axes.text(1.05, libraries.index(library), own[0]["note"].split(";")[0], va="center",
+            why = re.split("[;:]", own[0]["note"])[0]
+            axes.text(1.05, libraries.index(library), why, va="center",
                       fontsize=8, color="gray")
     axes.axvline(1, color="black", linewidth=1, zorder=1)
     axes.set_axisbelow(True)
@@ -183,10 +185,10 @@ def draw(axes, rows):
     axes.grid(axis="x", color="0.9")
 
 
-def draw_panels(panels, title, share=True):
+def draw_panels(panels, title):
     """The bytes of a picture of panels in rows and columns: (title, rows of libraries) each."""
     figure, grid = pyplot.subplots(
-        len(panels), len(panels[0]), sharex=True, sharey=share, squeeze=False,
+        len(panels), len(panels[0]), sharex=True, sharey=True, squeeze=False,
         layout="constrained", figsize=(5.2 * len(panels[0]), 0.6 + 3.2 * len(panels)))
     every = [row for line in panels for _, rows in line for row in rows]
     for line, places in zip(panels, grid):
