@@ -51,7 +51,7 @@ class on_points {
     [[nodiscard]] points_with_normals& points() { return points_; }
 
     /// Calls estimate(tag, points, parameters), where the tag says whether to go parallel.
-    const points_with_normals& run(unsigned threads, auto&& estimate) {
+    const points_with_normals& run([[maybe_unused]] unsigned threads, auto&& estimate) {
         const auto maps = CGAL::parameters::point_map(point_map()).normal_map(normal_map());
 #ifdef CGAL_LINKED_WITH_TBB
         if (threads > 1) {

@@ -135,8 +135,8 @@ int main(int argc, char** argv) {
         const std::string directory = argv[2];
         peers::write_vectors(directory + "/points", c.points);
         peers::write_vectors(directory + "/normals", c.normals);
-    } catch (const std::exception& problem) {
-        std::fprintf(stderr, "cloud: %s\n", problem.what());
+    } catch (const std::exception& failure) {
+        std::fprintf(stderr, "cloud: %s\n", failure.what());
         return 1;
     }
 }

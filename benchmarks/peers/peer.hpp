@@ -21,6 +21,7 @@
 #include <cstdio>
 #include <exception>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -48,7 +49,7 @@ constexpr bool takes_radius(std::string_view task) { return task == "clusters"; 
 
 /// Smaller segments are noise, of the task "surfaces"; and how far normals of neighbors may differ.
 inline constexpr std::size_t min_points = 30;
-inline constexpr double max_angle = 5.0 * EIGEN_PI / 180.0;
+inline constexpr double max_angle = 5.0 * std::numbers::pi / 180.0;
 
 /// A task done by a library. Constructed from points, it puts them into the library's own
 /// container, uncounted; called, it does the work, which is counted. What looks into the result is
