@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "loops.hpp"
 #include "peer.hpp"
 #include <ANN/ANN.h>
 #include <gsl/gsl_linalg.h>
@@ -47,45 +48,73 @@ class plane_svd {
     vector work_{gsl_vector_alloc(3)};
 };
 
-class normals {
+/// What is alike for both.
+class on_points {
   public:
-    static constexpr const char* task = "normals";
-    static constexpr const char* library = "ANN + GSL";
     static constexpr bool one_thread_only = true;  // ANN keeps the state of a search in globals
 
-    explicit normals(const peers::vectors& points)
+    explicit on_points(const peers::vectors& points)
         : n_(static_cast<int>(points.size())), points_(annAllocPts(n_, 3)) {
         for (std::size_t i = 0; i < points.size(); ++i) {
             std::copy_n(points[i].data(), 3, points_[i]);
         }
     }
-    normals(const normals&) = delete;
-    normals& operator=(const normals&) = delete;
-    ~normals() { annDeallocPts(points_); }
+    on_points(const on_points&) = delete;
+    on_points& operator=(const on_points&) = delete;
+    ~on_points() { annDeallocPts(points_); }
 
-    auto operator()(const peers::request& r) const {
+  protected:
+    [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(n_); }
+    [[nodiscard]] ANNpointArray points() const { return points_; }
+
+    /// Calls visit(i, ring) with the k nearest neighbors of each point, itself among them.
+    void for_each_ring(std::size_t k, auto&& visit) const {
         ANNkd_tree tree(points_, n_, 3);
-        const int k = static_cast<int>(r.k) + 1;  // the point itself is found, too
-        std::vector<ANNidx> ring(r.k + 1);
-        std::vector<ANNdist> squares(r.k + 1);
-        plane_svd fit(r.k + 1);
-        peers::vectors result(static_cast<std::size_t>(n_));
-        for (std::size_t i = 0; i < result.size(); ++i) {
-            tree.annkSearch(points_[i], k, ring.data(), squares.data());
-            result[i] = fit(points_, ring);
+        std::vector<ANNidx> ring(k + 1);  // the point itself is found, too
+        std::vector<ANNdist> squares(k + 1);
+        for (std::size_t i = 0; i < size(); ++i) {
+            tree.annkSearch(points_[i], static_cast<int>(k) + 1, ring.data(), squares.data());
+            visit(i, ring);
         }
-        return result;
     }
-
-    static Eigen::Vector3d normal(const peers::vectors& result, std::size_t i) { return result[i]; }
 
   private:
     int n_;
     ANNpointArray points_;
 };
 
+struct search : on_points, peers::search_job {
+    static constexpr const char* library = "ANN";
+
+    using on_points::on_points;
+    auto operator()(const peers::request& r) const {
+        peers::neighbor_lists lists(size(), r.k());
+        for_each_ring(r.k(), [&](std::size_t i, const auto& ring) { lists.set(i, ring); });
+        return lists;
+    }
+};
+
+struct normals : on_points {
+    static constexpr const char* task = "normals";
+    static constexpr const char* library = "ANN + GSL";
+
+    using on_points::on_points;
+    auto operator()(const peers::request& r) const {
+        plane_svd fit(r.k() + 1);
+        peers::vectors result(size());
+        for_each_ring(r.k(),
+                      [&](std::size_t i, const auto& ring) { result[i] = fit(points(), ring); });
+        return result;
+    }
+
+    static Eigen::Vector3d normal(const peers::vectors& result, std::size_t i) { return result[i]; }
+    static std::size_t bytes(const peers::vectors& result) {
+        return result.size() * sizeof(result[0]);
+    }
+};
+
 }  // namespace
 
 int main(int argc, char** argv) {
-    return peers::serve<normals>(std::string(ANNversion) + " + " + GSL_VERSION, argc, argv);
+    return peers::serve<search, normals>(std::string(ANNversion) + " + " + GSL_VERSION, argc, argv);
 }

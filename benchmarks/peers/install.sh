@@ -7,6 +7,6 @@
 set -eu
 root=$(cd "$(dirname "$0")/../.." && pwd)
 . "$root/tools/setup.sh"
-for library in libcgal-dev libtbb-dev libann-dev libgsl-dev libpcl-dev libopen3d-dev; do
+for library in libcgal-dev libtbb-dev libann-dev libgsl-dev libpcl-dev libopen3d-dev valgrind; do
     set_up -- "$library"
 done

@@ -4,6 +4,11 @@
 #     make.sh PROGRAMS OUT [--quick]     measures, and makes the page
 #     make.sh --check OUT                compares the page there with what its figures make
 set -eu
+usage() {
+    sed -n 's/^#  *make.sh/usage: make.sh/p' "$0" >&2
+    exit 2
+}
+[ $# -ge 2 ] || usage
 here=$(cd "$(dirname "$0")" && pwd)
 root=$here/../..
 . "$root/tools/setup.sh"

@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
-// The loop that one writes oneself: nanoflann's tree, Eigen's closed-form solver, OpenMP.
+// The loop that one writes oneself: nanoflann's tree, Eigen's closed-form solver, OpenMP. Any
+// release of nanoflann since 1.4: PEERS_NANOFLANN says what to call it.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <nanoflann.hpp>
 
+#include "loops.hpp"
 #include "peer.hpp"
 
 namespace {
@@ -40,33 +45,114 @@ Eigen::Vector3d fit(const peers::vectors& points, const std::vector<std::uint32_
     return solver.eigenvectors().col(0);
 }
 
-struct normals {
-    static constexpr const char* task = "normals";
-    static constexpr const char* library = "nanoflann + Eigen";
-    static constexpr bool one_thread_only = false;
+/// What is alike for all.
+struct on_points {
+    static constexpr bool one_thread_only = peers::loops_have_one_thread;
 
     const peers::vectors& points;
 
-    auto operator()(const peers::request& r) const {
+    /// Calls visit(i, ring) with the k nearest neighbors of each point, itself among them.
+    void for_each_ring(const peers::request& r, auto&& visit) const {
         const point_view view{points};
         const tree_t tree(3, view);
-        peers::vectors result(points.size());
-        const std::size_t k = r.k + 1;  // the point itself is found, too
-#pragma omp parallel num_threads(static_cast<int>(r.threads))
-        {
-            std::vector<std::uint32_t> ring(k);
-            std::vector<double> squares(k);
-#pragma omp for schedule(dynamic, 1024)
-            for (std::size_t i = 0; i < points.size(); ++i) {
+        const std::size_t k = r.k() + 1;  // the point itself is found, too
+        peers::for_each_index(points.size(), r.threads, [&] {
+            return [&, ring = std::vector<std::uint32_t>(k),
+                    squares = std::vector<double>(k)](std::size_t i) mutable {
                 ring.resize(k);
                 ring.resize(tree.knnSearch(points[i].data(), k, ring.data(), squares.data()));
-                result[i] = fit(points, ring);
-            }
-        }
+                visit(i, ring);
+            };
+        });
+    }
+};
+
+struct search : on_points, peers::search_job {
+    static constexpr const char* library = PEERS_NANOFLANN;
+
+    explicit search(const peers::vectors& p) : on_points{p} {}
+
+    auto operator()(const peers::request& r) const {
+        peers::neighbor_lists lists(points.size(), r.k());
+        for_each_ring(r, [&](std::size_t i, const auto& ring) { lists.set(i, ring); });
+        return lists;
+    }
+};
+
+struct normals : on_points {
+    static constexpr const char* task = "normals";
+    static constexpr const char* library = PEERS_NANOFLANN " + Eigen";
+
+    explicit normals(const peers::vectors& p) : on_points{p} {}
+
+    auto operator()(const peers::request& r) const {
+        peers::vectors result(points.size());
+        for_each_ring(r, [&](std::size_t i, const auto& ring) { result[i] = fit(points, ring); });
         return result;
     }
 
     static Eigen::Vector3d normal(const peers::vectors& result, std::size_t i) { return result[i]; }
+    static std::size_t bytes(const peers::vectors& result) {
+        return result.size() * sizeof(result[0]);
+    }
+};
+
+/// One search for both: the graph that the normals come of is kept, and surfaces grow over it.
+struct surfaces : on_points {
+    static constexpr const char* task = "surfaces";
+    static constexpr const char* library = PEERS_NANOFLANN " + Eigen";
+
+    explicit surfaces(const peers::vectors& p) : on_points{p} {}
+
+    auto operator()(const peers::request& r) const {
+        peers::neighbor_lists lists(points.size(), r.k());
+        peers::vectors normals(points.size());
+        for_each_ring(r, [&](std::size_t i, const auto& ring) {
+            lists.set(i, ring);
+            normals[i] = fit(points, ring);
+        });
+        const double min_cosine = std::cos(peers::max_angle);
+        auto sizes = peers::grow(points.size(), [&](std::size_t i, auto&& visit) {
+            std::for_each_n(lists.begin(i), lists.k(), [&](std::uint32_t j) {
+                if (std::abs(normals[i].dot(normals[j])) >= min_cosine) visit(j);
+            });
+        });
+        return std::pair(std::move(normals), std::move(sizes));
+    }
+
+    static Eigen::Vector3d normal(const auto& result, std::size_t i) { return result.first[i]; }
+    static std::size_t segment_count(const auto& result) {
+        return peers::count_of(result.second, peers::min_points);
+    }
+};
+
+#if NANOFLANN_VERSION < 0x150
+using found_t = std::pair<std::uint32_t, double>;
+const nanoflann::SearchParams unsorted(32, 0.0f, false);
+#else
+using found_t = nanoflann::ResultItem<std::uint32_t, double>;
+const nanoflann::SearchParameters unsorted(0.0f, false);
+#endif
+
+struct clusters : on_points {
+    static constexpr const char* task = "clusters";
+    static constexpr const char* library = PEERS_NANOFLANN;
+    static constexpr bool one_thread_only = true;  // each search starts where others have ended
+
+    explicit clusters(const peers::vectors& p) : on_points{p} {}
+
+    auto operator()(const peers::request& r) const {
+        const point_view view{points};
+        const tree_t tree(3, view);
+        const double square = r.radius() * r.radius();
+        std::vector<found_t> found;
+        return peers::grow(points.size(), [&](std::size_t i, auto&& visit) {
+            tree.radiusSearch(points[i].data(), square, found, unsorted);
+            for (const found_t& q : found) visit(q.first);
+        });
+    }
+
+    static std::size_t segment_count(const auto& sizes) { return sizes.size(); }
 };
 
 /// 0x143 stands for 1.4.3.
@@ -78,4 +164,6 @@ std::string version() {
 
 }  // namespace
 
-int main(int argc, char** argv) { return peers::serve<normals>(version(), argc, argv); }
+int main(int argc, char** argv) {
+    return peers::serve<search, normals, surfaces, clusters>(version(), argc, argv);
+}

@@ -37,10 +37,10 @@ class peak_memory {
     }
 
     /// The highest resident set since then, less what there was [bytes].
-    [[nodiscard]] std::size_t above() const {
-        const std::size_t peak = detail::status_bytes("VmHWM:");
-        return peak > before_ ? peak - before_ : 0;
-    }
+    [[nodiscard]] std::size_t above() const { return total() > before_ ? total() - before_ : 0; }
+
+    /// The highest resident set since then, of the whole process [bytes].
+    [[nodiscard]] std::size_t total() const { return detail::status_bytes("VmHWM:"); }
 
   private:
     std::size_t before_;

@@ -4,10 +4,11 @@
 /// the programs of several libraries can take turns. No header of gnomon is behind it: every
 /// program holds its library alone.
 ///     PROGRAM                             tells in JSON what it is and which jobs it knows
-///     PROGRAM JOB DIRECTORY K THREADS     does a job on the cloud in a directory: once at the
-///                                         start, as a warm-up, of which it tells peak memory and
-///                                         gamma; and once more for each line that it reads, of
+///     PROGRAM JOB DIRECTORY REACH THREADS does a job on the cloud in a directory: once at the
+///                                         start, as a warm-up, of which it tells memory and
+///                                         quality; and once more for each line that it reads, of
 ///                                         which it tells the seconds
+/// REACH is k, or for clusters the radius.
 #pragma once
 
 #include <algorithm>
@@ -16,9 +17,11 @@
 #include <cmath>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <iterator>
+#include <numbers>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -31,19 +34,33 @@ namespace peers {
 
 /// What a library is asked for.
 struct request {
-    std::size_t k;     ///< neighbors of a point, itself not counted
+    double reach;      ///< k, or a radius [m]
     unsigned threads;  ///< at most
+
+    /// Neighbors of a point, itself not counted.
+    [[nodiscard]] std::size_t k() const { return static_cast<std::size_t>(reach); }
+
+    /// Neighbors are at most this far away [m].
+    [[nodiscard]] double radius() const { return reach; }
 };
 
+/// Whether a task is told a radius; the others are told k.
+constexpr bool takes_radius(std::string_view task) { return task == "clusters"; }
+
+/// Smaller segments are noise, of the task "surfaces"; and how far normals of neighbors may differ.
+inline constexpr std::size_t min_points = 30;
+inline constexpr double max_angle = 5.0 * std::numbers::pi / 180.0;
+
 /// A task done by a library. Constructed from points, it puts them into the library's own
-/// container, uncounted; called, it does the work, which is counted; `normal` looks into the
-/// result, uncounted.
+/// container, uncounted; called, it does the work, which is counted. What looks into the result is
+/// optional, and uncounted: `normal(result, i)`, `segment_count(result)`, `last_neighbor(result,
+/// i)`, which is the farthest of the k, and `bytes(result)`, the memory that the result has itself.
 template <class J>
 concept job = std::constructible_from<J, const vectors&> && requires(J& work, request r) {
     { J::task } -> std::convertible_to<std::string_view>;
     { J::library } -> std::convertible_to<std::string_view>;
     { J::one_thread_only } -> std::convertible_to<bool>;
-    { J::normal(work(r), std::size_t{}) } -> std::convertible_to<Eigen::Vector3d>;
+    work(r);
 };
 
 namespace detail {
@@ -57,6 +74,34 @@ double gamma(const auto& result, const vectors& truth) {
         if (g <= 1.5) sum += g;  // not NaN
     }
     return sum / static_cast<double>(truth.size());
+}
+
+/// The mean distance to the last neighbor [m].
+template <job J>
+double last_distance(const auto& result, const vectors& points) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        sum += (points[J::last_neighbor(result, i)] - points[i]).norm();
+    }
+    return sum / static_cast<double>(points.size());
+}
+
+/// Tells in JSON how good the result is, and how many bytes it has itself.
+template <job J>
+void tell_about(const auto& result, const vectors& points, const std::string& directory) {
+    if constexpr (requires { J::bytes(result); }) {
+        std::printf(", \"result_bytes\": %zu", std::size_t{J::bytes(result)});
+    }
+    if constexpr (requires { J::normal(result, 0); }) {
+        const vectors truth = read_vectors(directory + "/normals");
+        if (!truth.empty()) std::printf(", \"gamma\": %.6f", gamma<J>(result, truth));
+    }
+    if constexpr (requires { J::segment_count(result); }) {
+        std::printf(", \"segments\": %zu", std::size_t{J::segment_count(result)});
+    }
+    if constexpr (requires { J::last_neighbor(result, 0); }) {
+        std::printf(", \"last_distance\": %.9f", last_distance<J>(result, points));
+    }
 }
 
 inline constexpr std::ptrdiff_t few_points = 1000;
@@ -75,9 +120,8 @@ void do_job(const std::string& directory, const request& r) {
     {
         const peak_memory peak;
         const auto result = work(r);
-        std::printf("{\"peak_bytes\": %zu", peak.above());
-        const vectors truth = read_vectors(directory + "/normals");
-        if (!truth.empty()) std::printf(", \"gamma\": %.6f", gamma<J>(result, truth));
+        std::printf("{\"peak_bytes\": %zu, \"process_bytes\": %zu", peak.above(), peak.total());
+        tell_about<J>(result, points, directory);
     }
     std::puts("}");
     std::fflush(stdout);
@@ -104,6 +148,13 @@ std::optional<Number> number(std::string_view text) {
     return good ? std::optional(n) : std::nullopt;
 }
 
+/// k or a radius, as the job wants it.
+inline std::optional<double> reach_of(std::string_view job, std::string_view text) {
+    if (takes_radius(job.substr(0, job.find('/')))) return number<double>(text);
+    const auto k = number<std::uint32_t>(text);
+    return k ? std::optional<double>(*k) : std::nullopt;
+}
+
 }  // namespace detail
 
 /// The whole of main.
@@ -120,16 +171,17 @@ int serve(const std::string& version, int argc, char** argv) {
          ...);
         return 0;
     }
-    const auto k = detail::number<std::size_t>(argc == 5 ? argv[3] : "");
+    const auto reach = detail::reach_of(argc == 5 ? argv[1] : "", argc == 5 ? argv[3] : "");
     const auto threads = detail::number<unsigned>(argc == 5 ? argv[4] : "");
-    if (!k || !threads || !((argv[1] == detail::id<Jobs>()) || ...)) {
-        std::fprintf(stderr, "usage: %s [JOB DIRECTORY K THREADS]\nJOB:", argv[0]);
+    if (!reach || !threads || !((argv[1] == detail::id<Jobs>()) || ...)) {
+        std::fprintf(stderr, "usage: %s [JOB DIRECTORY REACH THREADS]\nJOB:", argv[0]);
         (std::fprintf(stderr, " '%s'", detail::id<Jobs>().c_str()), ...);
         std::fputs("\n", stderr);
         return 2;
     }
     try {
-        ((argv[1] == detail::id<Jobs>() ? detail::do_job<Jobs>(argv[2], {*k, *threads}) : void()),
+        ((argv[1] == detail::id<Jobs>() ? detail::do_job<Jobs>(argv[2], {*reach, *threads})
+                                        : void()),
          ...);
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "%s: %s\n", argv[0], problem.what());
