@@ -21,8 +21,6 @@
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -200,15 +198,12 @@ class component_walk {
             certain |= at_most(d2[l / pack::size], certain_) << l;
         certain &= possible;
         for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
-            if (squared_distance(position(p), position(point_at(leaf, doubt))) <= limit_)
+            if (tree_.squared_distance(p, point_at(leaf, doubt)) <= limit_)
                 certain |= lowest(doubt);
         }
         return certain;
     }
 
-    [[nodiscard]] Eigen::Vector3d position(point_index p) const {
-        return {tree_.at(0)[p], tree_.at(1)[p], tree_.at(2)[p]};
-    }
     [[nodiscard]] static point_index first_of(const subtree& t) {
         return static_cast<point_index>(t.first * Tree::leaf_size);
     }
