@@ -17,13 +17,13 @@ namespace {
 
 using gnomon::detail::lane_count, gnomon::detail::lanes;
 
-constexpr float infinity = std::numeric_limits<float>::infinity();
+constexpr float beyond_all = std::numeric_limits<float>::infinity();
 
 /// Random numbers among which are zeros of both signs, equal ones, infinities and NaN.
 lanes any_lanes(gnomon::random_stream& random) {
     lanes a{};
     for (std::size_t l = 0; l < lane_count; ++l) {
-        const float special[] = {0.0f, -0.0f, 0.5f, infinity, -infinity, std::nanf("")};
+        const float special[] = {0.0f, -0.0f, 0.5f, beyond_all, -beyond_all, std::nanf("")};
         const auto kind = random.bits() % 12;
         a[l] = kind < 6 ? special[kind] : static_cast<float>(random.uniform());
     }
@@ -40,7 +40,7 @@ TEST(lanes, compare_each_with_the_limit) {
     gnomon::random_stream random(1);
     for (std::size_t trial = 0; trial < 2000; ++trial) {
         const lanes a = any_lanes(random);
-        for (const float limit : {0.0f, -0.0f, 0.5f, a[trial % 32], infinity, std::nanf("")}) {
+        for (const float limit : {0.0f, -0.0f, 0.5f, a[trial % 32], beyond_all, std::nanf("")}) {
             ASSERT_EQ(gnomon::detail::at_most(a, limit), at_most_one_by_one(a, limit));
             ASSERT_EQ(gnomon::detail::count_at_most(a, limit),
                       std::bitset<32>(at_most_one_by_one(a, limit)).count());

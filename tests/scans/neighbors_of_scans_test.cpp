@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// The two ways of finding neighbors, and the normals that follow, on whole scans. Where the files
-/// of real ones are missing, only the simulated one is tried.
+/// of real ones are missing, only simulated ones are tried. Compiled once more for each set of
+/// instructions, see tests/CMakeLists.txt.
 #include <algorithm>
 #include <cstdio>
 #include <string>
@@ -44,8 +45,15 @@ void expect_both_ways_agree(const gnomon::scan& scan) {
 TEST(neighbors_of_scans, of_a_simulated_kitchen) {
     const gnomon::scene kitchen = gnomon::scenes::kitchen();
     expect_both_ways_agree(gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor},
-                                            gnomon::densities::medium())
+                                            gnomon::densities::high())
                                .scan);
+}
+
+TEST(neighbors_of_scans, of_a_million_points_with_gaps) {
+    auto points = clouds::in_cube(1'000'000, 1);
+    for (std::size_t i = 0; i < points.size(); i += 13) points[i][i % 3] = clouds::nan;
+    const auto expected = knn{.k = 20, .backend = knn_backend::nanoflann}(points, threads{});
+    ASSERT_EQ(knn{.k = 20}(points, threads{}), expected);
 }
 
 TEST(neighbors_of_scans, of_all_kinds_of_scanners) {
