@@ -16,18 +16,18 @@ namespace {
 
 using gnomon::detail::pack;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double unbounded = std::numeric_limits<double>::infinity();
 
 TEST(pack, compares_each_with_the_limit) {
     gnomon::random_stream random(1);
     for (int round = 0; round < 1000; ++round) {
-        const double special[] = {0.0, -0.0, 0.5, infinity, -infinity, std::nan("")};
+        const double special[] = {0.0, -0.0, 0.5, unbounded, -unbounded, std::nan("")};
         std::array<double, pack::size> a{};
         for (double& x : a) {
             const auto kind = random.bits() % 12;
             x = kind < 6 ? special[kind] : random.uniform();
         }
-        for (const double limit : {0.0, 0.5, std::nextafter(0.5, 0.0), infinity, -infinity}) {
+        for (const double limit : {0.0, 0.5, std::nextafter(0.5, 0.0), unbounded, -unbounded}) {
             std::uint32_t expected = 0;
             for (std::size_t l = 0; l < pack::size; ++l)
                 expected |= std::uint32_t{a[l] <= limit} << l;
@@ -37,7 +37,7 @@ TEST(pack, compares_each_with_the_limit) {
 }
 
 TEST(pack, clamps_each) {
-    const std::array<double, pack::size> a{-infinity, -2.0, -0.5, 0.0, 0.25, 0.5, 1.0, infinity};
+    const std::array<double, pack::size> a{-unbounded, -2.0, -0.5, 0.0, 0.25, 0.5, 1.0, unbounded};
     const pack clamped = clamp(pack(a.data()), -0.5, 0.5);
     for (std::size_t l = 0; l < pack::size; ++l) EXPECT_EQ(clamped[l], std::clamp(a[l], -0.5, 0.5));
 }
