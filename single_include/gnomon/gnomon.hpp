@@ -3832,12 +3832,10 @@ class leaf_search {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
-/// `stride`: the offsets with zeros.
+/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
+/// offsets with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = pack::size;
-
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Coordinate `axis` of their offsets from the point [m].
     [[nodiscard]] const double* offset(std::size_t axis) const {
@@ -3913,9 +3911,9 @@ class found_neighbors {
             index[j] = all_indices[at];
         }
         const double *x = offset(0), *y = offset(1), *z = offset(2);
-        for (std::size_t j = 0; j < filled(); j += stride) {
-            std::array<double, stride> d2;
-            for (std::size_t l = 0; l < stride; ++l)
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
+            std::array<double, pack::size> d2;
+            for (std::size_t l = 0; l < pack::size; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
             std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
@@ -3958,7 +3956,9 @@ class found_neighbors {
                       numbers_.data() + a * capacity_ + filled(), 0.0);
     }
 
-    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+    [[nodiscard]] std::size_t filled() const {
+        return (count_ + pack::size - 1) / pack::size * pack::size;
+    }
 
     std::size_t count_ = 0;
     std::size_t capacity_ = 0;
@@ -4947,8 +4947,8 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     return surface;
 }
 
-/// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
-/// the policy streams.
+/// The same from a neighborhood policy. Nothing is stored if the policy streams: searched and
+/// estimated point by point, or, if it sweeps, many points at once.
 /// @throws std::invalid_argument  if the policy's parameters are out of range, e.g. k = 0
 /// Complexity: one search and one call of the estimator per point.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>

@@ -21,12 +21,10 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
-/// `stride`: the offsets with zeros.
+/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
+/// offsets with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = pack::size;
-
     [[nodiscard]] std::size_t size() const { return count_; }
     /// Coordinate `axis` of their offsets from the point [m].
     [[nodiscard]] const double* offset(std::size_t axis) const {
@@ -102,9 +100,9 @@ class found_neighbors {
             index[j] = all_indices[at];
         }
         const double *x = offset(0), *y = offset(1), *z = offset(2);
-        for (std::size_t j = 0; j < filled(); j += stride) {
-            std::array<double, stride> d2;
-            for (std::size_t l = 0; l < stride; ++l)
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
+            std::array<double, pack::size> d2;
+            for (std::size_t l = 0; l < pack::size; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
             std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
@@ -147,7 +145,9 @@ class found_neighbors {
                       numbers_.data() + a * capacity_ + filled(), 0.0);
     }
 
-    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+    [[nodiscard]] std::size_t filled() const {
+        return (count_ + pack::size - 1) / pack::size * pack::size;
+    }
 
     std::size_t count_ = 0;
     std::size_t capacity_ = 0;
