@@ -3790,16 +3790,18 @@ class leaf_search {
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
         const std::size_t wanted = k_ - list_.count(below);
-        std::size_t kept = wanted;
+        const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (ties_ == tie_rule::all) {
-            std::sort(doubtful_.begin(), doubtful_.end(), nearer);
-            kept = size_with_ties(doubtful_, wanted, k_ + wanted,
-                                  [](const auto& d) { return d.first; });
-        } else if (wanted < doubtful_.size()) {
+        if (most < doubtful_.size()) {
             std::nth_element(doubtful_.begin(),
-                             doubtful_.begin() + static_cast<std::ptrdiff_t>(wanted),
-                             doubtful_.end(), nearer);
+                             doubtful_.begin() + static_cast<std::ptrdiff_t>(most), doubtful_.end(),
+                             nearer);
+        }
+        std::size_t kept = wanted;
+        if (ties_ == tie_rule::all) {
+            const auto nearest = std::span(doubtful_).first(std::min(most, doubtful_.size()));
+            std::ranges::sort(nearest, nearer);
+            kept = size_with_ties(nearest, wanted, most, [](const auto& d) { return d.first; });
         }
         for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
         return list_.take_within(above);
@@ -3938,9 +3940,9 @@ class found_neighbors {
             const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
             ring[last - ties[last]++] = at(j);
         }
-        for (std::size_t j = 1; j < count_; ++j) {
-            for (std::size_t t = j; t > 0 && ring[t] < ring[t - 1]; --t)
-                std::swap(ring[t], ring[t - 1]);
+        for (std::size_t last = 0; last < count_; ++last) {
+            const auto end = ring.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+            if (ties[last] > 1) std::sort(end - ties[last], end);
         }
     }
 

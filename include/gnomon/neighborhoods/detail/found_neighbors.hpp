@@ -9,7 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
-#include <utility>
 #include <vector>
 
 #include <gnomon/core/detail/pack.hpp>
@@ -127,9 +126,9 @@ class found_neighbors {
             const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
             ring[last - ties[last]++] = at(j);
         }
-        for (std::size_t j = 1; j < count_; ++j) {
-            for (std::size_t t = j; t > 0 && ring[t] < ring[t - 1]; --t)
-                std::swap(ring[t], ring[t - 1]);
+        for (std::size_t last = 0; last < count_; ++last) {
+            const auto end = ring.begin() + static_cast<std::ptrdiff_t>(last) + 1;
+            if (ties[last] > 1) std::sort(end - ties[last], end);
         }
     }
 

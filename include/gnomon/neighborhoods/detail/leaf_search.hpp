@@ -197,16 +197,18 @@ class leaf_search {
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
         const std::size_t wanted = k_ - list_.count(below);
-        std::size_t kept = wanted;
+        const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (ties_ == tie_rule::all) {
-            std::sort(doubtful_.begin(), doubtful_.end(), nearer);
-            kept = size_with_ties(doubtful_, wanted, k_ + wanted,
-                                  [](const auto& d) { return d.first; });
-        } else if (wanted < doubtful_.size()) {
+        if (most < doubtful_.size()) {
             std::nth_element(doubtful_.begin(),
-                             doubtful_.begin() + static_cast<std::ptrdiff_t>(wanted),
-                             doubtful_.end(), nearer);
+                             doubtful_.begin() + static_cast<std::ptrdiff_t>(most), doubtful_.end(),
+                             nearer);
+        }
+        std::size_t kept = wanted;
+        if (ties_ == tie_rule::all) {
+            const auto nearest = std::span(doubtful_).first(std::min(most, doubtful_.size()));
+            std::ranges::sort(nearest, nearer);
+            kept = size_with_ties(nearest, wanted, most, [](const auto& d) { return d.first; });
         }
         for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
         return list_.take_within(above);
