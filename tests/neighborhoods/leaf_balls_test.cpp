@@ -25,19 +25,16 @@ namespace {
 using gnomon::adjacency, gnomon::hybrid, gnomon::radius;
 using gnomon::detail::leaf_balls, gnomon::detail::leaf_tree;
 
-/// Radii at which there is next to nothing, exactly some neighbors, and more than some.
+/// Radii at which there is next to nothing, and exactly those of neighbors.
 std::vector<double> radii_for(const clouds::cloud& points) {
     std::vector<double> all{0.0};
-    const gnomon::kd_tree tree(points);
     std::vector<gnomon::neighbor> ring;
-    for (std::size_t i = 0; i < std::min<std::size_t>(points.size(), 2); ++i) {
-        if (!gnomon::is_finite(points[i])) continue;
-        tree.nearest(points[i], 12, i, ring);
-        if (ring.size() < 12) continue;
-        const double nearest = std::sqrt(ring[1].squared_distance);
-        const double farthest = std::sqrt(ring[11].squared_distance);
-        all.insert(all.end(), {nearest, farthest, 2.5 * farthest});
-    }
+    const auto some = std::find_if(points.begin(), points.end(),
+                                   [](const auto& p) { return gnomon::is_finite(p); });
+    if (some == points.end()) return all;
+    gnomon::kd_tree(points).nearest(*some, 12, gnomon::kd_tree::no_point, ring);
+    for (const std::size_t k : {1u, 11u})
+        if (k < ring.size()) all.push_back(std::sqrt(ring[k].squared_distance));
     std::erase_if(all, [](double r) { return r > 1e140; });  // all pairs of 1500
     return all;
 }
