@@ -200,7 +200,7 @@ def draw_panels(panels, title):
     for line, places in zip(panels, grid):
         for (name, rows), axes in zip(line, places):
             draw(axes, rows)
-            axes.set_title(name, fontsize=10)
+            axes.set_title(name, fontsize=9)
     ticks = [0.25, 0.5, 1, 2, 4, 8, 16, 32]
     axes.set_xticks(ticks, [f"{tick:g}" for tick in ticks])
     axes.set_xticks([], minor=True)
