@@ -4,15 +4,8 @@
 #     bad_arguments.sh MAKE PROGRAMS
 set -eu
 make=$1 programs=$2
+. "$(dirname "$0")/../refused.sh"
 
-refused() {
-    status=0
-    said=$("$@" 2>&1 >/dev/null) || status=$?
-    case $status:$said in
-        2:*usage:*) ;;
-        *) echo "not refused, but $status: $*"; exit 1 ;;
-    esac
-}
 refused sh "$make"
 refused sh "$make" "$programs"
 refused sh "$make" "$programs" "$programs/chapter3_out" --slow

@@ -5,15 +5,8 @@
 set -eu
 sources=$1 binaries=$2
 programs=$(dirname "$binaries")/peers
+. "$(dirname "$0")/../refused.sh"
 
-refused() {
-    status=0
-    said=$("$@" 2>&1 >/dev/null) || status=$?
-    case $status:$said in
-        2:*usage:*) ;;
-        *) echo "not refused, but $status: $*"; exit 1 ;;
-    esac
-}
 refused sh "$sources/make.sh"
 refused sh "$sources/make.sh" "$binaries"
 refused sh "$sources/make.sh" "$binaries" "$binaries/results" --slow

@@ -7,7 +7,7 @@ import sys
 sys.dont_write_bytecode = True  # in a folder of sources
 
 import turns  # noqa: E402
-from turns import OURS, Part  # noqa: E402
+from turns import OFFICE, OURS, Part  # noqa: E402
 
 NORMALS = {
     OURS: "gnomon",
@@ -21,7 +21,7 @@ NORMALS = {
 }
 
 FULL = [Part("normals", "kitchen", [10, 20, 30, 50], NORMALS),
-        Part("normals", "pcl_office1_kinect.pcd", [30], NORMALS)]
+        Part("normals", OFFICE, [30], NORMALS)]
 QUICK = [Part("normals", "kitchen_medium", [20], NORMALS, rounds=3)]
 
 turns.main("peers", FULL, QUICK)

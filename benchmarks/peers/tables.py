@@ -21,7 +21,7 @@ try:
 except ImportError:
     pyplot = None
 
-from turns import BUSY, OURS
+from turns import BUSY, OFFICE, OURS
 
 CLOUDS = {
     "kitchen": "a simulated kitchen",
@@ -29,7 +29,7 @@ CLOUDS = {
     "kitchen_preprocessed": "a simulated kitchen without floor and ceiling",
     "kitchen_million": "a simulated kitchen, seen from nine places",
     "kitchen_ten_million": "a simulated kitchen, densely seen from nine places",
-    "pcl_office1_kinect.pcd": "an office, seen by a Kinect",
+    OFFICE: "an office, seen by a Kinect",
 }
 
 

@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True  # in a folder of sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
 
 import turns  # noqa: E402
-from turns import OURS, Part, Refusal, blank, describe  # noqa: E402
+from turns import OFFICE, OURS, Part, Refusal, blank, describe  # noqa: E402
 
 SEARCH = {
     OURS: "gnomon",
@@ -79,7 +79,6 @@ def growing(cloud, sizes, k, rounds):
                  rounds=rounds) for size in sizes]
 
 
-OFFICE = "pcl_office1_kinect.pcd"
 FULL = [
     Part("normals", "kitchen", KS, NORMALS, left_out=JET),
     Part("search", "kitchen", KS, SEARCH, rounds=3),

@@ -1,10 +1,9 @@
 # SPDX-License-Identifier: BSL-1.0
 """What gnomon wants to reach, and whether the rows of speed.json show it."""
 
-from tables import OURS, markdown
+from tables import OFFICE, OURS, markdown
 
 NATIVE, PORTABLE = "-O3 -march=native", "-O2"
-OFFICE = "pcl_office1_kinect.pcd"
 CLOUDS = {"kitchen": "the kitchen", "kitchen_million": "1,000,000 points", OFFICE: "the office"}
 
 # How many times as long the fastest peer is wanted to take for normals, by k.

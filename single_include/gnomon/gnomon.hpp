@@ -1916,21 +1916,6 @@ ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ri
 
 namespace detail {
 
-/// How many of a list in canonical order are kept by `tie_rule::all`: the k nearest, and those that
-/// are as far, as long as they are `most` together at most.
-template <class Sorted, class Proj = std::identity>
-[[nodiscard]] std::size_t size_with_ties(const Sorted& found, std::size_t k, std::size_t most,
-                                         Proj neighbor_of = {}) {
-    if (k == 0 || found.size() <= k) return k;
-    const double limit = neighbor_of(found[k - 1]).squared_distance * (1.0 + 1e-9);
-    std::size_t kept = k;
-    while (kept < std::min(found.size(), most) &&
-           neighbor_of(found[kept]).squared_distance <= limit) {
-        ++kept;
-    }
-    return kept;
-}
-
 struct any_visitor {
     void operator()(std::size_t, const auto&) const {}
 };
@@ -2136,6 +2121,30 @@ class places {
     std::vector<point_index> indices_;
     std::vector<point_index> begin_;  // of each place in indices_; empty if each holds one point
 };
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/size_with_ties.hpp -----------------------------------------
+
+/// @file
+/// `tie_rule::all`, said once for all searches.
+
+namespace gnomon::detail {
+
+/// How many of a list in canonical order are kept by `tie_rule::all`: the k nearest, and those that
+/// are as far, as long as they are `most` together at most.
+template <class Sorted, class Proj = std::identity>
+[[nodiscard]] std::size_t size_with_ties(const Sorted& found, std::size_t k, std::size_t most,
+                                         Proj neighbor_of = {}) {
+    if (k == 0 || found.size() <= k) return k;
+    const double limit = neighbor_of(found[k - 1]).squared_distance * (1.0 + 1e-9);
+    std::size_t kept = k;
+    while (kept < std::min(found.size(), most) &&
+           neighbor_of(found[kept]).squared_distance <= limit) {
+        ++kept;
+    }
+    return kept;
+}
 
 }  // namespace gnomon::detail
 
@@ -3335,6 +3344,7 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
+
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
     void build(std::span<entry> all, const X& run) {
@@ -8374,7 +8384,8 @@ struct joint_distance {
 /// What remains to choose, with the values of Fig. 4.2.
 struct oriented_point_segmentation {
     std::size_t min_points = 40;  ///< n_min, smaller groups are noise
-    bool greedy = false;          ///< as in `point_segmentation`, but several times faster
+    /// As in `point_segmentation`. Twice as fast at best, where many points are within the radius.
+    bool greedy = false;
 };
 
 /// The groups that chains of similar oriented points connect.
@@ -8383,7 +8394,7 @@ struct oriented_point_segmentation {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy about 1/k_r of that.
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy O(n log n).
 template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>

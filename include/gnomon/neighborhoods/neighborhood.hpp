@@ -18,7 +18,6 @@
 /// std::vector<std::vector<point_index>>.
 #pragma once
 
-#include <algorithm>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -114,21 +113,6 @@ ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ri
 }
 
 namespace detail {
-
-/// How many of a list in canonical order are kept by `tie_rule::all`: the k nearest, and those that
-/// are as far, as long as they are `most` together at most.
-template <class Sorted, class Proj = std::identity>
-[[nodiscard]] std::size_t size_with_ties(const Sorted& found, std::size_t k, std::size_t most,
-                                         Proj neighbor_of = {}) {
-    if (k == 0 || found.size() <= k) return k;
-    const double limit = neighbor_of(found[k - 1]).squared_distance * (1.0 + 1e-9);
-    std::size_t kept = k;
-    while (kept < std::min(found.size(), most) &&
-           neighbor_of(found[kept]).squared_distance <= limit) {
-        ++kept;
-    }
-    return kept;
-}
 
 struct any_visitor {
     void operator()(std::size_t, const auto&) const {}

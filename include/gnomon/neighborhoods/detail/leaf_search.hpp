@@ -28,6 +28,7 @@
 #include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/size_with_ties.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace gnomon::detail {

@@ -152,6 +152,7 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
+
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
     void build(std::span<entry> all, const X& run) {

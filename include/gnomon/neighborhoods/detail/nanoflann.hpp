@@ -16,6 +16,7 @@
 
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/places.hpp>
+#include <gnomon/neighborhoods/detail/size_with_ties.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 static_assert(NANOFLANN_VERSION >= 0x142, "gnomon needs nanoflann 1.4.3, which calls itself 0x142");
