@@ -1267,9 +1267,11 @@ class subset_view {
 
 /// @file
 /// Which vector instructions there are to be used in this translation unit: as many as the compiler
-/// was told of, none if GNOMON_PORTABLE_LANES is defined. What depends on them stands in the inline
-/// namespace GNOMON_LANES, which keeps translation units compiled for different machines from
-/// sharing functions.
+/// was told of, none if GNOMON_PORTABLE_LANES is defined. Where it was told of none beyond those of
+/// every x86-64, some loops are compiled for AVX2 too, and the processor is asked when they run,
+/// unless GNOMON_COMPILED_LANES is defined. What depends on all that stands in the inline namespace
+/// GNOMON_LANES, which keeps translation units compiled for different machines from sharing
+/// functions.
 
 #if defined(GNOMON_PORTABLE_LANES)
 #define GNOMON_LANES portable
@@ -1280,12 +1282,23 @@ class subset_view {
 #elif defined(__AVX2__)
 #define GNOMON_LANES avx2
 #define GNOMON_LANE_BITS 256
+#elif defined(__SSE2__) && defined(__x86_64__) && !defined(GNOMON_COMPILED_LANES)
+#define GNOMON_LANES sse2_to_avx2
+#define GNOMON_LANE_BITS 128
+#define GNOMON_LANES_UP_TO_AVX2
 #elif defined(__SSE2__)
 #define GNOMON_LANES sse2
 #define GNOMON_LANE_BITS 128
 #else
 #define GNOMON_LANES portable
 #define GNOMON_LANE_BITS 0
+#endif
+
+/// The attribute of functions that use AVX2 and what comes with it.
+#if defined(GNOMON_LANES_UP_TO_AVX2)
+#define GNOMON_WITH_AVX2 gnu::target("avx2,fma,bmi,popcnt")
+#else
+#define GNOMON_WITH_AVX2
 #endif
 
 #if GNOMON_LANE_BITS > 128
@@ -3012,10 +3025,8 @@ ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
 // -------- gnomon/neighborhoods/detail/lanes.hpp --------------------------------------------------
 
 /// @file
-/// Thirty-two points side by side, and which of them a ball or a box meets, as the bits of a
-/// number. Plain loops of fixed length, which compilers turn into vector instructions at -O2
-/// already; only the gathering of comparisons into bits is beyond them, and said in instructions
-/// where there are some.
+/// Thirty-two points, or boxes, side by side, and their distances from a point. Plain loops of
+/// fixed length, which compilers turn into vector instructions at -O2 already.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -3029,131 +3040,6 @@ struct alignas(64) lanes {
     [[nodiscard]] float& operator[](std::size_t l) { return at[l]; }
     [[nodiscard]] const float& operator[](std::size_t l) const { return at[l]; }
 };
-
-/// Bit l of the result tells whether a[l] <= limit.
-[[nodiscard]] inline std::uint32_t at_most(const lanes& a, float limit) {
-#if GNOMON_LANE_BITS == 512
-    const __m512 t = _mm512_set1_ps(limit);
-    const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
-    const unsigned high = _mm512_cmp_ps_mask(_mm512_load_ps(a.at + 16), t, _CMP_LE_OQ);
-    return low | high << 16;
-#elif GNOMON_LANE_BITS == 256
-    const __m256 t = _mm256_set1_ps(limit);
-    std::uint32_t bits = 0;
-    for (int l = 0; l < 32; l += 8) {
-        const __m256 le = _mm256_cmp_ps(_mm256_load_ps(a.at + l), t, _CMP_LE_OQ);
-        bits |= static_cast<std::uint32_t>(_mm256_movemask_ps(le)) << l;
-    }
-    return bits;
-#elif GNOMON_LANE_BITS == 128
-    const __m128 t = _mm_set1_ps(limit);
-    std::uint32_t bits = 0;
-#pragma GCC unroll 8
-    for (int l = 0; l < 32; l += 4) {
-        const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
-        bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
-    }
-    return bits;
-#else
-    std::uint32_t bits = 0;
-    for (std::size_t l = 0; l < lane_count; ++l)
-        bits |= static_cast<std::uint32_t>(a.at[l] <= limit) << l;
-    return bits;
-#endif
-}
-
-#if GNOMON_LANE_BITS == 256
-/// For each set of 8 lanes, the numbers of those in it, first to last.
-inline constexpr auto members_table = [] {
-    std::array<std::array<std::uint8_t, 8>, 256> table{};
-    for (std::size_t set = 0; set < 256; ++set) {
-        std::size_t n = 0;
-        for (std::uint8_t l = 0; l < 8; ++l)
-            if ((set >> l & 1) != 0) table[set][n++] = l;
-    }
-    return table;
-}();
-[[nodiscard]] inline __m256i members_of(std::uint32_t set) {
-    return _mm256_cvtepu8_epi32(
-        _mm_loadl_epi64(reinterpret_cast<const __m128i*>(members_table[set].data())));
-}
-#endif
-
-/// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to 32
-/// in all, may be overwritten; `out` may be `numbers`, or before.
-/// @return the end of what was written
-[[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
-                                                      std::uint32_t bits, std::uint32_t* out) {
-#if GNOMON_LANE_BITS == 512
-    for (int l = 0; l < 32; l += 16, bits >>= 16) {
-        const auto set = static_cast<__mmask16>(bits);
-        const __m512i all = _mm512_loadu_si512(numbers + l);
-        _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
-        out += std::popcount(bits & 0xffffu);
-    }
-#elif GNOMON_LANE_BITS == 256
-    for (int l = 0; l < 32; l += 8, bits >>= 8) {
-        const __m256i all = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers + l));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out),
-                            _mm256_permutevar8x32_epi32(all, members_of(bits & 0xffu)));
-        out += std::popcount(bits & 0xffu);
-    }
-#else
-    for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
-#endif
-    return out;
-}
-
-/// The same of 32 values and of the numbers first, first + 1, ... beside them.
-/// @return how many were written
-[[gnu::always_inline]] inline std::size_t compress(const lanes& values, std::uint32_t first,
-                                                   std::uint32_t bits, float* out,
-                                                   std::uint32_t* out_numbers) {
-    const float* const begin = out;
-#if GNOMON_LANE_BITS == 512
-    __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
-    numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
-    for (int l = 0; l < 32; l += 16, bits >>= 16) {
-        const auto set = static_cast<__mmask16>(bits);
-        _mm512_storeu_ps(out, _mm512_maskz_compress_ps(set, _mm512_load_ps(values.at + l)));
-        _mm512_storeu_si512(out_numbers, _mm512_maskz_compress_epi32(set, numbers));
-        numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(16));
-        const auto n = std::popcount(bits & 0xffffu);
-        out += n;
-        out_numbers += n;
-    }
-#elif GNOMON_LANE_BITS == 256
-    __m256i start = _mm256_set1_epi32(static_cast<int>(first));
-    for (int l = 0; l < 32; l += 8, bits >>= 8) {
-        const __m256i members = members_of(bits & 0xffu);
-        _mm256_storeu_ps(out, _mm256_permutevar8x32_ps(_mm256_load_ps(values.at + l), members));
-        _mm256_storeu_si256(reinterpret_cast<__m256i*>(out_numbers),
-                            _mm256_add_epi32(start, members));
-        start = _mm256_add_epi32(start, _mm256_set1_epi32(8));
-        const auto n = std::popcount(bits & 0xffu);
-        out += n;
-        out_numbers += n;
-    }
-#else
-    for (; bits != 0; bits &= bits - 1) {
-        const auto l = static_cast<std::uint32_t>(std::countr_zero(bits));
-        *out++ = values[l];
-        *out_numbers++ = first + l;
-    }
-#endif
-    return static_cast<std::size_t>(out - begin);
-}
-
-/// How many of the 32 are at most `limit`.
-[[nodiscard]] inline std::size_t count_at_most(const lanes& a, float limit) {
-#if defined(__POPCNT__)
-    return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
-#else
-    std::uint32_t n = 0;
-    for (std::size_t l = 0; l < lane_count; ++l) n += a.at[l] <= limit ? 1u : 0u;
-    return n;
-#endif
-}
 
 /// The positions of 32 points. Where there are fewer, infinity fills up.
 struct lane_points {
@@ -3202,6 +3088,254 @@ struct lane_boxes {
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
+// -------- gnomon/neighborhoods/detail/lane_instructions.hpp --------------------------------------
+
+/// @file
+/// Which of 32 numbers are within a limit, as the bits of a number, and keeping those: what
+/// compilers do not find instructions for by themselves. There is a class for each set of
+/// instructions, and with_widest() runs a loop with the widest that there is: what the compiler was
+/// told of, and on x86-64 AVX2 too, if the processor has it, whatever the compiler was told.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Plain loops.
+struct plain_instructions {
+    /// Bit l of the result tells whether a[l] <= limit.
+    [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
+        std::uint32_t bits = 0;
+        for (std::size_t l = 0; l < lane_count; ++l)
+            bits |= static_cast<std::uint32_t>(a[l] <= limit) << l;
+        return bits;
+    }
+
+    /// How many of the 32 are at most `limit`.
+    [[nodiscard]] static std::size_t count_at_most(const lanes& a, float limit) {
+        std::uint32_t n = 0;
+        for (std::size_t l = 0; l < lane_count; ++l) n += a[l] <= limit ? 1u : 0u;
+        return n;
+    }
+
+    /// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to
+    /// 32 in all, may be overwritten; `out` may be `numbers`, or before.
+    /// @return the end of what was written
+    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
+                                   std::uint32_t* out) {
+        for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
+        return out;
+    }
+
+    /// The same of 32 values and of the numbers first, first + 1, ... beside them.
+    /// @return how many were written
+    static std::size_t compress(const lanes& values, std::uint32_t first, std::uint32_t bits,
+                                float* out, std::uint32_t* out_numbers) {
+        const float* const begin = out;
+        for (; bits != 0; bits &= bits - 1) {
+            const auto l = static_cast<std::uint32_t>(std::countr_zero(bits));
+            *out++ = values[l];
+            *out_numbers++ = first + l;
+        }
+        return static_cast<std::size_t>(out - begin);
+    }
+};
+
+#if GNOMON_LANE_BITS == 128
+struct sse2_instructions : plain_instructions {
+    [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
+        const __m128 t = _mm_set1_ps(limit);
+        std::uint32_t bits = 0;
+#pragma GCC unroll 8
+        for (int l = 0; l < 32; l += 4) {
+            const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
+            bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
+        }
+        return bits;
+    }
+};
+#endif
+
+#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+/// By the compilers' built-in vectors and functions: the header of these instructions takes long to
+/// read.
+class avx2_instructions {
+  public:
+    [[nodiscard, GNOMON_WITH_AVX2]] static std::uint32_t at_most(const lanes& a, float limit) {
+        const floats t = limit - floats{};
+        std::uint32_t bits = 0;
+#pragma GCC unroll 4
+        for (int l = 0; l < 32; l += 8)
+            bits |= bits_of(reinterpret_cast<const floats&>(a.at[l]) <= t) << l;
+        return bits;
+    }
+
+    [[nodiscard, GNOMON_WITH_AVX2]] static std::size_t count_at_most(const lanes& a, float limit) {
+        return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
+    }
+
+    [[GNOMON_WITH_AVX2]] static std::uint32_t* compress(const std::uint32_t* numbers,
+                                                        std::uint32_t bits, std::uint32_t* out) {
+        for (int l = 0; l < 32; l += 8, bits >>= 8) {
+            integers kept;
+            std::memcpy(&kept, numbers + l, sizeof kept);
+            kept = __builtin_ia32_permvarsi256(kept, members_of(bits & 0xffu));
+            std::memcpy(out, &kept, sizeof kept);
+            out += std::popcount(bits & 0xffu);
+        }
+        return out;
+    }
+
+    [[GNOMON_WITH_AVX2]] static std::size_t compress(const lanes& values, std::uint32_t first,
+                                                     std::uint32_t bits, float* out,
+                                                     std::uint32_t* out_numbers) {
+        const float* const begin = out;
+        for (int l = 0; l < 32; l += 8, bits >>= 8) {
+            const integers members = members_of(bits & 0xffu);
+            const floats kept =
+                __builtin_ia32_permvarsf256(reinterpret_cast<const floats&>(values.at[l]), members);
+            const integers numbers = members + (static_cast<int>(first) + l);
+            std::memcpy(out, &kept, sizeof kept);
+            std::memcpy(out_numbers, &numbers, sizeof numbers);
+            const auto n = std::popcount(bits & 0xffu);
+            out += n;
+            out_numbers += n;
+        }
+        return static_cast<std::size_t>(out - begin);
+    }
+
+  private:
+    using floats [[gnu::vector_size(32), gnu::may_alias]] = float;
+    using integers [[gnu::vector_size(32)]] = int;
+
+    [[GNOMON_WITH_AVX2]] static std::uint32_t bits_of(const integers& all_or_none) {
+        return static_cast<std::uint32_t>(
+            __builtin_ia32_movmskps256(reinterpret_cast<const floats&>(all_or_none)));
+    }
+
+    /// Those of 8 lanes that are in a set, first to last.
+    [[GNOMON_WITH_AVX2]] static integers members_of(std::uint32_t set) {
+        return (static_cast<int>(table[set]) - integers{}) >>
+                   integers{0, 4, 8, 12, 16, 20, 24, 28} &
+               7;
+    }
+
+    /// For each set, its members from the lowest four bits on.
+    static constexpr auto table = [] {
+        std::array<std::uint32_t, 256> members{};
+        for (std::uint32_t set = 0; set < 256; ++set) {
+            int n = 0;
+            for (std::uint32_t l = 0; l < 8; ++l)
+                if ((set >> l & 1) != 0) members[set] |= l << 4 * n++;
+        }
+        return members;
+    }();
+};
+#endif
+
+#if GNOMON_LANE_BITS == 512
+struct avx512_instructions {
+    [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
+        const __m512 t = _mm512_set1_ps(limit);
+        const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
+        const unsigned high = _mm512_cmp_ps_mask(_mm512_load_ps(a.at + 16), t, _CMP_LE_OQ);
+        return low | high << 16;
+    }
+
+    [[nodiscard]] static std::size_t count_at_most(const lanes& a, float limit) {
+        return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
+    }
+
+    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
+                                   std::uint32_t* out) {
+        for (int l = 0; l < 32; l += 16, bits >>= 16) {
+            const auto set = static_cast<__mmask16>(bits);
+            const __m512i all = _mm512_loadu_si512(numbers + l);
+            _mm512_storeu_si512(out, _mm512_maskz_compress_epi32(set, all));
+            out += std::popcount(bits & 0xffffu);
+        }
+        return out;
+    }
+
+    static std::size_t compress(const lanes& values, std::uint32_t first, std::uint32_t bits,
+                                float* out, std::uint32_t* out_numbers) {
+        const float* const begin = out;
+        __m512i numbers = _mm512_setr_epi32(0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15);
+        numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(static_cast<int>(first)));
+        for (int l = 0; l < 32; l += 16, bits >>= 16) {
+            const auto set = static_cast<__mmask16>(bits);
+            _mm512_storeu_ps(out, _mm512_maskz_compress_ps(set, _mm512_load_ps(values.at + l)));
+            _mm512_storeu_si512(out_numbers, _mm512_maskz_compress_epi32(set, numbers));
+            numbers = _mm512_add_epi32(numbers, _mm512_set1_epi32(16));
+            const auto n = std::popcount(bits & 0xffffu);
+            out += n;
+            out_numbers += n;
+        }
+        return static_cast<std::size_t>(out - begin);
+    }
+};
+#endif
+
+/// What the compiler was told of.
+#if GNOMON_LANE_BITS == 512
+using compiled_instructions = avx512_instructions;
+#elif GNOMON_LANE_BITS == 256
+using compiled_instructions = avx2_instructions;
+#elif GNOMON_LANE_BITS == 128
+using compiled_instructions = sse2_instructions;
+#else
+using compiled_instructions = plain_instructions;
+#endif
+
+#if defined(GNOMON_LANES_UP_TO_AVX2)
+[[nodiscard]] inline bool has_avx2() {
+    return __builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma") &&
+           __builtin_cpu_supports("bmi") && __builtin_cpu_supports("popcnt");
+}
+
+/// Flattened: all that the loop calls becomes part of this function, and so gets its instructions.
+template <class Loop>
+[[GNOMON_WITH_AVX2, gnu::flatten]] auto with_avx2(const Loop& loop) {
+    return loop(avx2_instructions{});
+}
+#endif
+
+/// The result of loop(instructions).
+template <class Loop>
+[[gnu::always_inline]] inline auto with_widest(const Loop& loop) {
+#if defined(GNOMON_LANES_UP_TO_AVX2)
+    if (has_avx2()) return with_avx2(loop);
+#endif
+    return loop(compiled_instructions{});
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/core/detail/touched_vector.hpp --------------------------------------------------
+
+/// @file
+/// Large results, whose memory all threads fetch.
+
+namespace gnomon::detail {
+
+/// A vector of n values T{}. The system hands out memory when it is first written to, page after
+/// page, which for large results takes longer than the writing: here each thread asks for its part.
+template <class T, execution X>
+[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
+    constexpr std::size_t page = 4096, chunk = 256 * page;  // [bytes]
+    std::vector<T> values;
+    values.reserve(n);
+    auto* const bytes = reinterpret_cast<volatile std::byte*>(values.data());
+    const std::size_t size = n * sizeof(T);
+    run((size + chunk - 1) / chunk, [&](std::size_t c) {
+        for (std::size_t b = c * chunk; b < std::min(size, (c + 1) * chunk); b += page)
+            bytes[b] = std::byte{};
+    });
+    values.resize(n);
+    return values;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/leaf_tree.hpp ----------------------------------------------
 
 /// @file
@@ -3248,17 +3382,12 @@ class leaf_tree {
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
     leaf_tree(const Points& points, const X& run) {
-        std::vector<entry> entries;
-        entries.reserve(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Eigen::Vector3d p = points[i];
-            if (is_finite(p)) entries.push_back({{p[0], p[1], p[2]}, static_cast<point_index>(i)});
-        }
-        if (entries.empty()) return;
-        size_ = entries.size();
+        std::vector<entry> entries = finite(points, run);
+        if (size_ == 0) return;
         leaves_ = (size_ + leaf_size - 1) / leaf_size;
-        for (auto& c : at_) c.resize(leaves_ * leaf_size);
-        index_.resize(leaves_ * leaf_size);
+        const std::size_t places = leaves_ * leaf_size;
+        for (auto& c : at_) c = touched_vector<double>(places, run);
+        index_ = touched_vector<point_index>(places, run);
         boxes_.resize(2 * leaves() - 1);
         build(entries, run);
         for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
@@ -3344,6 +3473,28 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
+
+    /// Counts the finite points, and gathers them.
+    template <class Points, execution X>
+    std::vector<entry> finite(const Points& points, const X& run) {
+        std::vector<std::size_t> ends(chunk_count(points.size()));
+        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) ? 1 : 0;
+            ends[begin / chunk_size] = count;
+        });
+        std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
+        size_ = ends.empty() ? 0 : ends.back();
+        auto entries = touched_vector<entry>(size_, run);
+        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+            entry* to = entries.data() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
+            for (std::size_t i = begin; i < end; ++i) {
+                const Eigen::Vector3d p = points[i];
+                if (is_finite(p)) *to++ = {{p[0], p[1], p[2]}, static_cast<point_index>(i)};
+            }
+        });
+        return entries;
+    }
 
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
@@ -3500,22 +3651,26 @@ class leaf_list {
         const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
-        float* const distance = distance_[0].at;
-        std::size_t n = 0;
-        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
-            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
-                 near &= near - 1) {
-                const std::size_t b =
-                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
-                const lanes d2 = points_[b].squared_distances(x, y, z);
-                std::uint32_t within = at_most(d2, limit);
-                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
-                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
+        candidates_ = with_widest([&](auto instructions) {
+            float* const distance = distance_[0].at;
+            std::size_t n = 0;
+            for (std::size_t g = 0; g * lane_count < listed_; ++g) {
+                const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
+                std::uint32_t near = instructions.at_most(gap2, 4.00004f * limit);
+                for (; near != 0; near &= near - 1) {
+                    const std::size_t b =
+                        g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                    const lanes d2 = points_[b].squared_distances(x, y, z);
+                    std::uint32_t within = instructions.at_most(d2, limit);
+                    if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
+                    n += instructions.compress(d2, starts_[b], within, distance + n,
+                                               candidate_.data() + n);
+                }
             }
-        }
-        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
-        return candidates_ = n;
+            for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
+            return n;
+        });
+        return candidates_;
     }
 
     /// The squared distances of the candidates.
@@ -3524,17 +3679,19 @@ class leaf_list {
     }
 
     /// How many of the candidates are within a limit.
-    [[nodiscard]] std::size_t count(float limit) const {
+    [[nodiscard, gnu::always_inline]] std::size_t count(auto instructions, float limit) const {
         std::size_t within = 0;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            within += count_at_most(distance_[b], limit);
+            within += instructions.count_at_most(distance_[b], limit);
         return within;
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
     void for_each_between(float below, float above, auto&& visit) const {
+        constexpr compiled_instructions instructions;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
-            std::uint32_t between = at_most(distance_[b], above) & ~at_most(distance_[b], below);
+            std::uint32_t between = instructions.at_most(distance_[b], above) &
+                                    ~instructions.at_most(distance_[b], below);
             for (; between != 0; between &= between - 1)
                 visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
         }
@@ -3551,10 +3708,13 @@ class leaf_list {
     /// The places of those candidates that are within a limit, in their order. Ends the candidacy
     /// of all.
     [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
-        std::uint32_t* taken = candidate_.data();
-        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            taken =
-                compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), taken);
+        std::uint32_t* const taken = with_widest([&](auto instructions) {
+            std::uint32_t* end = candidate_.data();
+            for (std::size_t b = 0; b * lane_count < candidates_; ++b)
+                end = instructions.compress(candidate_.data() + b * lane_count,
+                                            instructions.at_most(distance_[b], limit), end);
+            return end;
+        });
         candidates_ = 0;
         return {candidate_.data(), taken};
     }
@@ -3727,9 +3887,8 @@ class leaf_search {
                 const float d2 = kth(limit);
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
-                    selected_ = list_.count(above) - list_.count(below) > 1
-                                    ? settle(p, below, above)
-                                    : list_.take_within(d2);
+                    selected_ = in_doubt(below, above) > 1 ? settle(p, below, above)
+                                                           : list_.take_within(d2);
                     drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
@@ -3764,9 +3923,19 @@ class leaf_search {
         return std::sqrt(squared);
     }
 
+    /// How many candidates are beyond `below` and within `above`.
+    [[nodiscard]] std::size_t in_doubt(float below, float above) const {
+        return with_widest([&](auto instructions) {
+            return list_.count(instructions, above) - list_.count(instructions, below);
+        });
+    }
+
     /// A limit that k of the candidates are within, or more if floats cannot tell them apart.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
+        return with_widest([&](auto instructions) { return kth(instructions, high); });
+    }
+    [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
         const auto candidates = list_.squared_distances();
         float low = 0.0f;
         auto below = 0.0f, within = static_cast<float>(candidates.size());
@@ -3774,7 +3943,7 @@ class leaf_search {
         for (int i = 0; i < 5 && candidates.size() > k_; ++i) {
             const float limit =
                 low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
-            const std::size_t c = list_.count(limit);
+            const std::size_t c = list_.count(instructions, limit);
             if (c == k_) return limit;
             if (c < k_)
                 low = limit, below = static_cast<float>(c);
@@ -3799,7 +3968,7 @@ class leaf_search {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(below);
+        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below);
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {
@@ -4970,7 +5139,7 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     -> std::vector<surfel<estimate_t<E>>> {
     const position_view<R, Proj> p(points, projection);
     if constexpr (sweeping_neighborhood<N, R, Proj>) {
-        std::vector<surfel<estimate_t<E>>> surface(p.size());
+        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), run);
         const viewpoint_table viewpoints = viewpoints_of(points);
         const auto make_visitor = [&] {
             return detail::sweep_visitor(estimate, p, viewpoints, surface);

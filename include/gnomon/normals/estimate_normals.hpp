@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
@@ -254,7 +255,7 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     -> std::vector<surfel<estimate_t<E>>> {
     const position_view<R, Proj> p(points, projection);
     if constexpr (sweeping_neighborhood<N, R, Proj>) {
-        std::vector<surfel<estimate_t<E>>> surface(p.size());
+        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), run);
         const viewpoint_table viewpoints = viewpoints_of(points);
         const auto make_visitor = [&] {
             return detail::sweep_visitor(estimate, p, viewpoints, surface);

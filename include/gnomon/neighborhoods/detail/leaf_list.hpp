@@ -18,6 +18,7 @@
 #include <vector>
 
 #include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
@@ -98,22 +99,26 @@ class leaf_list {
         const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
-        float* const distance = distance_[0].at;
-        std::size_t n = 0;
-        for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-            const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
-            for (std::uint32_t near = at_most(gap2, 4.00004f * limit); near != 0;
-                 near &= near - 1) {
-                const std::size_t b =
-                    g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
-                const lanes d2 = points_[b].squared_distances(x, y, z);
-                std::uint32_t within = at_most(d2, limit);
-                if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
-                n += compress(d2, starts_[b], within, distance + n, candidate_.data() + n);
+        candidates_ = with_widest([&](auto instructions) {
+            float* const distance = distance_[0].at;
+            std::size_t n = 0;
+            for (std::size_t g = 0; g * lane_count < listed_; ++g) {
+                const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
+                std::uint32_t near = instructions.at_most(gap2, 4.00004f * limit);
+                for (; near != 0; near &= near - 1) {
+                    const std::size_t b =
+                        g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                    const lanes d2 = points_[b].squared_distances(x, y, z);
+                    std::uint32_t within = instructions.at_most(d2, limit);
+                    if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
+                    n += instructions.compress(d2, starts_[b], within, distance + n,
+                                               candidate_.data() + n);
+                }
             }
-        }
-        for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
-        return candidates_ = n;
+            for (std::size_t l = 0; l < lane_count; ++l) distance[n + l] = far_;
+            return n;
+        });
+        return candidates_;
     }
 
     /// The squared distances of the candidates.
@@ -122,17 +127,19 @@ class leaf_list {
     }
 
     /// How many of the candidates are within a limit.
-    [[nodiscard]] std::size_t count(float limit) const {
+    [[nodiscard, gnu::always_inline]] std::size_t count(auto instructions, float limit) const {
         std::size_t within = 0;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            within += count_at_most(distance_[b], limit);
+            within += instructions.count_at_most(distance_[b], limit);
         return within;
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
     void for_each_between(float below, float above, auto&& visit) const {
+        constexpr compiled_instructions instructions;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
-            std::uint32_t between = at_most(distance_[b], above) & ~at_most(distance_[b], below);
+            std::uint32_t between = instructions.at_most(distance_[b], above) &
+                                    ~instructions.at_most(distance_[b], below);
             for (; between != 0; between &= between - 1)
                 visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
         }
@@ -149,10 +156,13 @@ class leaf_list {
     /// The places of those candidates that are within a limit, in their order. Ends the candidacy
     /// of all.
     [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
-        std::uint32_t* taken = candidate_.data();
-        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            taken =
-                compress(candidate_.data() + b * lane_count, at_most(distance_[b], limit), taken);
+        std::uint32_t* const taken = with_widest([&](auto instructions) {
+            std::uint32_t* end = candidate_.data();
+            for (std::size_t b = 0; b * lane_count < candidates_; ++b)
+                end = instructions.compress(candidate_.data() + b * lane_count,
+                                            instructions.at_most(distance_[b], limit), end);
+            return end;
+        });
         candidates_ = 0;
         return {candidate_.data(), taken};
     }

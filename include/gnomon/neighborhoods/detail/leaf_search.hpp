@@ -26,6 +26,7 @@
 #include <vector>
 
 #include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/size_with_ties.hpp>
@@ -125,9 +126,8 @@ class leaf_search {
                 const float d2 = kth(limit);
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
-                    selected_ = list_.count(above) - list_.count(below) > 1
-                                    ? settle(p, below, above)
-                                    : list_.take_within(d2);
+                    selected_ = in_doubt(below, above) > 1 ? settle(p, below, above)
+                                                           : list_.take_within(d2);
                     drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
@@ -162,9 +162,19 @@ class leaf_search {
         return std::sqrt(squared);
     }
 
+    /// How many candidates are beyond `below` and within `above`.
+    [[nodiscard]] std::size_t in_doubt(float below, float above) const {
+        return with_widest([&](auto instructions) {
+            return list_.count(instructions, above) - list_.count(instructions, below);
+        });
+    }
+
     /// A limit that k of the candidates are within, or more if floats cannot tell them apart.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
+        return with_widest([&](auto instructions) { return kth(instructions, high); });
+    }
+    [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
         const auto candidates = list_.squared_distances();
         float low = 0.0f;
         auto below = 0.0f, within = static_cast<float>(candidates.size());
@@ -172,7 +182,7 @@ class leaf_search {
         for (int i = 0; i < 5 && candidates.size() > k_; ++i) {
             const float limit =
                 low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
-            const std::size_t c = list_.count(limit);
+            const std::size_t c = list_.count(instructions, limit);
             if (c == k_) return limit;
             if (c < k_)
                 low = limit, below = static_cast<float>(c);
@@ -197,7 +207,7 @@ class leaf_search {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(below);
+        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below);
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {

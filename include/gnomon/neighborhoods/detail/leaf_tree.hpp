@@ -9,11 +9,13 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numeric>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
@@ -56,17 +58,12 @@ class leaf_tree {
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
     leaf_tree(const Points& points, const X& run) {
-        std::vector<entry> entries;
-        entries.reserve(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            const Eigen::Vector3d p = points[i];
-            if (is_finite(p)) entries.push_back({{p[0], p[1], p[2]}, static_cast<point_index>(i)});
-        }
-        if (entries.empty()) return;
-        size_ = entries.size();
+        std::vector<entry> entries = finite(points, run);
+        if (size_ == 0) return;
         leaves_ = (size_ + leaf_size - 1) / leaf_size;
-        for (auto& c : at_) c.resize(leaves_ * leaf_size);
-        index_.resize(leaves_ * leaf_size);
+        const std::size_t places = leaves_ * leaf_size;
+        for (auto& c : at_) c = touched_vector<double>(places, run);
+        index_ = touched_vector<point_index>(places, run);
         boxes_.resize(2 * leaves() - 1);
         build(entries, run);
         for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
@@ -152,6 +149,28 @@ class leaf_tree {
         std::array<double, 3> at;
         point_index index;
     };
+
+    /// Counts the finite points, and gathers them.
+    template <class Points, execution X>
+    std::vector<entry> finite(const Points& points, const X& run) {
+        std::vector<std::size_t> ends(chunk_count(points.size()));
+        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+            std::size_t count = 0;
+            for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) ? 1 : 0;
+            ends[begin / chunk_size] = count;
+        });
+        std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
+        size_ = ends.empty() ? 0 : ends.back();
+        auto entries = touched_vector<entry>(size_, run);
+        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+            entry* to = entries.data() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
+            for (std::size_t i = begin; i < end; ++i) {
+                const Eigen::Vector3d p = points[i];
+                if (is_finite(p)) *to++ = {{p[0], p[1], p[2]}, static_cast<point_index>(i)};
+            }
+        });
+        return entries;
+    }
 
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
