@@ -123,9 +123,8 @@ int main(int argc, char** argv) {
     if (argc < 3 || argc > 4 || !counts) {
         std::fputs(
             "usage: cloud NAME DIRECTORY [POINTS]\n"
-            "NAME: kitchen kitchen_preprocessed kitchen_medium kitchen_million "
-            "kitchen_ten_million, "
-            "or a file\n",
+            "NAME: kitchen kitchen_preprocessed kitchen_medium kitchen_million\n"
+            "      kitchen_ten_million, or a file\n",
             stderr);
         return 2;
     }

@@ -2,6 +2,7 @@
 // gnomon itself.
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <utility>
 
 #include "peer.hpp"

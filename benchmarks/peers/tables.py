@@ -21,7 +21,7 @@ try:
 except ImportError:
     pyplot = None
 
-OURS = "gnomon"
+from turns import BUSY, OURS
 
 CLOUDS = {
     "kitchen": "a simulated kitchen",
@@ -46,10 +46,16 @@ def version_text(row):
     return f"{row['library']} ({row['version']})" if row["version"] else row["library"]
 
 
+def markdown(heads, lines, rule="---:"):
+    """A table of Markdown: a column of words, and others, of numbers if their rule is not `---`."""
+    return "".join([f"| {' | '.join(heads)} |\n", f"|---|{f'{rule}|' * (len(heads) - 1)}\n",
+                    *(f"| {' | '.join(line)} |\n" for line in lines)])
+
+
 def table(rows, columns, cell):
-    """A table of Markdown with a line for each library. `columns` tells of each heading which rows
-    it is of; cell(row) is what to print of the first of them that was measured."""
-    lines = ["| library | " + " | ".join(columns) + " |", "|---|" + "---:|" * len(columns)]
+    """A table with a line for each library. `columns` tells of each heading which rows it is of;
+    cell(row) is what to print of the first of them that was measured."""
+    lines = []
     for library in unique(row["library"] for row in rows):
         own = [row for row in rows if row["library"] == library]
         if not any(row["seconds"] for row in own):
@@ -57,8 +63,8 @@ def table(rows, columns, cell):
         else:
             texts = [next((cell(row) for row in own if belongs(row) and row["seconds"]), "–")
                      for belongs in columns.values()]
-        lines.append(f"| {version_text(own[0])} | " + " | ".join(texts) + " |")
-    return "\n".join(lines) + "\n"
+        lines.append([version_text(own[0]), *texts])
+    return markdown(["library", *columns], lines)
 
 
 def reach(row):
@@ -152,7 +158,7 @@ def sections_of(rows):
 
 def busy_text(about):
     """What to say where others were at work, too."""
-    if about["busy_cores"] <= 0.2:
+    if about["busy_cores"] <= BUSY:
         return ""
     return (f"\nOther work kept {about['busy_cores']:.1f} cores busy when this began, which "
             "makes the figures scatter,\nmost of all those of several threads.\n")

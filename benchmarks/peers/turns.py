@@ -150,16 +150,20 @@ def reach_of(setting):
     return setting["radius"] if setting["task"] == "clusters" else setting["k"]
 
 
+def blank(setting, library):
+    """A row of which nothing is known yet."""
+    return dict(setting, library=library, version=None, seconds=None, ratio=None, gamma=None,
+                peak_bytes=None)
+
+
 def unmeasured(setting, library, note):
     """A row that says only why there is nothing to say."""
-    return dict(setting, library=library, version=None, seconds=None, ratio=None, gamma=None,
-                peak_bytes=None, note=note)
+    return blank(setting, library) | {"note": note}
 
 
 def enter(folder, setting, part, library, cloud):
     """A row of the result as far as it is known now, and the worker that will fill it."""
-    row = unmeasured(setting, library, None)
-    del row["note"]
+    row = blank(setting, library)
     try:
         program = folder / part.peers[library]
         about = describe(program)

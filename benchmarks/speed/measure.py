@@ -17,7 +17,7 @@ sys.dont_write_bytecode = True  # in a folder of sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
 
 import turns  # noqa: E402
-from turns import OURS, Part, Refusal, describe, unmeasured  # noqa: E402
+from turns import OURS, Part, Refusal, blank, describe  # noqa: E402
 
 SEARCH = {
     OURS: "gnomon",
@@ -130,7 +130,7 @@ def instructions(programs, clouds, quick):
             print(f"[instructions] {turns.text_of(setting)}", file=sys.stderr, flush=True)
             cloud, setting["points"] = clouds.make(part.cloud)
             for library, program in part.peers.items():
-                row = unmeasured(setting, library, None) | {"instructions": None}
+                row = blank(setting, library) | {"instructions": None}
                 try:
                     row.update(version=describe(folder / program)["version"])
                     none, one = (count_instructions(folder / program, f"{part.task}/{library}",

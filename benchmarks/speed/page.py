@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers")
 
 import tables  # noqa: E402
 from tables import (  # noqa: E402
-    OURS, busy_text, gamma_known, gamma_text, section, sections_of, threads_text, unique)
+    OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text, unique)
 from verdicts import extra_bytes, judged, ours_at, rows_at, table_of  # noqa: E402
 
 INTRODUCTION = """\
@@ -56,11 +56,12 @@ METHOD = """\
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
 - A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
 
-What was left out, so that all takes less than half an hour: CGAL's jets and, beside the kitchen,
+What was left out, so that all takes less than half an hour: CGAL's jets and, but for the kitchen,
 ANN with GSL and PCL's estimator for one thread, none of which is the fastest anywhere (see
-[peers.md](peers.md)); on 1,000,000 points and on the office all but k = 30 on two threads; clusters
-of 1,000,000 points; and on 10,000,000 points all but normals, k = 20, for this processor, by the
-two peers that are the fastest on fewer. Those are measured in one round.
+[peers.md](peers.md)); but for the kitchen, on two threads, normals with another k than 30; search and
+surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but normals,
+k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured in one
+round.
 """
 
 
@@ -98,12 +99,6 @@ def is_part(row):
     return "/" in row["cloud"]
 
 
-def columns(heads, lines):
-    """A table of Markdown whose first column is words."""
-    head = ["| " + " | ".join(heads) + " |", "|---|" + "---:|" * (len(heads) - 1)]
-    return "\n".join(head + ["| " + " | ".join(line) + " |" for line in lines]) + "\n"
-
-
 # ---- Memory -------------------------------------------------------------------------------------
 
 def memory_section(rows):
@@ -120,7 +115,7 @@ def memory_section(rows):
                 lines.append([tables.version_text(row), f"{row['points']:,}", str(k),
                               f"{row['result_bytes'] / row['points']:.0f}",
                               f"{extra_bytes(row):.0f}", f"{row['process_bytes'] / 1e6:,.0f} MB"])
-    parts.append(columns(["library", "points", "k", "result", "beside it", "whole process"], lines))
+    parts.append(markdown(["library", "points", "k", "result", "beside it", "whole process"], lines))
     return "\n".join(parts)
 
 
@@ -131,32 +126,36 @@ def exponent(pairs):
     return statistics.linear_regression(*zip(*((math.log(x), math.log(y)) for x, y in pairs))).slope
 
 
+def growth(library, along, rows, key):
+    """A line of the table: how the time of some rows grows with one of their numbers."""
+    return [library, along, rows[0]["flags"],
+            f"{exponent([(row[key], row['seconds']) for row in rows]):.2f}",
+            " ".join(f"{nanoseconds(row):.0f}" for row in rows)]
+
+
 def scaling_section(rows):
     parts = ["## Scaling\n",
              "Exponents p of time proportional to n^p and to k^p, fitted to logarithms; one thread. "
              "Parts of a\ncloud are taken evenly over it.\n"]
     lines = []
     growing = [row for row in rows if is_part(row) and row["seconds"]]
-    for library in unique(row["library"] for row in growing):
-        own = [row for row in growing if row["library"] == library]
-        sizes = [row["points"] for row in own]
-        if len(set(sizes)) > 1:
-            lines.append([library, f"n, {min(sizes):,} to {max(sizes):,}, k = {own[0]['k']}",
-                          own[0]["flags"],
-                          f"{exponent([(row['points'], row['seconds']) for row in own]):.2f}",
-                          " ".join(f"{nanoseconds(row):.0f}" for row in own)])
-    for own in sections_of(rows_at([row for row in rows if is_timed(row)], task="normals",
-                                   threads=1)):
-        for flags in unique(row["flags"] for row in own):
-            for library in unique(row["library"] for row in growing):
-                some = rows_at(own, library=library, flags=flags)
-                ks = [row["k"] for row in some]
-                if len(set(ks)) > 1:
-                    lines.append([library, f"k, {min(ks)} to {max(ks)}, {some[0]['points']:,} points",
-                                  flags,
-                                  f"{exponent([(row['k'], row['seconds']) for row in some]):.2f}",
-                                  " ".join(f"{nanoseconds(row):.0f}" for row in some)])
-    parts.append(columns(["library", "along", "flags", "exponent", "ns for each point"], lines))
+    libraries = unique(row["library"] for row in growing)
+    for library in libraries:
+        own = rows_at(growing, library=library)
+        sizes = unique(row["points"] for row in own)
+        if len(sizes) > 1:
+            along = f"n, {min(sizes):,} to {max(sizes):,}, k = {own[0]['k']}"
+            lines.append(growth(library, along, own, "points"))
+    for cloud in sections_of(rows_at([row for row in rows if is_timed(row)], task="normals",
+                                     threads=1)):
+        for flags in unique(row["flags"] for row in cloud):
+            for library in libraries:
+                own = rows_at(cloud, library=library, flags=flags)
+                ks = unique(row["k"] for row in own)
+                if len(ks) > 1:
+                    along = f"k, {min(ks)} to {max(ks)}, {own[0]['points']:,} points"
+                    lines.append(growth(library, along, own, "k"))
+    parts.append(markdown(["library", "along", "flags", "exponent", "ns for each point"], lines))
     return "\n".join(parts)
 
 
@@ -174,7 +173,7 @@ def instructions_section(rows):
     lines = [[f"{row['task']}, {row['library']}", str(row["k"]),
               f"{row['instructions'] / row['points']:,.0f}"]
              for row in counted if row["instructions"]]
-    parts.append(columns(["task", "k", "instructions"], lines))
+    parts.append(markdown(["task", "k", "instructions"], lines))
     return "\n".join(parts)
 
 
@@ -197,8 +196,9 @@ these {bytes:.0f} bytes take some {move:.0f} ns.
 Where the rest goes was looked at once, at k = 20 on 1,000,000 points. The tree takes a quarter of the
 time, the search rather more than half, sums, planes and writing a fifth. Counters that were built in
 for this say that each point is compared with 63 boxes of leaves and 252 points, of which 40 pass, and
-that the limit that exactly 20 are within is found in five counts of these. So there are 13 distances
-for each that is wanted, as the 32 points of a leaf are compared together or not at all.
+that the limit that exactly 20 are within is found in three counts of these, and made sure of in two
+more. So there are 13 distances for each that is wanted, as the 32 points of a leaf are compared
+together or not at all.
 """
 
 
@@ -219,7 +219,7 @@ def limit_section(rows):
                                                [nanoseconds(row) for row in largest])
     return "\n".join([
         LIMIT.format(result=result, points=largest[0]["points"], flags=flags),
-        columns(["k, and distances at least", "ns", "ns for each distance", "bytes at least",
+        markdown(["k, and distances at least", "ns", "ns for each distance", "bytes at least",
                  "bytes in a ns"], lines),
         WHERE.format(base=base, slope=slope, bytes=moved, move=moved / 10)])
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """What gnomon wants to reach, and whether the rows of speed.json show it."""
 
-from tables import OURS
+from tables import OURS, markdown
 
 NATIVE, PORTABLE = "-O3 -march=native", "-O2"
 OFFICE = "pcl_office1_kinect.pcd"
@@ -135,8 +135,6 @@ VERDICTS = {True: "holds", False: "**does not hold**", None: "not measured"}
 
 
 def table_of(verdicts):
-    lines = ["| | claim | wanted | measured | |", "|---|---|---|---|---|"]
-    for v in verdicts:
-        lines.append(f"| {v['id']} | {v['claim']} | {v['wanted']} | {v['measured']} | "
-                     f"{VERDICTS[v['holds']]} |")
-    return "\n".join(lines) + "\n"
+    lines = [[v["id"], v["claim"], v["wanted"], v["measured"], VERDICTS[v["holds"]]]
+             for v in verdicts]
+    return markdown(["", "claim", "wanted", "measured", ""], lines, rule="---")

@@ -1819,15 +1819,16 @@ class union_find {
 /// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
 /// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
 /// none; a *sweeping* one has a third, `sweep`, that finds all rings in whatever order is fastest.
-/// All doors give the same rings. Some graphs know more of a ring than its members, e.g.
-/// that it ends at a boundary: they say so in a `ring_note`.
+/// All doors give the same rings. Some graphs know more of a ring than its members, e.g. that it
+/// ends at a boundary: they say so in a `ring_note`.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
 /// are valid and not repeated; a point that is not finite has no neighbors and is nobody's; the
-/// graph is the same bytes for every execution; both doors agree.
+/// graph is the same bytes for every execution; all doors agree.
 ///
-/// Models: `knn`, `radius`, `hybrid`, `adaptive_knn`, `delaunay`, `sorted_around`; graphs:
-/// `adjacency`, and any std::vector<std::vector<point_index>>.
+/// Models: `knn`, `radius` and `hybrid`, which have all three doors; `adaptive_knn`, `delaunay` and
+/// `sorted_around`, which have the first two; graphs: `adjacency`, and any
+/// std::vector<std::vector<point_index>>.
 
 namespace gnomon {
 
@@ -3070,7 +3071,7 @@ inline constexpr auto members_table = [] {
 #endif
 
 /// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to 32
-/// in all, may be overwritten.
+/// in all, may be overwritten; `out` may be `numbers`, or before.
 /// @return the end of what was written
 [[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
                                                       std::uint32_t bits, std::uint32_t* out) {
@@ -3231,8 +3232,9 @@ struct leaf_box {
 class leaf_tree {
   public:
     static constexpr std::size_t leaf_size = lane_count;
-    /// Leaves 4 g to 4 g + 3 are a subtree, for every g.
-    static constexpr std::size_t group_size = 4;
+    /// Leaves 4 g to 4 g + 3 are a subtree, the group number g.
+    static constexpr std::size_t leaves_per_group = 4;
+    static constexpr std::size_t points_per_group = leaves_per_group * leaf_size;
 
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
@@ -3262,6 +3264,9 @@ class leaf_tree {
     /// The number of finite points.
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
+    [[nodiscard]] std::size_t groups() const {
+        return (leaves_ + leaves_per_group - 1) / leaves_per_group;
+    }
     /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
     [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
@@ -3269,12 +3274,11 @@ class leaf_tree {
     [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
         return {at_[0][place], at_[1][place], at_[2][place]};
     }
-    /// The canonical one of the points at two places [m^2].
+    /// The canonical squared distance of the points at two places [m^2].
     [[nodiscard]] double squared_distance(std::size_t p, std::size_t q) const {
         return gnomon::squared_distance({at_[0][p], at_[1][p], at_[2][p]},
                                         {at_[0][q], at_[1][q], at_[2][q]});
     }
-    [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
     /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
     /// them then takes too long.
     [[nodiscard]] bool crowded() const { return crowded_; }
@@ -3323,8 +3327,8 @@ class leaf_tree {
     /// than one.
     [[nodiscard]] static std::size_t middle_of(std::size_t first, std::size_t last) {
         const std::size_t half = (last - first + 1) / 2;
-        if (last - first <= group_size) return first + half;
-        return first + (half + group_size - 1) / group_size * group_size;
+        if (last - first <= leaves_per_group) return first + half;
+        return first + (half + leaves_per_group - 1) / leaves_per_group * leaves_per_group;
     }
 
     struct entry {
@@ -3348,6 +3352,8 @@ class leaf_tree {
         run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
     }
 
+    /// A subtree on one thread. (This and split() are templates, so that only who builds a tree
+    /// compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -3390,8 +3396,8 @@ class leaf_tree {
     }
 
     std::size_t size_ = 0;
-    bool crowded_ = false;
     std::size_t leaves_ = 0;
+    bool crowded_ = false;
     std::array<std::vector<double>, 3> at_;
     std::vector<point_index> index_;
     std::vector<leaf_box> boxes_;  // of the nodes, in preorder
@@ -3415,11 +3421,10 @@ inline namespace GNOMON_LANES {
 template <class Tree>
 class leaf_list {
   public:
-    /// How many points side by side in the tree it is for at most.
-    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;
     /// Farther than all that is within reach of all.
     static constexpr float everything = 4.0f;
-    /// How much wider than its reach what it is for should be: beyond, floats tell too little.
+    /// How many times the reach half the diagonal should be at most: beyond, floats tell too
+    /// little.
     static constexpr double widest = 256.0;
 
     /// Precondition: the tree is not empty.
@@ -3428,7 +3433,7 @@ class leaf_list {
 
     /// Makes it a list for the points at some places of one group, and an empty one.
     void enclose(std::span<const std::size_t> places) {
-        group_ = places.front() / group_size;
+        group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
         for (const std::size_t p : places) box_.add(tree_.position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
@@ -3436,7 +3441,7 @@ class leaf_list {
     }
 
     /// Half the diagonal of the box of the points that it is for [m].
-    [[nodiscard]] double half() const { return half_; }
+    [[nodiscard]] double half_diagonal() const { return half_; }
 
     /// Lists the leaves within `reach` [m], greater than 0, of that box, and the points' own.
     void extend_to(double reach) {
@@ -3444,8 +3449,8 @@ class leaf_list {
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
         tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
-            if (leaf / leaf_tree::group_size == group_)
-                own_[leaf % leaf_tree::group_size] = listed_;
+            if (leaf / Tree::leaves_per_group == group_)
+                own_[leaf % Tree::leaves_per_group] = listed_;
             list(leaf, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
@@ -3468,9 +3473,9 @@ class leaf_list {
     /// counted as `everything` if it is more.
     [[nodiscard]] std::pair<float, float> doubt_about(double d) const {
         const auto limit = static_cast<float>(std::min<double>(d, everything));
-        // 2^-24 of each coordinate, at most half + d; the sum of squares its own; and squares under
-        // the least normal float. Of the canonical distances: squares under the least normal
-        // double.
+        // Floats are off by 2^-24 of each coordinate, which is at most half + d, and of each sum of
+        // squares, and by squares under the least normal float; canonical distances by squares
+        // under the least normal double.
         const float error = 1e-6f * (static_cast<float>(half_ * scale_) + limit) + 1e-18f +
                             static_cast<float>(1e-161 * scale_);
         const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
@@ -3481,7 +3486,8 @@ class leaf_list {
     /// that the list is for, but not of that itself. The limit is a squared distance.
     /// @return how many
     std::size_t collect(std::size_t p, float limit) {
-        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
+        const std::size_t own = own_[p % Tree::points_per_group / lane_count];
+        const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
         float* const distance = distance_[0].at;
@@ -3583,18 +3589,18 @@ class leaf_list {
     double diagonal_;  // of all [m]
     std::size_t group_ = 0;
     leaf_box box_{};
-    std::array<double, 3> origin_{};  // its middle
-    double half_ = 0.0;
-    double reach_ = 0.0;
-    double scale_ = 1.0;
-    std::size_t listed_ = 0;
-    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
-    std::vector<lane_boxes> boxes_;
-    std::vector<lane_points> points_;
-    std::vector<std::uint32_t> starts_;
-    std::size_t candidates_ = 0;
-    std::vector<lanes> distance_;
-    std::vector<std::uint32_t> candidate_;
+    std::array<double, 3> origin_{};                         // its middle
+    double half_ = 0.0;                                      // of its diagonal [m]
+    double reach_ = 0.0;                                     // [m]
+    double scale_ = 1.0;                                     // [1/m]
+    std::size_t listed_ = 0;                                 // how many leaves
+    std::array<std::size_t, Tree::leaves_per_group> own_{};  // where the group's leaves are listed
+    std::vector<lane_boxes> boxes_;                          // of the leaves, 32 in each
+    std::vector<lane_points> points_;                        // of each leaf
+    std::vector<std::uint32_t> starts_;                      // their first places
+    std::size_t candidates_ = 0;                             // how many points
+    std::vector<lanes> distance_;                            // squared ones of the candidates
+    std::vector<std::uint32_t> candidate_;                   // their places
 };
 
 }  // namespace GNOMON_LANES
@@ -3608,11 +3614,11 @@ class leaf_list {
 /// what follows is done 32 points at a time:
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the points before)? Half as many points again as needed pass.
+///     bit more than that of the points before)? About twice as many points as needed pass.
 ///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
 ///     evenly spread in their squares, so interpolation finds it in three or four counts.
 ///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
-///     distances, all that passed are sorted by their canonical distances in double.
+///     distances, those in doubt are told apart by their canonical distances in double.
 ///
 /// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
 /// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
@@ -3643,18 +3649,18 @@ class leaf_search {
     /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
-        const std::size_t first = group * list_.group_size;
-        const std::size_t last = std::min(first + list_.group_size, tree_.size());
+        const std::size_t first = group * Tree::points_per_group;
+        const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
         for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
         list_.enclose(waiting_);
         // The box of the group, with its diagonal, holds that many neighbors of each.
-        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half());
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
         reached_.clear();
-        if (list_.half() <= list_.widest * reach_ || !(reach_ > 0.0)) {
+        if (list_.half_diagonal() <= list_.widest * reach_ || !(reach_ > 0.0)) {
             find_waiting(visit);
         } else {
-            // As where it holds a stray.
+            // Far apart for what is near them, as where the group holds a stray: one by one.
             for (std::size_t p = first; p < last; ++p) {
                 waiting_.assign(1, p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
@@ -3673,7 +3679,8 @@ class leaf_search {
     template <class Visit>
     void find_waiting(Visit&& visit) {
         if (!(reach_ > 0.0))
-            reach_ = list_.half() > 0.0 ? list_.half() : std::numeric_limits<double>::infinity();
+            reach_ = list_.half_diagonal() > 0.0 ? list_.half_diagonal()
+                                                 : std::numeric_limits<double>::infinity();
         for (;;) {
             list_.extend_to(std::min(reach_, radius_));
             const bool complete = list_.complete() || list_.reach() >= radius_;
@@ -3825,19 +3832,17 @@ class leaf_search {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
-/// `stride`: the ways with zeros.
+/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
+/// offsets with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = pack::size;
-
     [[nodiscard]] std::size_t size() const { return count_; }
-    /// Coordinate `axis` of the ways from the point to them [m].
-    [[nodiscard]] const double* way(std::size_t axis) const {
+    /// Coordinate `axis` of their offsets from the point [m].
+    [[nodiscard]] const double* offset(std::size_t axis) const {
         return numbers_.data() + axis * capacity_;
     }
     /// Canonical squared distances [m^2].
-    [[nodiscard]] const double* squared_distance() const { return way(3); }
+    [[nodiscard]] const double* squared_distance() const { return offset(3); }
     [[nodiscard]] const point_index* index() const { return index_.data(); }
 
     /// Of them about the point.
@@ -3845,7 +3850,7 @@ class found_neighbors {
         pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
         pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
         for (std::size_t j = 0; j < filled(); j += pack::size) {
-            const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
+            const pack x(offset(0) + j), y(offset(1) + j), z(offset(2) + j);
             x_sum += x;
             y_sum += y;
             z_sum += z;
@@ -3894,21 +3899,21 @@ class found_neighbors {
         const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
         const point_index* all_indices = tree.index();
         const double px = all_x[from], py = all_y[from], pz = all_z[from];
-        double* way_x = numbers_.data();
-        double* way_y = way_x + capacity_;
-        double* way_z = way_y + capacity_;
+        double* offset_x = numbers_.data();
+        double* offset_y = offset_x + capacity_;
+        double* offset_z = offset_y + capacity_;
         point_index* index = index_.data();
         for (std::size_t j = 0; j < count_; ++j) {
             const std::size_t at = places[j];
-            way_x[j] = all_x[at] - px;
-            way_y[j] = all_y[at] - py;
-            way_z[j] = all_z[at] - pz;
+            offset_x[j] = all_x[at] - px;
+            offset_y[j] = all_y[at] - py;
+            offset_z[j] = all_z[at] - pz;
             index[j] = all_indices[at];
         }
-        const double *x = way(0), *y = way(1), *z = way(2);
-        for (std::size_t j = 0; j < filled(); j += stride) {
-            std::array<double, stride> d2;
-            for (std::size_t l = 0; l < stride; ++l)
+        const double *x = offset(0), *y = offset(1), *z = offset(2);
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
+            std::array<double, pack::size> d2;
+            for (std::size_t l = 0; l < pack::size; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
             std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
@@ -3951,7 +3956,9 @@ class found_neighbors {
                       numbers_.data() + a * capacity_ + filled(), 0.0);
     }
 
-    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+    [[nodiscard]] std::size_t filled() const {
+        return (count_ + pack::size - 1) / pack::size * pack::size;
+    }
 
     std::size_t count_ = 0;
     std::size_t capacity_ = 0;
@@ -4040,7 +4047,7 @@ struct seen_rings {
         std::vector<point_index> points, indices;  // the rings of these, one after the other
     };
 
-    std::vector<std::uint64_t> size_before;  // of the ring of each point, at the place after
+    std::vector<std::uint64_t> size_before;  // at i + 1 is the size of the ring of point i
     std::vector<part> parts = {};
     std::mutex guard = {};
 };
@@ -4171,7 +4178,7 @@ namespace gnomon {
 
 /// What finds them. The result is the same.
 enum class knn_backend : bool {
-    leaves,    ///< all points of a leaf at once, see detail/leaf_search.hpp
+    leaves,    ///< many points at once, see detail/leaf_search.hpp
     nanoflann  ///< one point after the other
 };
 
@@ -4193,8 +4200,8 @@ struct knn {
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
     /// with a visitor that make_visitor() gives.
-    /// @return whether it did: not with the other backend, or where so many
-    ///         points coincide that one point after the other is faster
+    /// @return whether it did: not with the other backend, or where so many points coincide that
+    ///         one point after the other is faster
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X, class Proj>
         requires point_range<R, Proj>
@@ -4256,8 +4263,8 @@ class leaf_balls {
     /// number `group` whose radius is not negative. The radius itself is within.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
-        const std::size_t begin = group * list_.group_size;
-        const std::size_t end = std::min(begin + list_.group_size, tree_.size());
+        const std::size_t begin = group * Tree::points_per_group;
+        const std::size_t end = std::min(begin + Tree::points_per_group, tree_.size());
         balls_.clear();
         for (std::size_t p = begin; p < end; ++p) {
             const double radius = radius_of_(tree_.index()[p]);
@@ -4295,7 +4302,7 @@ class leaf_balls {
     /// enclosed.
     bool is_compact(std::span<const ball> balls) {
         enclose(balls);
-        return list_.half() <= list_.widest * balls.back().radius;
+        return list_.half_diagonal() <= list_.widest * balls.back().radius;
     }
 
     std::span<const std::uint32_t> within(const ball& b) {
@@ -4331,6 +4338,7 @@ struct radius {
     double r = 0.05;  ///< [m], finite and not negative
 
     /// The stored graph. Its size is n times the mean number of neighbors: mind dense clouds.
+    /// O(n (log n + m log m)) for m neighbors of each.
     /// @throws std::invalid_argument  if r is negative, infinite or NaN
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -4939,8 +4947,8 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     return surface;
 }
 
-/// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
-/// the policy streams.
+/// The same from a neighborhood policy. Nothing is stored if the policy streams: searched and
+/// estimated point by point, or, if it sweeps, many points at once.
 /// @throws std::invalid_argument  if the policy's parameters are out of range, e.g. k = 0
 /// Complexity: one search and one call of the estimator per point.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
@@ -8228,10 +8236,11 @@ namespace detail {
 // -------- gnomon/segmentation/detail/link_within.hpp ---------------------------------------------
 
 /// @file
-/// The loop that Alg. 4.1, its oriented variant and Alg. 4.2 share: step through the points and
-/// join each with those neighbors within its search radius that a criterion accepts. What joins is
-/// kept by union-find, so that segments are the connected components of the relation "either point
-/// accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1 and 4.2).
+/// The loop that Alg. 4.2, Alg. 4.1 with normals and the greedy variants share: step through the
+/// points and join each with those neighbors within its search radius that a criterion accepts.
+/// What joins is kept by union-find, so that segments are the connected components of the relation
+/// "either point accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1
+/// and 4.2). Where the radius alone decides, components_within.hpp looks at less.
 
 namespace gnomon::detail {
 
@@ -8267,13 +8276,15 @@ class linker {
     /// result depends on the order of the points, so it runs on one thread.
     void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
         std::vector<bool> has_segment(points_.size(), false);
-        const auto link_and_mark = [&](std::size_t i, const neighbor& q) {
-            if (!link(i, q)) return false;
-            has_segment[q.index] = true;
-            return true;
-        };
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (!has_segment[i]) link_one(tree, i, radius_of(i), link_and_mark);
+            const Eigen::Vector3d p = points_[i];
+            const double radius = has_segment[i] ? no_search : radius_of(i);
+            if (!is_finite(p) || !(radius >= 0.0)) continue;
+            tree.for_each_within(p, radius, [&](const neighbor& q) {
+                if (q.index == i || !link(i, q)) return;
+                has_segment[q.index] = true;
+                sets_.unite(static_cast<point_index>(i), q.index);
+            });
         }
     }
 
@@ -8303,14 +8314,6 @@ class linker {
     }
 
   private:
-    void link_one(const kd_tree& tree, std::size_t i, double radius, auto&& link) {
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p) || !(radius >= 0.0)) return;
-        tree.for_each_within(p, radius, [&](const neighbor& q) {
-            if (q.index != i && link(i, q)) sets_.unite(static_cast<point_index>(i), q.index);
-        });
-    }
-
     const Points& points_;
     union_find sets_;
 };
@@ -8460,7 +8463,7 @@ class component_walk {
     /// below which square [m^2] that is no longer a matter of proportion.
     static constexpr double margin = 1e-12, least = 1e-290;
 
-    /// Into parts for the threads.
+    /// Cuts a subtree into parts for the threads.
     void cut(const subtree& t) {
         constexpr std::size_t enough = 64;
         if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
@@ -8625,7 +8628,8 @@ class component_walk {
 
 /// The connected components of the finite points, where points at most `radius` [m] apart are
 /// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
-/// are hardly farther than the radius from many of another component.
+/// are hardly farther than the radius from many of another component. Precondition: the radius is
+/// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
     const leaf_tree tree(points, run);
@@ -9030,7 +9034,7 @@ class smooth_link {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
 ///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: one kd-tree and n radius searches, several points at once. The same bytes for every
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
 /// execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -9045,9 +9049,9 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 }
 
 /// The same over a stored graph: no second search, and of the points within the radius only those
-/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was
-/// estimated from it differs from the exact one only at points repaired from a wider neighborhood,
-/// and where more neighbors tie than the graph lists.
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
+/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
+/// neighbors tie than the graph lists.
 /// @throws std::invalid_argument  also if graph and points differ in size
 template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
           class Proj = std::identity>

@@ -4,7 +4,9 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <functional>
 #include <set>
 #include <vector>
 
@@ -12,6 +14,7 @@
 
 #include "laws/clouds.hpp"
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace laws {
@@ -65,6 +68,30 @@ void both_doors_agree(const N& policy, const clouds::cloud& points) {
     }
 }
 
+/// A sweep, where there is one, shows each finite point once, with the ring of the search and what
+/// follows from it.
+template <class N>
+void sweep_agrees(const N& policy, const clouds::cloud& points) {
+    static_assert(gnomon::sweeping_neighborhood<N, clouds::cloud>);
+    const auto search = policy.search(points);
+    std::vector<std::size_t> visits(points.size(), 0);
+    std::vector<gnomon::neighbor> ring, expected;
+    const auto visit = [&](std::size_t i, const auto& found) {
+        ++visits[i];
+        search(i, expected);
+        found.sort_into(ring);
+        EXPECT_EQ(ring, expected) << "point " << i;
+        EXPECT_EQ(found.moments_about_point().count, expected.size());
+        double distance = 0.0;
+        for (const gnomon::neighbor& q : expected)
+            distance += std::sqrt(q.squared_distance) / static_cast<double>(expected.size());
+        EXPECT_NEAR(found.mean_distance(), distance, 1e-12 * distance);
+    };
+    if (!policy.sweep(points, gnomon::sequential{}, std::identity{}, [&] { return visit; })) return;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        ASSERT_EQ(visits[i], gnomon::is_finite(points[i]) ? 1u : 0u);
+}
+
 /// Nearest first, ties by index: what policies without an order of their own promise.
 template <class N>
 void rings_are_in_canonical_order(const N& policy, const clouds::cloud& points) {
@@ -82,6 +109,7 @@ void neighborhood_laws(const N& policy, const clouds::cloud& points) {
     graph_depends_on_points_alone(policy, points);
     if constexpr (gnomon::streaming_neighborhood<N, clouds::cloud>)
         both_doors_agree(policy, points);
+    if constexpr (gnomon::sweeping_neighborhood<N, clouds::cloud>) sweep_agrees(policy, points);
 }
 
 }  // namespace laws

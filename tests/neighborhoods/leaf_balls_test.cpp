@@ -2,7 +2,11 @@
 /// What leaves find within radii is what nanoflann finds one by one. Compiled once more for each
 /// set of instructions, see tests/CMakeLists.txt.
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -13,6 +17,7 @@
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/hybrid.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 
 namespace {

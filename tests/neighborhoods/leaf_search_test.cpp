@@ -2,6 +2,8 @@
 /// The neighbors that leaves find for all points at once are those that nanoflann finds one by one.
 /// Compiled once more for each set of instructions, see tests/CMakeLists.txt.
 #include <algorithm>
+#include <cstddef>
+#include <functional>
 #include <string>
 #include <vector>
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
+#include <array>
+#include <cstddef>
 #include <set>
 #include <vector>
 
@@ -15,10 +17,6 @@ using gnomon::detail::leaf_box, gnomon::detail::leaf_tree;
 
 leaf_tree tree_of(const clouds::cloud& points) {
     return {gnomon::position_view<clouds::cloud>(points), gnomon::sequential{}};
-}
-
-std::array<double, 3> position(const leaf_tree& tree, std::size_t place) {
-    return {tree.at(0)[place], tree.at(1)[place], tree.at(2)[place]};
 }
 
 std::size_t end_of(const leaf_tree& tree, std::size_t leaf) {
@@ -43,7 +41,7 @@ TEST(leaf_tree, holds_every_finite_point_once) {
             EXPECT_EQ(held.contains(i), gnomon::is_finite(points[i]));
         for (std::size_t at = 0; at < tree.size(); ++at) {
             const Eigen::Vector3d& p = points[tree.index()[at]];
-            ASSERT_EQ(position(tree, at), (std::array{p[0], p[1], p[2]}));
+            ASSERT_EQ(tree.position(at), (std::array{p[0], p[1], p[2]}));
         }
     }
 }
@@ -56,8 +54,8 @@ TEST(leaf_tree, gives_all_leaves_near_a_box) {
         std::vector<leaf_box> boxes;
         for (std::size_t leaf = 0; leaf < tree.leaves(); ++leaf) {
             const std::size_t first = leaf * leaf_tree::leaf_size;
-            leaf_box box{position(tree, first), position(tree, first)};
-            for (std::size_t at = first; at < end_of(tree, leaf); ++at) box.add(position(tree, at));
+            leaf_box box{tree.position(first), tree.position(first)};
+            for (std::size_t at = first; at < end_of(tree, leaf); ++at) box.add(tree.position(at));
             boxes.push_back(box);
         }
         for (std::size_t leaf = 0; leaf < tree.leaves(); leaf += 7) {
@@ -80,8 +78,8 @@ TEST(leaf_tree, gives_all_leaves_near_a_box) {
 /// @return the next in preorder
 std::size_t walk(const leaf_tree& tree, const leaf_tree::subtree& t) {
     const std::size_t first = t.first * leaf_tree::leaf_size;
-    leaf_box box{position(tree, first), position(tree, first)};
-    for (std::size_t at = first; at < end_of(tree, t.last - 1); ++at) box.add(position(tree, at));
+    leaf_box box{tree.position(first), tree.position(first)};
+    for (std::size_t at = first; at < end_of(tree, t.last - 1); ++at) box.add(tree.position(at));
     EXPECT_TRUE(tree.box(t).low == box.low && tree.box(t).high == box.high);
     if (t.is_leaf()) return t.node + 1;
     const auto [left, right] = t.children();

@@ -33,6 +33,10 @@ struct scan_line {
 
 static_assert(gnomon::streaming_neighborhood<gnomon::knn, clouds::cloud>);
 static_assert(gnomon::streaming_neighborhood<gnomon::radius, clouds::cloud>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::knn, clouds::cloud>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::radius, clouds::cloud>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::hybrid, clouds::cloud>);
+static_assert(!gnomon::sweeping_neighborhood<gnomon::delaunay, clouds::cloud>);
 static_assert(gnomon::neighborhood<scan_line, clouds::cloud>);
 static_assert(!gnomon::streaming_neighborhood<scan_line, clouds::cloud>);
 static_assert(!gnomon::neighborhood<int, clouds::cloud>);

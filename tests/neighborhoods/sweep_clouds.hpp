@@ -11,7 +11,7 @@
 
 namespace clouds {
 
-/// points[i] = make(random) for n points.
+/// make(i, random) for each i < n.
 inline cloud cloud_of(std::size_t n, auto&& make) {
     gnomon::random_stream random(n);
     cloud points;

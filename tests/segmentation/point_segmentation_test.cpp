@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+/// Compiled once more for each set of instructions, see tests/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>

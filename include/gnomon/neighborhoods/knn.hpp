@@ -24,7 +24,7 @@ namespace gnomon {
 
 /// What finds them. The result is the same.
 enum class knn_backend : bool {
-    leaves,    ///< all points of a leaf at once, see detail/leaf_search.hpp
+    leaves,    ///< many points at once, see detail/leaf_search.hpp
     nanoflann  ///< one point after the other
 };
 
@@ -46,8 +46,8 @@ struct knn {
 
     /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
     /// with a visitor that make_visitor() gives.
-    /// @return whether it did: not with the other backend, or where so many
-    ///         points coincide that one point after the other is faster
+    /// @return whether it did: not with the other backend, or where so many points coincide that
+    ///         one point after the other is faster
     /// @throws std::invalid_argument  if k is 0
     template <class R, execution X, class Proj>
         requires point_range<R, Proj>

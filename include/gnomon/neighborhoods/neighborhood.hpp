@@ -6,15 +6,16 @@
 /// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
 /// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
 /// none; a *sweeping* one has a third, `sweep`, that finds all rings in whatever order is fastest.
-/// All doors give the same rings. Some graphs know more of a ring than its members, e.g.
-/// that it ends at a boundary: they say so in a `ring_note`.
+/// All doors give the same rings. Some graphs know more of a ring than its members, e.g. that it
+/// ends at a boundary: they say so in a `ring_note`.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
 /// are valid and not repeated; a point that is not finite has no neighbors and is nobody's; the
-/// graph is the same bytes for every execution; both doors agree.
+/// graph is the same bytes for every execution; all doors agree.
 ///
-/// Models: `knn`, `radius`, `hybrid`, `adaptive_knn`, `delaunay`, `sorted_around`; graphs:
-/// `adjacency`, and any std::vector<std::vector<point_index>>.
+/// Models: `knn`, `radius` and `hybrid`, which have all three doors; `adaptive_knn`, `delaunay` and
+/// `sorted_around`, which have the first two; graphs: `adjacency`, and any
+/// std::vector<std::vector<point_index>>.
 #pragma once
 
 #include <algorithm>

@@ -30,6 +30,7 @@ struct radius {
     double r = 0.05;  ///< [m], finite and not negative
 
     /// The stored graph. Its size is n times the mean number of neighbors: mind dense clouds.
+    /// O(n (log n + m log m)) for m neighbors of each.
     /// @throws std::invalid_argument  if r is negative, infinite or NaN
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

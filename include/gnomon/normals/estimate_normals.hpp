@@ -243,8 +243,8 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
     return surface;
 }
 
-/// The same from a neighborhood policy: searched and estimated point by point, nothing stored if
-/// the policy streams.
+/// The same from a neighborhood policy. Nothing is stored if the policy streams: searched and
+/// estimated point by point, or, if it sweeps, many points at once.
 /// @throws std::invalid_argument  if the policy's parameters are out of range, e.g. k = 0
 /// Complexity: one search and one call of the estimator per point.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>

@@ -91,7 +91,7 @@ class smooth_link {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
 ///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: one kd-tree and n radius searches, several points at once. The same bytes for every
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
 /// execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -106,9 +106,9 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 }
 
 /// The same over a stored graph: no second search, and of the points within the radius only those
-/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was
-/// estimated from it differs from the exact one only at points repaired from a wider neighborhood,
-/// and where more neighbors tie than the graph lists.
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
+/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
+/// neighbors tie than the graph lists.
 /// @throws std::invalid_argument  also if graph and points differ in size
 template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
           class Proj = std::identity>

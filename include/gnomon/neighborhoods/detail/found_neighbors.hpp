@@ -21,19 +21,17 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to a multiple of
-/// `stride`: the ways with zeros.
+/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
+/// offsets with zeros.
 class found_neighbors {
   public:
-    static constexpr std::size_t stride = pack::size;
-
     [[nodiscard]] std::size_t size() const { return count_; }
-    /// Coordinate `axis` of the ways from the point to them [m].
-    [[nodiscard]] const double* way(std::size_t axis) const {
+    /// Coordinate `axis` of their offsets from the point [m].
+    [[nodiscard]] const double* offset(std::size_t axis) const {
         return numbers_.data() + axis * capacity_;
     }
     /// Canonical squared distances [m^2].
-    [[nodiscard]] const double* squared_distance() const { return way(3); }
+    [[nodiscard]] const double* squared_distance() const { return offset(3); }
     [[nodiscard]] const point_index* index() const { return index_.data(); }
 
     /// Of them about the point.
@@ -41,7 +39,7 @@ class found_neighbors {
         pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
         pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
         for (std::size_t j = 0; j < filled(); j += pack::size) {
-            const pack x(way(0) + j), y(way(1) + j), z(way(2) + j);
+            const pack x(offset(0) + j), y(offset(1) + j), z(offset(2) + j);
             x_sum += x;
             y_sum += y;
             z_sum += z;
@@ -90,21 +88,21 @@ class found_neighbors {
         const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
         const point_index* all_indices = tree.index();
         const double px = all_x[from], py = all_y[from], pz = all_z[from];
-        double* way_x = numbers_.data();
-        double* way_y = way_x + capacity_;
-        double* way_z = way_y + capacity_;
+        double* offset_x = numbers_.data();
+        double* offset_y = offset_x + capacity_;
+        double* offset_z = offset_y + capacity_;
         point_index* index = index_.data();
         for (std::size_t j = 0; j < count_; ++j) {
             const std::size_t at = places[j];
-            way_x[j] = all_x[at] - px;
-            way_y[j] = all_y[at] - py;
-            way_z[j] = all_z[at] - pz;
+            offset_x[j] = all_x[at] - px;
+            offset_y[j] = all_y[at] - py;
+            offset_z[j] = all_z[at] - pz;
             index[j] = all_indices[at];
         }
-        const double *x = way(0), *y = way(1), *z = way(2);
-        for (std::size_t j = 0; j < filled(); j += stride) {
-            std::array<double, stride> d2;
-            for (std::size_t l = 0; l < stride; ++l)
+        const double *x = offset(0), *y = offset(1), *z = offset(2);
+        for (std::size_t j = 0; j < filled(); j += pack::size) {
+            std::array<double, pack::size> d2;
+            for (std::size_t l = 0; l < pack::size; ++l)
                 d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
             std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
@@ -147,7 +145,9 @@ class found_neighbors {
                       numbers_.data() + a * capacity_ + filled(), 0.0);
     }
 
-    [[nodiscard]] std::size_t filled() const { return (count_ + stride - 1) / stride * stride; }
+    [[nodiscard]] std::size_t filled() const {
+        return (count_ + pack::size - 1) / pack::size * pack::size;
+    }
 
     std::size_t count_ = 0;
     std::size_t capacity_ = 0;

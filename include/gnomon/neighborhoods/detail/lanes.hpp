@@ -77,7 +77,7 @@ inline constexpr auto members_table = [] {
 #endif
 
 /// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to 32
-/// in all, may be overwritten.
+/// in all, may be overwritten; `out` may be `numbers`, or before.
 /// @return the end of what was written
 [[gnu::always_inline]] inline std::uint32_t* compress(const std::uint32_t* numbers,
                                                       std::uint32_t bits, std::uint32_t* out) {

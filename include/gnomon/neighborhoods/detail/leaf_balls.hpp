@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
@@ -34,8 +34,8 @@ class leaf_balls {
     /// number `group` whose radius is not negative. The radius itself is within.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
-        const std::size_t begin = group * list_.group_size;
-        const std::size_t end = std::min(begin + list_.group_size, tree_.size());
+        const std::size_t begin = group * Tree::points_per_group;
+        const std::size_t end = std::min(begin + Tree::points_per_group, tree_.size());
         balls_.clear();
         for (std::size_t p = begin; p < end; ++p) {
             const double radius = radius_of_(tree_.index()[p]);
@@ -73,7 +73,7 @@ class leaf_balls {
     /// enclosed.
     bool is_compact(std::span<const ball> balls) {
         enclose(balls);
-        return list_.half() <= list_.widest * balls.back().radius;
+        return list_.half_diagonal() <= list_.widest * balls.back().radius;
     }
 
     std::span<const std::uint32_t> within(const ball& b) {

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
@@ -28,11 +29,10 @@ inline namespace GNOMON_LANES {
 template <class Tree>
 class leaf_list {
   public:
-    /// How many points side by side in the tree it is for at most.
-    static constexpr std::size_t group_size = leaf_tree::group_size * lane_count;
     /// Farther than all that is within reach of all.
     static constexpr float everything = 4.0f;
-    /// How much wider than its reach what it is for should be: beyond, floats tell too little.
+    /// How many times the reach half the diagonal should be at most: beyond, floats tell too
+    /// little.
     static constexpr double widest = 256.0;
 
     /// Precondition: the tree is not empty.
@@ -41,7 +41,7 @@ class leaf_list {
 
     /// Makes it a list for the points at some places of one group, and an empty one.
     void enclose(std::span<const std::size_t> places) {
-        group_ = places.front() / group_size;
+        group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
         for (const std::size_t p : places) box_.add(tree_.position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
@@ -49,7 +49,7 @@ class leaf_list {
     }
 
     /// Half the diagonal of the box of the points that it is for [m].
-    [[nodiscard]] double half() const { return half_; }
+    [[nodiscard]] double half_diagonal() const { return half_; }
 
     /// Lists the leaves within `reach` [m], greater than 0, of that box, and the points' own.
     void extend_to(double reach) {
@@ -57,8 +57,8 @@ class leaf_list {
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
         listed_ = 0;
         tree_.for_each_leaf_near(box_, reach_, [&](std::size_t leaf, const leaf_box& b) {
-            if (leaf / leaf_tree::group_size == group_)
-                own_[leaf % leaf_tree::group_size] = listed_;
+            if (leaf / Tree::leaves_per_group == group_)
+                own_[leaf % Tree::leaves_per_group] = listed_;
             list(leaf, b);
         });
         for (std::size_t l = listed_; l % lane_count != 0; ++l)
@@ -81,9 +81,9 @@ class leaf_list {
     /// counted as `everything` if it is more.
     [[nodiscard]] std::pair<float, float> doubt_about(double d) const {
         const auto limit = static_cast<float>(std::min<double>(d, everything));
-        // 2^-24 of each coordinate, at most half + d; the sum of squares its own; and squares under
-        // the least normal float. Of the canonical distances: squares under the least normal
-        // double.
+        // Floats are off by 2^-24 of each coordinate, which is at most half + d, and of each sum of
+        // squares, and by squares under the least normal float; canonical distances by squares
+        // under the least normal double.
         const float error = 1e-6f * (static_cast<float>(half_ * scale_) + limit) + 1e-18f +
                             static_cast<float>(1e-161 * scale_);
         const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
@@ -94,7 +94,8 @@ class leaf_list {
     /// that the list is for, but not of that itself. The limit is a squared distance.
     /// @return how many
     std::size_t collect(std::size_t p, float limit) {
-        const std::size_t own = own_[p % group_size / lane_count], lane = p % lane_count;
+        const std::size_t own = own_[p % Tree::points_per_group / lane_count];
+        const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
         const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
         float* const distance = distance_[0].at;
@@ -196,18 +197,18 @@ class leaf_list {
     double diagonal_;  // of all [m]
     std::size_t group_ = 0;
     leaf_box box_{};
-    std::array<double, 3> origin_{};  // its middle
-    double half_ = 0.0;
-    double reach_ = 0.0;
-    double scale_ = 1.0;
-    std::size_t listed_ = 0;
-    std::array<std::size_t, leaf_tree::group_size> own_{};  // where the group's leaves are listed
-    std::vector<lane_boxes> boxes_;
-    std::vector<lane_points> points_;
-    std::vector<std::uint32_t> starts_;
-    std::size_t candidates_ = 0;
-    std::vector<lanes> distance_;
-    std::vector<std::uint32_t> candidate_;
+    std::array<double, 3> origin_{};                         // its middle
+    double half_ = 0.0;                                      // of its diagonal [m]
+    double reach_ = 0.0;                                     // [m]
+    double scale_ = 1.0;                                     // [1/m]
+    std::size_t listed_ = 0;                                 // how many leaves
+    std::array<std::size_t, Tree::leaves_per_group> own_{};  // where the group's leaves are listed
+    std::vector<lane_boxes> boxes_;                          // of the leaves, 32 in each
+    std::vector<lane_points> points_;                        // of each leaf
+    std::vector<std::uint32_t> starts_;                      // their first places
+    std::size_t candidates_ = 0;                             // how many points
+    std::vector<lanes> distance_;                            // squared ones of the candidates
+    std::vector<std::uint32_t> candidate_;                   // their places
 };
 
 }  // namespace GNOMON_LANES

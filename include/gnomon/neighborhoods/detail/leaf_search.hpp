@@ -5,11 +5,11 @@
 /// what follows is done 32 points at a time:
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the points before)? Half as many points again as needed pass.
+///     bit more than that of the points before)? About twice as many points as needed pass.
 ///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
 ///     evenly spread in their squares, so interpolation finds it in three or four counts.
 ///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
-///     distances, all that passed are sorted by their canonical distances in double.
+///     distances, those in doubt are told apart by their canonical distances in double.
 ///
 /// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
 /// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
@@ -19,12 +19,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <span>
 #include <utility>
 #include <vector>
 
-#include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -55,18 +56,18 @@ class leaf_search {
     /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
-        const std::size_t first = group * list_.group_size;
-        const std::size_t last = std::min(first + list_.group_size, tree_.size());
+        const std::size_t first = group * Tree::points_per_group;
+        const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
         for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
         list_.enclose(waiting_);
         // The box of the group, with its diagonal, holds that many neighbors of each.
-        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half());
+        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
         reached_.clear();
-        if (list_.half() <= list_.widest * reach_ || !(reach_ > 0.0)) {
+        if (list_.half_diagonal() <= list_.widest * reach_ || !(reach_ > 0.0)) {
             find_waiting(visit);
         } else {
-            // As where it holds a stray.
+            // Far apart for what is near them, as where the group holds a stray: one by one.
             for (std::size_t p = first; p < last; ++p) {
                 waiting_.assign(1, p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
@@ -85,7 +86,8 @@ class leaf_search {
     template <class Visit>
     void find_waiting(Visit&& visit) {
         if (!(reach_ > 0.0))
-            reach_ = list_.half() > 0.0 ? list_.half() : std::numeric_limits<double>::infinity();
+            reach_ = list_.half_diagonal() > 0.0 ? list_.half_diagonal()
+                                                 : std::numeric_limits<double>::infinity();
         for (;;) {
             list_.extend_to(std::min(reach_, radius_));
             const bool complete = list_.complete() || list_.reach() >= radius_;

@@ -10,9 +10,9 @@
 #include <span>
 #include <utility>
 
+#include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
-#include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
 namespace gnomon::detail {

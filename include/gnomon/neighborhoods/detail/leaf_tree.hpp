@@ -49,8 +49,9 @@ struct leaf_box {
 class leaf_tree {
   public:
     static constexpr std::size_t leaf_size = lane_count;
-    /// Leaves 4 g to 4 g + 3 are a subtree, for every g.
-    static constexpr std::size_t group_size = 4;
+    /// Leaves 4 g to 4 g + 3 are a subtree, the group number g.
+    static constexpr std::size_t leaves_per_group = 4;
+    static constexpr std::size_t points_per_group = leaves_per_group * leaf_size;
 
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
@@ -80,6 +81,9 @@ class leaf_tree {
     /// The number of finite points.
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] std::size_t leaves() const { return leaves_; }
+    [[nodiscard]] std::size_t groups() const {
+        return (leaves_ + leaves_per_group - 1) / leaves_per_group;
+    }
     /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
     [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
@@ -87,12 +91,11 @@ class leaf_tree {
     [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
         return {at_[0][place], at_[1][place], at_[2][place]};
     }
-    /// The canonical one of the points at two places [m^2].
+    /// The canonical squared distance of the points at two places [m^2].
     [[nodiscard]] double squared_distance(std::size_t p, std::size_t q) const {
         return gnomon::squared_distance({at_[0][p], at_[1][p], at_[2][p]},
                                         {at_[0][q], at_[1][q], at_[2][q]});
     }
-    [[nodiscard]] std::size_t groups() const { return (leaves_ + group_size - 1) / group_size; }
     /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
     /// them then takes too long.
     [[nodiscard]] bool crowded() const { return crowded_; }
@@ -141,8 +144,8 @@ class leaf_tree {
     /// than one.
     [[nodiscard]] static std::size_t middle_of(std::size_t first, std::size_t last) {
         const std::size_t half = (last - first + 1) / 2;
-        if (last - first <= group_size) return first + half;
-        return first + (half + group_size - 1) / group_size * group_size;
+        if (last - first <= leaves_per_group) return first + half;
+        return first + (half + leaves_per_group - 1) / leaves_per_group * leaves_per_group;
     }
 
     struct entry {
@@ -166,6 +169,8 @@ class leaf_tree {
         run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
     }
 
+    /// A subtree on one thread. (This and split() are templates, so that only who builds a tree
+    /// compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -208,8 +213,8 @@ class leaf_tree {
     }
 
     std::size_t size_ = 0;
-    bool crowded_ = false;
     std::size_t leaves_ = 0;
+    bool crowded_ = false;
     std::array<std::vector<double>, 3> at_;
     std::vector<point_index> index_;
     std::vector<leaf_box> boxes_;  // of the nodes, in preorder

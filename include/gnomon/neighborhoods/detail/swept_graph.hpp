@@ -25,7 +25,7 @@ struct seen_rings {
         std::vector<point_index> points, indices;  // the rings of these, one after the other
     };
 
-    std::vector<std::uint64_t> size_before;  // of the ring of each point, at the place after
+    std::vector<std::uint64_t> size_before;  // at i + 1 is the size of the ring of point i
     std::vector<part> parts = {};
     std::mutex guard = {};
 };

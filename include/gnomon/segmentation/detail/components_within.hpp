@@ -62,7 +62,7 @@ class component_walk {
     /// below which square [m^2] that is no longer a matter of proportion.
     static constexpr double margin = 1e-12, least = 1e-290;
 
-    /// Into parts for the threads.
+    /// Cuts a subtree into parts for the threads.
     void cut(const subtree& t) {
         constexpr std::size_t enough = 64;
         if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
@@ -227,7 +227,8 @@ class component_walk {
 
 /// The connected components of the finite points, where points at most `radius` [m] apart are
 /// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
-/// are hardly farther than the radius from many of another component.
+/// are hardly farther than the radius from many of another component. Precondition: the radius is
+/// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
     const leaf_tree tree(points, run);

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The loop that Alg. 4.1, its oriented variant and Alg. 4.2 share: step through the points and
-/// join each with those neighbors within its search radius that a criterion accepts. What joins is
-/// kept by union-find, so that segments are the connected components of the relation "either point
-/// accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1 and 4.2).
+/// The loop that Alg. 4.2, Alg. 4.1 with normals and the greedy variants share: step through the
+/// points and join each with those neighbors within its search radius that a criterion accepts.
+/// What joins is kept by union-find, so that segments are the connected components of the relation
+/// "either point accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1
+/// and 4.2). Where the radius alone decides, components_within.hpp looks at less.
 #pragma once
 
 #include <cstddef>
@@ -60,13 +61,15 @@ class linker {
     /// result depends on the order of the points, so it runs on one thread.
     void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
         std::vector<bool> has_segment(points_.size(), false);
-        const auto link_and_mark = [&](std::size_t i, const neighbor& q) {
-            if (!link(i, q)) return false;
-            has_segment[q.index] = true;
-            return true;
-        };
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (!has_segment[i]) link_one(tree, i, radius_of(i), link_and_mark);
+            const Eigen::Vector3d p = points_[i];
+            const double radius = has_segment[i] ? no_search : radius_of(i);
+            if (!is_finite(p) || !(radius >= 0.0)) continue;
+            tree.for_each_within(p, radius, [&](const neighbor& q) {
+                if (q.index == i || !link(i, q)) return;
+                has_segment[q.index] = true;
+                sets_.unite(static_cast<point_index>(i), q.index);
+            });
         }
     }
 
@@ -96,14 +99,6 @@ class linker {
     }
 
   private:
-    void link_one(const kd_tree& tree, std::size_t i, double radius, auto&& link) {
-        const Eigen::Vector3d p = points_[i];
-        if (!is_finite(p) || !(radius >= 0.0)) return;
-        tree.for_each_within(p, radius, [&](const neighbor& q) {
-            if (q.index != i && link(i, q)) sets_.unite(static_cast<point_index>(i), q.index);
-        });
-    }
-
     const Points& points_;
     union_find sets_;
 };
