@@ -54,8 +54,8 @@ template <class Points>
 /// @param first      indices of the points of one segment
 /// @param second     of the other
 /// @param centroids  of both
-/// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer points
-/// Complexity: O(pairs * (|first| + |second|)).
+/// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
+/// points Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
 [[nodiscard]] std::vector<boundary_pair> boundary_pairs(
     const Points& points, std::span<const point_index> first, std::span<const point_index> second,

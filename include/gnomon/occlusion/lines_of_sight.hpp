@@ -97,11 +97,11 @@ class lines_of_sight {
                             Proj projection = {})
         : sigma_(options.sigma), viewpoints_(viewpoints_of(points)) {
         detail::require(options.sigma >= 0.0, "lines_of_sight: sigma must not be negative or NaN");
-        detail::require(options.pixel.radians() >= 0.0 &&
-                            options.pixel.radians() <= 0.5 * std::numbers::pi,
-                        "lines_of_sight: a pixel has between 0 and 90 degrees");
-        const angle pixel = options.pixel.radians() > 0.0 ? options.pixel
-                                                          : ray_spacing(points, projection);
+        detail::require(
+            options.pixel.radians() >= 0.0 && options.pixel.radians() <= 0.5 * std::numbers::pi,
+            "lines_of_sight: a pixel has between 0 and 90 degrees");
+        const angle pixel =
+            options.pixel.radians() > 0.0 ? options.pixel : ray_spacing(points, projection);
         const auto height =
             static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
         pixel_ = std::numbers::pi / static_cast<double>(height);
@@ -140,7 +140,7 @@ class lines_of_sight {
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place) const {
         sighting_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        sighting most = sighting::nothing;
+        sighting most = sighting::unseen;
         std::size_t votes = 0;
         for (const sighting s : {sighting::farther, sighting::level, sighting::closer}) {
             if (count[s] > votes) {
@@ -180,22 +180,22 @@ class lines_of_sight {
         const double margin = 3.0 * sigma_ + expected * pixel_;
         const auto told_by = [&](const range_image::pixel& at) {
             const double range = image.range(at);
-            if (range < 0.0) return sighting::nothing;
+            if (range < 0.0) return sighting::unseen;
             if (range < expected - margin) return sighting::closer;
             return range > expected + margin ? sighting::farther : sighting::level;
         };
         const range_image::pixel at = image.pixel_of(place);
         const sighting here = told_by(at);
-        if (here != sighting::nothing) return here;
+        if (here != sighting::unseen) return here;
         // Rays are not spaced as evenly as pixels: what all pixels about it tell holds here, too.
-        sighting about = sighting::nothing;
+        sighting about = sighting::unseen;
         for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
              e <= std::min(at.elevation + 1, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - 1;
                  a <= at.azimuth + image.width() + 1; ++a) {
                 const sighting s = told_by({a % image.width(), e});
-                if (s == sighting::nothing) continue;
-                if (about != sighting::nothing && s != about) return sighting::nothing;
+                if (s == sighting::unseen) continue;
+                if (about != sighting::unseen && s != about) return sighting::unseen;
                 about = s;
             }
         }

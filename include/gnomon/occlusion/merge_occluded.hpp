@@ -43,9 +43,9 @@ struct occlusion_merging {
     angle max_angle = degrees(15);  ///< rho_a between coplanar segments
     double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
     double max_gap = 0.20;          ///< rho_c [m]: narrower gaps only stay open if seen through
-    /// Standard deviation of points across a surface [m]: a segment no thicker than twice that is
-    /// flat whatever its variation, and a small one that lies in another's plane as well as that
-    /// lets it may be turned by any angle. 0 for the thesis's thresholds alone.
+    /// Standard deviation of points across a surface [m], greater than 0. What is less flat, or
+    /// less in one plane, than the thresholds want may be so by noise, and what keeps to them by
+    /// less than noise would.
     double sigma = 0.015;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
     /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
@@ -67,15 +67,16 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
-/// surface itself is seen, nothing speaks against it; a line without a place says what nothing says.
+/// Whether a policy accepts a line: more of its places speak for merging than against, and hardly
+/// any is seen through, be there ever so much in front of the others. Where the surface itself is
+/// seen, nothing speaks against it; a line without a place says what nothing says.
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
-    if (seen.total() == 0) return policy(sighting::nothing);
+    if (seen.total() == 0) return policy(sighting::unseen);
     if (10 * seen[sighting::farther] > seen.total()) return false;
     std::size_t in_favor = 0, against = 0;
     for (const sighting s :
-         {sighting::nothing, sighting::closer, sighting::level, sighting::farther}) {
+         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
         if (policy(s))
             in_favor += seen[s];
         else if (s != sighting::level)
@@ -158,8 +159,7 @@ class occlusion_merger {
         std::vector<neighbor> nearest;
         for (std::size_t f = 0; f < flat.size(); ++f) {
             tree.nearest(centroids[f], wanted, f, nearest);
-            for (const neighbor& n : nearest)
-                pairs.push_back(std::minmax(flat[f], flat[n.index]));
+            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
         }
         std::sort(pairs.begin(), pairs.end());
         pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
@@ -170,37 +170,50 @@ class occlusion_merger {
         return principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
     }
 
+    /// A segment no thicker than twice the noise is flat, whatever its variation.
     [[nodiscard]] bool is_flat(const principal_frame& a) const {
         return a.spectrum.surface_variation() <= options_.max_variation ||
-               a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
+               a.spectrum.lambda[2] <= 4.0 * variance();
     }
 
+    /// Whether two segments lie in one plane, that of the wider one, as far as noise lets them
+    /// tell. The normal of one that is hardly wider than noise tells nothing; then its points do.
     [[nodiscard]] bool coplanar(std::size_t i, std::size_t j) const {
-        const principal_frame &a = frames_[i], &b = frames_[j];
-        if (orthogonal_distance(a, b) >= options_.max_offset) return false;
-        const double angle = angular_distance(a, b), allowed = options_.max_angle.radians();
-        if (angle <= allowed) return true;
-        return (lies_in(a, b) && angle <= allowed + 3.0 * deviation_of_normal(i)) ||
-               (lies_in(b, a) && angle <= allowed + 3.0 * deviation_of_normal(j));
+        const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
+        const std::size_t wide = first ? i : j, slim = first ? j : i;
+        const principal_frame &a = frames_[wide], &b = frames_[slim];
+        const double offset =
+            std::abs(detail::dot(a.normal(), detail::difference(b.centroid, a.centroid)));
+        const double by_noise = offset_of_noise(slim, wide);
+        if (by_noise >= options_.max_offset || offset >= by_noise) return false;
+        if (angular_distance(a, b) <= options_.max_angle.radians()) return true;
+        const double wider_than_noise = 9.0 * variance();
+        return a.spectrum.lambda[1] > wider_than_noise &&
+               b.spectrum.lambda[1] <= wider_than_noise &&
+               variance_along(a.normal(), b) <= 2.25 * variance();
     }
 
-    /// Of a segment, by the noise of its points [rad].
-    [[nodiscard]] double deviation_of_normal(std::size_t s) const {
-        const double spread = std::sqrt(frames_[s].spectrum.lambda[1] *
-                                        static_cast<double>(members_[s].size()));
-        return options_.sigma / std::max(spread, options_.sigma);
+    /// How far the centroid of one segment may be from the plane of another by noise [m]: 2.5
+    /// standard deviations of both, and a quarter of one of a point for what is no noise.
+    [[nodiscard]] double offset_of_noise(std::size_t of, std::size_t from) const {
+        const double distance2 = squared_distance(frames_[of].centroid, frames_[from].centroid);
+        const double leverage = distance2 / std::max(frames_[from].spectrum.lambda[1], variance());
+        const double of_centroid = 1.0 / static_cast<double>(members_[of].size());
+        const double of_plane = (1.0 + leverage) / static_cast<double>(members_[from].size());
+        return (2.5 * std::sqrt(of_centroid + of_plane) + 0.25) * options_.sigma;
     }
 
-    /// Whether the points of a are as near to the plane of b as noise allows.
-    [[nodiscard]] bool lies_in(const principal_frame& a, const principal_frame& b) const {
-        const Eigen::Vector3d n = b.normal();
-        const double offset = detail::dot(n, detail::difference(a.centroid, b.centroid));
-        double squared = offset * offset;
+    [[nodiscard]] double variance() const { return options_.sigma * options_.sigma; }
+
+    /// Of the points of a segment [m^2].
+    [[nodiscard]] static double variance_along(const Eigen::Vector3d& direction,
+                                               const principal_frame& a) {
+        double sum = 0.0;
         for (int i = 0; i < 3; ++i) {
-            const double across = detail::dot(n, detail::column(a.axes, i));
-            squared += a.spectrum.lambda[i] * across * across;
+            const double c = detail::dot(direction, detail::column(a.axes, i));
+            sum += a.spectrum.lambda[i] * c * c;
         }
-        return squared <= 4.0 * options_.sigma * options_.sigma;
+        return sum;
     }
 
     /// Whether the lines across a gap are accepted: most of them by the policy, or, where it is
@@ -285,6 +298,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
                         options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
                     "merge_occluded: a threshold is negative or NaN");
+    detail::require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
     return detail::occlusion_merger(points, parts, sights, policy, options,
                                     std::move(projection))();
 }

@@ -14,10 +14,10 @@ namespace gnomon {
 
 /// What was seen towards a place at which a surface is supposed.
 enum class sighting : char {
-    nothing,  ///< no return: black, transparent or far things, or no ray
-    closer,   ///< something in front of it
-    level,    ///< something just there
-    farther   ///< something behind it: the place is empty
+    unseen,  ///< no return: black, transparent or far things, or no ray
+    closer,  ///< something in front of it
+    level,   ///< something just there
+    farther  ///< something behind it: the place is empty
 };
 
 /// Whether a sighting speaks for merging.
