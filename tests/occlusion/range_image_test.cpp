@@ -108,6 +108,8 @@ TEST(range_image, of_any_cloud_holds_its_nearest_returns) {
             expect_nearest_returns(range_image(points, viewpoint, {.width = 24, .height = 12}),
                                    points);
             expect_nearest_returns(range_image(points, viewpoint, {1, 1, up}), points);
+            const Eigen::Vector3d diagonal(1, 1, 1);
+            expect_nearest_returns(range_image(points, viewpoint, {24, 12, diagonal}), points);
         }
     }
     const auto around = all_around(3000, 2);
