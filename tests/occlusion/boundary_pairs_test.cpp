@@ -44,7 +44,8 @@ void expect_brute_force(const clouds::cloud& points, const index_list& first,
     const auto near_first = sorted_from(points, second, mean(points, first));
     std::vector<std::pair<point_index, point_index>> expected;
     for (std::size_t i = 0; i < std::min(pairs / 2, first.size()); ++i)
-        expected.push_back({near_second[i], sorted_from(points, second, points[near_second[i]])[0]});
+        expected.push_back(
+            {near_second[i], sorted_from(points, second, points[near_second[i]])[0]});
     for (std::size_t i = 0; i < std::min(pairs / 2, second.size()); ++i)
         expected.push_back({sorted_from(points, first, points[near_first[i]])[0], near_first[i]});
     const auto found = pairs_of(points, first, second, pairs);
@@ -117,8 +118,8 @@ TEST(boundary_pairs, of_small_segments_are_fewer) {
 
 /// Segments may be of your own making.
 TEST(boundary_pairs, pass_over_points_that_are_not_finite) {
-    const clouds::cloud points{
-        {clouds::nan, 0, 0}, {0, 0, 0}, {1, 0, 0}, {2, clouds::infinity, 0}, {3, 0, 0}, {4, 0, 0}};
+    const clouds::cloud points{{clouds::nan, 0, 0},      {0, 0, 0}, {1, 0, 0},
+                               {2, clouds::infinity, 0}, {3, 0, 0}, {4, 0, 0}};
     const index_list first{0, 1, 2}, second{3, 4, 5};
     const auto found = boundary_pairs(points, std::span(first), std::span(second),
                                       {Eigen::Vector3d(0.5, 0, 0), Eigen::Vector3d(3.5, 0, 0)}, 6);

@@ -134,8 +134,8 @@ TEST(range_image, does_not_see_what_is_in_the_view_point_or_nowhere) {
 /// degrees of some axis (A2): so none of its points crowds about the pole.
 TEST(range_image, turns_its_poles_to_where_least_is_seen) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-        const Eigen::Matrix3d r =
-            seed == 1 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity()) : clouds::random_rotation(seed);
+        const Eigen::Matrix3d r = seed == 1 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
+                                            : clouds::random_rotation(seed);
         clouds::cloud points;
         for (const Eigen::Vector3d& p : all_around(3000, seed))
             if (p.x() > std::sin(0.5) * p.norm()) points.push_back(r * p);
