@@ -14,7 +14,7 @@ namespace {
 
 using gnomon::lines_of_sight, gnomon::sighting, gnomon::sighting_count;
 
-const Eigen::Vector3d origin(0, 0, 0);
+using looks::origin;
 
 TEST(sighting_count, counts_each_kind) {
     sighting_count count;
@@ -124,6 +124,19 @@ TEST(lines_of_sight, between_the_same_ray_has_no_place) {
     EXPECT_EQ(sights.between(origin, origin, origin).total(), 0u);
     // Right through the view point.
     EXPECT_GT(sights.between({3, 0, 0}, {-3, 0, 0}, origin).total(), 100u);
+}
+
+TEST(lines_of_sight, see_nothing_nowhere) {
+    const auto seen = looks::look_at(looks::hidden(), {.spacing = 2.0});
+    const lines_of_sight sights(seen.scan);
+    const Eigen::Vector3d wall(3, 0.5, 0);
+    for (const Eigen::Vector3d& nowhere :
+         {Eigen::Vector3d(clouds::nan, 0, 0), {0, clouds::infinity, 0}, {1e200, -1e300, 1e300}}) {
+        EXPECT_EQ(sights.towards(nowhere), sighting::unseen);
+        EXPECT_EQ(sights.between(nowhere, wall, origin).total(),
+                  sights.between(nowhere, wall, origin)[sighting::unseen]);
+        EXPECT_EQ(sights.between(wall, wall, nowhere).total(), 0u);
+    }
 }
 
 /// The seam of azimuth runs behind the sensor, and here through the gap.

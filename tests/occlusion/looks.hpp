@@ -7,8 +7,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <utility>
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
@@ -20,6 +18,8 @@
 #include <gnomon/simulation/scene.hpp>
 
 namespace looks {
+
+inline const Eigen::Vector3d origin(0, 0, 0);
 
 /// Rays in scan lines from floor to ceiling, one after another from right to left.
 struct eye {

@@ -2,8 +2,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <ostream>
 #include <stdexcept>
-#include <string>
 #include <utility>
 #include <vector>
 
@@ -19,7 +19,7 @@ namespace {
 using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight, gnomon::merge_occluded,
     gnomon::occlusion_merging, gnomon::segments, gnomon::unlabeled;
 
-const Eigen::Vector3d origin(0, 0, 0);
+using looks::origin;
 
 TEST(merge_occluded, has_the_defaults_of_the_thesis) {
     const occlusion_merging options;
@@ -328,8 +328,8 @@ TEST(merge_occluded, refuses_what_makes_no_sense) {
     EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
     EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));
     const segments of_others(std::vector<std::int32_t>(seen.scan.size() + 1, 0));
-    EXPECT_THROW(merge_occluded(seen.scan, of_others, sights), std::invalid_argument);
-    EXPECT_THROW(merge_occluded(seen.scan, segments(), sights), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, of_others, sights), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, segments(), sights), std::invalid_argument);
 }
 
 TEST(merge_occluded, merges_none_of_no_segments) {

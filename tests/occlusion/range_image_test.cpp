@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include "occlusion/looks.hpp"
 #include <gnomon/core/angle.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 
@@ -18,8 +19,9 @@ namespace {
 using gnomon::range_image, gnomon::range_image_format, gnomon::point_index;
 using pixel = range_image::pixel;
 
+using looks::origin;
+
 const Eigen::Vector3d up(0, 0, 1);
-const Eigen::Vector3d origin(0, 0, 0);
 
 Eigen::Vector3d direction(double azimuth, double elevation) {
     return {std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
@@ -39,14 +41,15 @@ clouds::cloud all_around(std::size_t n, std::uint64_t seed) {
 void expect_nearest_returns(const range_image& image, const clouds::cloud& points) {
     std::vector<std::optional<point_index>> nearest(image.width() * image.height());
     for (std::size_t i = 0; i < points.size(); ++i) {
-        if (!gnomon::is_finite(points[i]) || !(image.distance_to(points[i]) > 0.0)) continue;
+        const double distance = image.distance_to(points[i]);
+        if (!std::isfinite(distance) || distance == 0.0) continue;
         const pixel at = image.pixel_of(points[i]);
         ASSERT_LT(at.azimuth, image.width());
         ASSERT_LT(at.elevation, image.height());
         ASSERT_GE(image.range(at), 0.0);
-        EXPECT_LE(image.range(at), image.distance_to(points[i]));
+        EXPECT_LE(image.range(at), distance);
         auto& best = nearest[at.elevation * image.width() + at.azimuth];
-        if (!best || image.distance_to(points[i]) < image.distance_to(points[*best]))
+        if (!best || distance < image.distance_to(points[*best]))
             best = static_cast<point_index>(i);
     }
     for (std::size_t e = 0; e < image.height(); ++e) {
