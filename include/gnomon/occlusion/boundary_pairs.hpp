@@ -29,15 +29,17 @@ struct boundary_pair {
 
 namespace detail {
 
-/// The `count` of some points that are nearest to a place, nearest first.
+/// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
 template <class Points>
 [[nodiscard]] std::vector<neighbor> nearest_of(const Points& points,
                                                std::span<const point_index> some,
                                                const Eigen::Vector3d& place, std::size_t count) {
     std::vector<neighbor> nearest;
+    if (count == 0) return nearest;
     for (const point_index i : some) {
         const neighbor candidate{squared_distance(points[i], place), i};
         if (nearest.size() == count && !(candidate < nearest.back())) continue;
+        if (!is_finite(points[i])) continue;
         if (nearest.size() < count) nearest.emplace_back();
         auto slot = nearest.end() - 1;
         for (; slot != nearest.begin() && candidate < slot[-1]; --slot) *slot = slot[-1];
@@ -55,18 +57,21 @@ template <class Points>
 /// @param second     of the other
 /// @param centroids  of both
 /// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
-/// points Complexity: O(pairs * (|first| + |second|)).
+///                   finite points
+/// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
 [[nodiscard]] std::vector<boundary_pair> boundary_pairs(
     const Points& points, std::span<const point_index> first, std::span<const point_index> second,
     const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
+    const auto near_second = detail::nearest_of(points, first, centroids.second, pairs / 2);
+    const auto near_first = detail::nearest_of(points, second, centroids.first, pairs / 2);
     std::vector<boundary_pair> found;
-    if (first.empty() || second.empty()) return found;
-    for (const neighbor& p : detail::nearest_of(points, first, centroids.second, pairs / 2)) {
+    if (near_second.empty() || near_first.empty()) return found;
+    for (const neighbor& p : near_second) {
         const neighbor q = detail::nearest_of(points, second, points[p.index], 1).front();
         found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
     }
-    for (const neighbor& q : detail::nearest_of(points, second, centroids.first, pairs / 2)) {
+    for (const neighbor& q : near_first) {
         const neighbor p = detail::nearest_of(points, first, points[q.index], 1).front();
         found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
     }

@@ -162,8 +162,9 @@ class lines_of_sight {
             std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
         const double near = std::sqrt(detail::dot(to_p, to_p));
         const double far = std::sqrt(detail::dot(to_q, to_q));
-        const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
         sighting_count count;
+        if (!std::isfinite(angle)) return count;
+        const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
         for (std::size_t s = 1; s < steps; ++s) {
             const double turned = angle * static_cast<double>(s) / static_cast<double>(steps);
             // Where the ray that is turned by so much meets the line, by the law of sines.
@@ -177,6 +178,7 @@ class lines_of_sight {
     /// What one view point has seen there.
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
         const double expected = image.distance_to(place);
+        if (!std::isfinite(expected)) return sighting::unseen;
         const double margin = 3.0 * sigma_ + expected * pixel_;
         const auto told_by = [&](const range_image::pixel& at) {
             const double range = image.range(at);

@@ -47,7 +47,8 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all finite points as seen from the view point [m], but of those in it. O(n).
+    /// The image of all points at a finite distance from the view point [m], but of those in it.
+    /// O(n).
     /// @throws std::invalid_argument  without a pixel, or for a view point or a pole that is not
     ///                                finite, or a pole of no length
     template <class R, class Proj = std::identity>
@@ -83,7 +84,7 @@ class range_image {
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
-    /// the last row.
+    /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
         const std::array<double, 3> d = turned(p);
         const double azimuth = std::atan2(d[1], d[0]) / (2.0 * std::numbers::pi) + 0.5;
@@ -115,7 +116,8 @@ class range_image {
     };
 
     [[nodiscard]] bool is_visible(const Eigen::Vector3d& p) const {
-        return is_finite(p) && squared_distance(p, viewpoint_) > 0.0;
+        const double squared = squared_distance(p, viewpoint_);
+        return std::isfinite(squared) && squared > 0.0;
     }
 
     [[nodiscard]] view view_of(const pixel& at) const {
