@@ -6,6 +6,7 @@
 
 #include <gnomon/occlusion/boundary_pairs.hpp>
 #include <gnomon/occlusion/lines_of_sight.hpp>
+#include <gnomon/occlusion/literal_merging.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>

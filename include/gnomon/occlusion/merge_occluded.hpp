@@ -28,8 +28,8 @@
 #include <gnomon/core/union_find.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
+#include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/lines_of_sight.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/segment_distances.hpp>
@@ -108,16 +108,7 @@ class occlusion_merger {
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        std::vector<std::int32_t> group(points_.size(), unlabeled);
-        union_find sets(points_.size());
-        for (const auto& members : members_) {
-            for (const point_index i : members) {
-                sets.unite(members.front(), i);
-                group[i] = 0;
-            }
-        }
-        return {segments_of(sets, 1, [&](std::size_t i) { return group[i] != unlabeled; }),
-                std::move(gaps_)};
+        return {segments_of_groups(points_.size(), members_), std::move(gaps_)};
     }
 
   private:
@@ -126,7 +117,8 @@ class occlusion_merger {
     bool merge_once() {
         union_find sets(members_.size());
         bool any = false;
-        for (const auto& [i, j] : candidates()) {
+        for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
+                                                   [this](const auto& f) { return is_flat(f); })) {
             if (!(changed_[i] || changed_[j]) || !coplanar(i, j)) continue;
             considered_gap gap{
                 boundary_pairs(points_, members_[i], members_[j],
@@ -139,31 +131,6 @@ class occlusion_merger {
         }
         if (any) gather(sets);
         return any;
-    }
-
-    /// Pairs of flat segments to compare, each once.
-    [[nodiscard]] std::vector<std::pair<point_index, point_index>> candidates() const {
-        std::vector<point_index> flat;
-        std::vector<Eigen::Vector3d> centroids;
-        for (std::size_t s = 0; s < members_.size(); ++s) {
-            if (!is_flat(frames_[s])) continue;
-            flat.push_back(static_cast<point_index>(s));
-            centroids.push_back(frames_[s].centroid);
-        }
-        std::vector<std::pair<point_index, point_index>> pairs;
-        const std::size_t all = 300, few = 20;
-        const std::size_t wanted = options_.candidates > 0 ? options_.candidates
-                                   : flat.size() <= all    ? flat.size()
-                                                           : few;
-        const kd_tree tree(centroids);
-        std::vector<neighbor> nearest;
-        for (std::size_t f = 0; f < flat.size(); ++f) {
-            tree.nearest(centroids[f], wanted, f, nearest);
-            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
-        }
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-        return pairs;
     }
 
     [[nodiscard]] principal_frame frame_of(std::span<const point_index> members) const {
