@@ -119,6 +119,98 @@ TEST(merge_occluded, closes_no_gap_that_is_not_narrow) {
     }
 }
 
+/// One of ten places that are seen through are enough against a line, be all others hidden; places
+/// where the surface is seen count for nobody.
+TEST(merge_occluded, weighs_the_places_of_a_line) {
+    const auto accepted = [](const auto& policy, std::size_t unseen, std::size_t closer,
+                             std::size_t level, std::size_t farther) {
+        return gnomon::detail::accepts(policy, {{unseen, closer, level, farther}});
+    };
+    EXPECT_TRUE(accepted(conservative{}, 0, 9, 0, 1));
+    EXPECT_FALSE(accepted(conservative{}, 0, 8, 0, 1));
+    EXPECT_FALSE(accepted(liberal{}, 0, 8, 0, 1));
+    EXPECT_TRUE(accepted(conservative{}, 0, 1, 8, 0));
+    EXPECT_TRUE(accepted(conservative{}, 3, 4, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 4, 4, 0, 0)) << "more than half, not half";
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 5, 0));
+    EXPECT_TRUE(accepted(liberal{}, 4, 0, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 0, 0));
+    EXPECT_TRUE(accepted(liberal{}, 0, 0, 0, 0));
+}
+
+/// A third of the gap is seen through, past the column.
+TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
+    gnomon::scene world = looks::opened(0.9);
+    looks::add_column(world);
+    const auto seen = looks::look_at(world);
+    EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
+}
+
+/// Points by hand, with their labels.
+struct drawn {
+    clouds::cloud points;
+    std::vector<std::int32_t> labels;
+
+    /// A grid of points 2 cm apart about a place, `deep` layers of it along its normal, which is
+    /// the x-axis turned about the z-axis.
+    void add(const Eigen::Vector3d& center, int wide, int high, int deep = 1, double degrees = 0) {
+        const std::int32_t label = labels.empty() ? 0 : labels.back() + 1;
+        const gnomon::angle turned = gnomon::degrees(degrees);
+        const Eigen::Vector3d along(-sin(turned), cos(turned), 0), out(cos(turned), sin(turned), 0);
+        for (int i = 0; i < wide; ++i) {
+            for (int j = 0; j < high; ++j) {
+                for (int k = 0; k < deep; ++k) {
+                    points.push_back(center + 0.02 * (i - 0.5 * (wide - 1)) * along +
+                                     0.02 * (k - 0.5 * (deep - 1)) * out +
+                                     Eigen::Vector3d(0, 0, 0.02 * (j - 0.5 * (high - 1))));
+                    labels.push_back(label);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] gnomon::merged_segments merged(const occlusion_merging& options = {}) const {
+        return merge_occluded(points, segments(labels), lines_of_sight(points), conservative{},
+                              options);
+    }
+};
+
+TEST(merge_occluded, wants_planes_at_a_small_angle) {
+    for (const auto& [turned, rest] : {std::pair(0.0, 1u), {10.0, 1u}, {25.0, 2u}, {80.0, 2u}}) {
+        drawn wall;
+        wall.add({3, -0.5, 0}, 50, 50);
+        wall.add({3, 0.25, 0}, 15, 30, 1, turned);
+        EXPECT_EQ(wall.merged().segments.size(), rest) << turned;
+        EXPECT_EQ(wall.merged({.max_angle = gnomon::degrees(90)}).gaps.size(), 1u);
+    }
+}
+
+/// Something as thick as wide is no wall, be its middle in the wall's plane.
+TEST(merge_occluded, looks_only_at_flat_segments) {
+    drawn wall;
+    wall.add({3, -0.5, 0}, 50, 50);
+    wall.add({3, 0.35, 0}, 25, 30, 20);
+    EXPECT_TRUE(wall.merged().gaps.empty());
+    EXPECT_EQ(wall.merged({.max_variation = 1.0}).gaps.size(), 1u);
+}
+
+/// Four tiles tell together what each does not know alone: that the fifth lies in their plane. So
+/// it takes a second round.
+TEST(merge_occluded, goes_on_in_rounds) {
+    drawn tiles;
+    for (const double y : {0.0, 0.08})
+        for (const double z : {0.0, 0.08}) tiles.add({3, y, z}, 4, 4);
+    tiles.add({3, 0.31, 0.04}, 4, 4);
+    const auto merged = tiles.merged();
+    EXPECT_EQ(merged.segments.size(), 1u);
+    EXPECT_EQ(merged.gaps.back().lines.size(), 6u);
+    EXPECT_TRUE(merged.gaps.back().merged);
+    for (const gnomon::boundary_pair& line : merged.gaps.back().lines)
+        EXPECT_GE(line.distance, 0.15);
+    const auto again = merge_occluded(tiles.points, merged.segments, lines_of_sight(tiles.points));
+    EXPECT_EQ(again.segments, merged.segments);
+}
+
 /// Beside each other behind a column, but not in one plane: no gap is looked into.
 TEST(merge_occluded, merges_only_what_lies_in_one_plane) {
     for (const double step : {0.1, 0.5}) {
@@ -405,6 +497,9 @@ TEST(merge_occluded, of_thousands_of_segments_looks_into_few_gaps) {
     EXPECT_EQ(apart.segments.size(), 5000u);
     EXPECT_GE(apart.gaps.size(), 5000u * 10);
     EXPECT_LE(apart.gaps.size(), 5000u * 20);
+    // With more, only of those beside it.
+    EXPECT_EQ(merge_occluded(points, segments(labels), lines_of_sight(points), never).gaps.size(),
+              100u * 49 + 99 * 50);
     const auto merged = merge_occluded(points, segments(labels), lines_of_sight(points));
     EXPECT_EQ(merged.segments.size(), 1u) << "the gaps between them are narrow";
 }
