@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// What surfaces does a scan consist of? The whole way from a file to labeled points, a picture
-/// and a table: read, leave out the floor if asked to, estimate normals, mend them, turn them to
-/// the sensor, segment, describe the segments.
+/// and a table: read, perceive, describe the segments.
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +11,7 @@
 #include <numbers>
 #include <optional>
 #include <string>
-#include <utility>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -31,14 +30,7 @@ namespace {
 using surfel = gnomon::surfel<gnomon::plane_fit>;
 using json = nlohmann::ordered_json;
 
-/// What is found out about a scan, point by point.
-struct result {
-    std::vector<surfel> surface;
-    gnomon::segments segments;
-    std::vector<bool> left_out;  ///< with the floor
-    double normals_seconds = 0.0;
-    double segmentation_seconds = 0.0;
-};
+using result = gnomon::perceived<gnomon::plane_fit>;
 
 /// What there is to segment if the user has no scan: a kitchen, as a UTM-30LX that rolls about its
 /// axis of sight would see it (Klasing 2010, Fig. 4.8).
@@ -55,56 +47,30 @@ gnomon::scan scan_of(const options& o) {
     return scan;
 }
 
-/// The surfaces of a scan, or of what is left of it.
-template <class Points>
-result surfaces_of(const Points& points, const options& o) {
-    result r;
-    r.left_out.assign(points.size(), false);
-    const stopwatch normals;
-    {
-        const progress telling("estimating normals");
-        const gnomon::plane_pca plane;
-        r.surface = gnomon::estimate_normals(points, o.neighborhood, plane, o.threads);
-        gnomon::repair_anisotropic(points, r.surface, o.neighborhood, plane, {}, o.threads);
-        gnomon::orient_normals(points, r.surface);
-    }
-    r.normals_seconds = normals.seconds();
-    const stopwatch segmentation;
-    {
-        const progress telling("segmenting");
-        r.segments = gnomon::segment_surfaces(points, r.surface, o.segmentation, o.threads);
-    }
-    r.segmentation_seconds = segmentation.seconds();
-    return r;
+/// The surfaces of a scan; floor and ceiling, if they are left out, get no normals and no labels.
+result surfaces_of(const gnomon::scan& scan, const options& o) {
+    const progress telling("perceiving");
+    std::optional<gnomon::floor_and_ceiling> leave_out;
+    if (o.remove_floor) leave_out = {.up = o.up.value_or(Eigen::Vector3d::UnitZ())};
+    return std::visit(
+        [&]<class Merge>(const Merge& merge) {
+            const gnomon::perception<gnomon::knn, gnomon::plane_pca, Merge> chain{
+                .neighborhood = o.neighborhood,
+                .merge = merge,
+                .segmentation = o.segmentation,
+                .leave_out = leave_out};
+            return chain(scan, o.threads);
+        },
+        o.merge);
 }
 
-/// The surfaces of what stands between floor and ceiling; floor and ceiling get no normals and no
-/// labels.
-result surfaces_without_floor(const gnomon::scan& scan, const options& o) {
-    const auto guess = gnomon::guess_floor(scan, o.up.value_or(Eigen::Vector3d::UnitZ()));
-    const auto floor = guess ? gnomon::find_floor(scan, *guess) : std::nullopt;
-    if (!floor) {
+void tell_of_floor(const result& r) {
+    if (!r.floor) {
         std::puts("no floor found, nothing left out");
-        return surfaces_of(scan, o);
+        return;
     }
-    const auto ceiling = gnomon::find_ceiling(scan, *floor);
-    const auto kept = gnomon::between_bands(scan, *floor, ceiling);
-    std::printf("floor%s left out, %s left\n", ceiling ? " and ceiling" : "",
-                picture::counted(kept.size(), "point").c_str());
-
-    result part = surfaces_of(gnomon::subset_view(scan, kept), o);
-
-    part.left_out.assign(scan.size(), true);
-    std::vector<surfel> surface(scan.size());
-    std::vector<std::int32_t> labels(scan.size(), gnomon::unlabeled);
-    for (std::size_t i = 0; i < kept.size(); ++i) {
-        part.left_out[kept[i]] = false;
-        surface[kept[i]] = part.surface[i];
-        labels[kept[i]] = part.segments.labels()[i];
-    }
-    part.surface = std::move(surface);
-    part.segments = gnomon::segments(std::move(labels));
-    return part;
+    std::printf("floor%s left out, %s left\n", r.ceiling ? " and ceiling" : "",
+                picture::counted(r.kept.size(), "point").c_str());
 }
 
 json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
@@ -131,28 +97,48 @@ json description_of(const gnomon::scan& scan, const gnomon::segments& segments) 
 /// The points as they are drawn: those that are finite and were not left out.
 std::vector<picture::splat> splats_of(const gnomon::scan& scan, const result& r) {
     std::vector<picture::splat> splats;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        if (!gnomon::is_finite(scan.points[i]) || r.left_out[i]) continue;
+    for (const gnomon::point_index i : r.kept) {
+        if (!gnomon::is_finite(scan.points[i])) continue;
         const surfel& s = r.surface[i];
         // k points that fill a disc at the distance rho_bar on average are 1.5 rho_bar sqrt(pi / k)
         // apart; a little more than that closes the surface, for points that lie in rows too.
         const double neighbors = std::max<double>(1.0, s.neighbors);
         const double spacing = 1.5 * s.mean_distance * std::sqrt(std::numbers::pi / neighbors);
-        splats.push_back({scan.points[i], s.normal, 1.35 * spacing, r.segments.labels()[i]});
+        splats.push_back({scan.points[i], s.normal, 1.35 * spacing, r.surfaces.labels()[i]});
     }
     return splats;
+}
+
+/// The boundary pairs of the gaps that were closed, and of those that were not.
+picture::annotation gaps_of(const gnomon::scan& scan, const result& r) {
+    constexpr picture::color closed{20, 150, 60}, open{215, 30, 30};
+    picture::annotation lines;
+    std::size_t merged = 0;
+    for (const gnomon::considered_gap& gap : r.gaps) {
+        merged += gap.merged ? 1 : 0;
+        for (const gnomon::boundary_pair& pair : gap.lines)
+            lines.strokes.push_back(
+                {scan.points[pair.first], scan.points[pair.second], gap.merged ? closed : open});
+    }
+    if (!r.gaps.empty()) {
+        lines.legend = {{closed, picture::counted(merged, "gap") + " closed"},
+                        {open, picture::counted(r.gaps.size() - merged, "gap") + " left open"}};
+    }
+    return lines;
 }
 
 std::string picture_of(const gnomon::scan& scan, const result& r, const options& o) {
     const progress telling("drawing");
     std::vector<std::string> legend;
-    for (std::size_t label = 0; label < r.segments.size(); ++label) {
-        legend.push_back(picture::with_commas(r.segments[label].size()));
+    for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
+        legend.push_back(picture::with_commas(r.surfaces[label].size()));
     }
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
-    return picture::picture_of(splats_of(scan, r), legend, "segment", viewpoint, o.up).png();
+    return picture::picture_of(splats_of(scan, r), legend, "segment", viewpoint, o.up,
+                               picture::color_of, gaps_of(scan, r))
+        .png();
 }
 
 void write_points(const output_directory& out, const gnomon::scan& scan, const result& r) {
@@ -161,7 +147,7 @@ void write_points(const output_directory& out, const gnomon::scan& scan, const r
     write_ply(out / "normals.ply", scan,
               {normals, scalar_property("quality", r.surface, &surfel::surface_variation),
                scalar_property("trust", r.surface, &surfel::trust)});
-    const auto& labels = r.segments.labels();
+    const auto& labels = r.surfaces.labels();
     write_ply(
         out / "segments.ply", scan,
         {color_properties(labels, picture::color_of), scalar_property("label", labels), normals});
@@ -197,14 +183,18 @@ void segment_scan(const options& o) {
     const output_directory out(o.out,
                                {"normals.ply", "segments.ply", "segments.png", "segments.json"});
 
-    const result r = o.remove_floor ? surfaces_without_floor(scan, o) : surfaces_of(scan, o);
+    const result r = surfaces_of(scan, o);
+    if (o.remove_floor) tell_of_floor(r);
     json report{{"points", scan.size()},
                 {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
                 {"seconds",
                  {{"read", read_seconds},
-                  {"normals", r.normals_seconds},
-                  {"segmentation", r.segmentation_seconds}}},
-                {"segments", description_of(scan, r.segments)}};
+                  {"preprocessing", r.seconds.preprocessing},
+                  {"normals", r.seconds.normals},
+                  {"segmentation", r.seconds.segmentation},
+                  {"merging", r.seconds.merging}}},
+                {"segments_before_merging", r.fragments.size()},
+                {"segments", description_of(scan, r.surfaces)}};
     const std::string png = picture_of(scan, r, o);
 
     {

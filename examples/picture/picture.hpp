@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -30,6 +31,12 @@ namespace picture {
     return with_commas(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
+/// Lines over a picture, and what to say of them, by color.
+struct annotation {
+    std::vector<stroke> strokes;
+    std::vector<std::pair<color, std::string>> legend;
+};
+
 /// The picture of a scan in groups.
 /// @param splats     its finite points
 /// @param legend     what to say of the groups, by label
@@ -37,17 +44,19 @@ namespace picture {
 /// @param viewpoint  where the sensor stood [m]
 /// @param up         against gravity; guessed if not known
 /// @param color_in_legend  of a label
+/// @param lines      drawn over it
 [[nodiscard]] inline image picture_of(const std::vector<splat>& splats,
                                       const std::vector<std::string>& legend,
                                       const std::string& group, const Eigen::Vector3d& viewpoint,
                                       const std::optional<Eigen::Vector3d>& up = {},
-                                      color (*color_in_legend)(std::int32_t) = color_of) {
+                                      color (*color_in_legend)(std::int32_t) = color_of,
+                                      const annotation& lines = {}) {
     constexpr int margin = 24;
     constexpr int width = 764;
     constexpr int height = 660;
     constexpr int top = 60;
     constexpr color line{222, 224, 228};
-    image sheet(3 * margin + 2 * width, top + height + 80);
+    image sheet(3 * margin + 2 * width, top + height + (lines.legend.empty() ? 80 : 116));
 
     if (splats.empty()) {
         sheet.write(margin, margin, "no points");
@@ -56,23 +65,27 @@ namespace picture {
         for (const view& v : scene(splats, viewpoint, up).views()) {
             sheet.write(x, 22, v.caption);
             sheet.fill(x - 1, top - 1, x + width + 1, top + height + 1, line);
-            sheet.paste(drawn(splats, v.from, width, height, v.back), x, top);
+            sheet.paste(drawn(splats, lines.strokes, v.from, width, height, v.back), x, top);
             x += width + margin;
         }
     }
 
-    const int y = top + height + 30;
+    int x = margin, y = top + height + 30;
+    const auto explain = [&](const color& c, const std::string& text) {
+        const int end = x + 28 + image::width_of(text) + 24;
+        if (end > sheet.width()) return;
+        sheet.fill(x, y - 4, x + 20, y + 18, c);
+        sheet.write(x + 28, y, text);
+        x = end;
+    };
     const std::string title =
         counted(splats.size(), "point") + ", " + counted(legend.size(), group);
     sheet.write(margin, y, title);
-    int x = margin + image::width_of(title) + 40;
-    for (std::size_t label = 0; label < legend.size() && label < 8; ++label) {
-        const int end = x + 28 + image::width_of(legend[label]) + 24;
-        if (end > sheet.width()) break;
-        sheet.fill(x, y - 4, x + 20, y + 18, color_in_legend(static_cast<std::int32_t>(label)));
-        sheet.write(x + 28, y, legend[label]);
-        x = end;
-    }
+    x += image::width_of(title) + 40;
+    for (std::size_t label = 0; label < legend.size() && label < 8; ++label)
+        explain(color_in_legend(static_cast<std::int32_t>(label)), legend[label]);
+    x = margin, y += 36;
+    for (const auto& [tint, text] : lines.legend) explain(tint, text);
     return sheet;
 }
 

@@ -29,6 +29,12 @@ struct splat {
     color tint = color_of(label);
 };
 
+/// A straight line between two places, drawn over all else.
+struct stroke {
+    Eigen::Vector3d from, to;  ///< finite [m]
+    color tint;
+};
+
 /// What is drawn of surfaces that turn their back to the camera.
 enum class backs { shown, hidden };
 
@@ -70,6 +76,26 @@ class canvas {
                 if (depth > 0.0 && depth < nearest) {
                     nearest = depth;
                     colors_.at(x, y) = c;
+                }
+            }
+        }
+    }
+
+    /// Draws one stroke as `from` sees it, whatever is in front of it.
+    void draw(const stroke& line, const camera& from) {
+        const Eigen::Vector3d a = from.project(line.from), b = from.project(line.to);
+        if (!(a.z() > 0.0 && b.z() > 0.0)) return;
+        const Eigen::Vector2d start = a.head<2>(), way = b.head<2>() - start;
+        if (!(start.norm() < 1e6 && way.norm() < 1e6)) return;
+        const int steps = 1 + static_cast<int>(way.norm());
+        for (int s = 0; s <= steps; ++s) {
+            const Eigen::Vector2d at = start + static_cast<double>(s) / steps * way;
+            const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+            for (int dy = 0; dy < 3; ++dy) {
+                for (int dx = 0; dx < 3; ++dx) {
+                    if (x + dx < 0 || x + dx >= colors_.width()) continue;
+                    if (y + dy < 0 || y + dy >= colors_.height()) continue;
+                    colors_.at(x + dx, y + dy) = line.tint;
                 }
             }
         }
@@ -130,8 +156,10 @@ class canvas {
     std::vector<double> depth_;
 };
 
-/// The splats as `from` sees them, `width` x `height` pixels; the points of segments fill it.
-[[nodiscard]] inline image drawn(const std::vector<splat>& splats, camera from, int width,
+/// Splats, and strokes over them, as `from` sees them, `width` x `height` pixels; the points of
+/// segments fill it.
+[[nodiscard]] inline image drawn(const std::vector<splat>& splats,
+                                 const std::vector<stroke>& strokes, camera from, int width,
                                  int height, backs back) {
     const auto hidden = [&](const splat& s) {
         return back == backs::hidden && s.normal.dot(from.position - s.position) < 0.0;
@@ -149,6 +177,7 @@ class canvas {
         if (!hidden(s)) large.draw(s, from);
     }
     large.darken_steps();
+    for (const stroke& s : strokes) large.draw(s, from);
     return large.halved();
 }
 

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -17,13 +18,15 @@
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]
 
-Segments SCAN (PLY, PCD, VTK or text) into smooth surfaces; without SCAN, a simulated
-kitchen. Writes normals.ply, segments.ply, segments.png and segments.json into DIR.
+Segments SCAN (PLY, PCD, VTK or text) into smooth surfaces, and merges those that are
+one behind something; without SCAN, a simulated kitchen. Writes normals.ply, segments.ply, segments.png and segments.json into DIR.
 
   --k N               neighbors per point (50)
   --max-angle DEG     largest angle between normals of neighbors (5)
   --max-distance M    no link between points is longer (0.30)
   --min-points N      smaller segments are noise (30)
+  --merge POLICY      conservative: where something closer was seen in the gap (default);
+                      liberal: unless something farther was seen; or none
   --viewpoint X,Y,Z   where the sensor stood (what SCAN says, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
@@ -38,6 +41,7 @@ struct options {
     gnomon::surface_segmentation segmentation;
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<Eigen::Vector3d> up;  ///< unit length
+    std::variant<gnomon::conservative, gnomon::liberal, gnomon::unmerged> merge;
     bool remove_floor = false;
     gnomon::threads threads;
 };
@@ -63,6 +67,17 @@ inline constexpr option<options> known_options[] = {
      [](options& o, const std::string& name, const std::string& value) {
          o.segmentation.min_points =
              number_within<std::size_t>(name, value, 1, 1'000'000'000, "from 1 to 1,000,000,000");
+     }},
+    {"--merge", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         if (value == "conservative")
+             o.merge = gnomon::conservative{};
+         else if (value == "liberal")
+             o.merge = gnomon::liberal{};
+         else if (value == "none")
+             o.merge = gnomon::unmerged{};
+         else
+             throw usage_error(name + ": '" + value + "' is not conservative, liberal or none");
      }},
     {"--viewpoint", true,
      [](options& o, const std::string& name, const std::string& value) {

@@ -15,6 +15,7 @@
 #include <gnomon/features.hpp>
 #include <gnomon/segmentation.hpp>
 #include <gnomon/occlusion.hpp>
+#include <gnomon/perception.hpp>
 
 #include <gnomon/io.hpp>
 // clang-format on
