@@ -14,6 +14,7 @@
 #include <gnomon/normals.hpp>
 #include <gnomon/features.hpp>
 #include <gnomon/segmentation.hpp>
+#include <gnomon/occlusion.hpp>
 
 #include <gnomon/io.hpp>
 // clang-format on

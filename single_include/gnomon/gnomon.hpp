@@ -9088,6 +9088,789 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
 /// @file
 /// Which points are one surface: pre-processing and the segmentations of Sec. 4.2.
 
+// -------- gnomon/occlusion/boundary_pairs.hpp ----------------------------------------------------
+
+/// @file
+/// Where two segments face each other: the points of each that are nearest to the other's centroid,
+/// each with the nearest point of the other. Needs no hull or mesh.
+///
+/// Klasing 2010, Sec. 4.3.4, Fig. 4.7, and the coplanar distance, Eq. (4.7).
+
+namespace gnomon {
+
+/// A point of one segment and one of another, by their numbers in the cloud.
+struct boundary_pair {
+    point_index first, second;
+    double distance;  ///< [m]
+};
+
+namespace detail {
+
+/// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
+template <class Points>
+[[nodiscard]] std::vector<neighbor> nearest_of(const Points& points,
+                                               std::span<const point_index> some,
+                                               const Eigen::Vector3d& place, std::size_t count) {
+    std::vector<neighbor> nearest;
+    if (count == 0) return nearest;
+    for (const point_index i : some) {
+        const neighbor candidate{squared_distance(points[i], place), i};
+        if (nearest.size() == count && !(candidate < nearest.back())) continue;
+        if (!is_finite(points[i])) continue;
+        if (nearest.size() < count) nearest.emplace_back();
+        auto slot = nearest.end() - 1;
+        for (; slot != nearest.begin() && candidate < slot[-1]; --slot) *slot = slot[-1];
+        *slot = candidate;
+    }
+    return nearest;
+}
+
+}  // namespace detail
+
+/// The boundary pairs of two segments of some points: half of them from each side.
+///
+/// @param points     a position_view of the cloud
+/// @param first      indices of the points of one segment
+/// @param second     of the other
+/// @param centroids  of both
+/// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
+///                   finite points
+/// Complexity: O(pairs * (|first| + |second|)).
+template <class Points>
+[[nodiscard]] std::vector<boundary_pair> boundary_pairs(
+    const Points& points, std::span<const point_index> first, std::span<const point_index> second,
+    const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
+    const auto near_second = detail::nearest_of(points, first, centroids.second, pairs / 2);
+    const auto near_first = detail::nearest_of(points, second, centroids.first, pairs / 2);
+    std::vector<boundary_pair> found;
+    if (near_second.empty() || near_first.empty()) return found;
+    for (const neighbor& p : near_second) {
+        const neighbor q = detail::nearest_of(points, second, points[p.index], 1).front();
+        found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
+    }
+    for (const neighbor& q : near_first) {
+        const neighbor p = detail::nearest_of(points, first, points[q.index], 1).front();
+        found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
+    }
+    return found;
+}
+
+/// rho_c, the least distance of the pairs [m], Eq. (4.7); infinite if there are none.
+[[nodiscard]] inline double coplanar_distance(std::span<const boundary_pair> pairs) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const boundary_pair& p : pairs) least = std::min(least, p.distance);
+    return least;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/merge_policy.hpp ------------------------------------------------------
+
+/// @file
+/// What a gap between two coplanar surfaces tells: whether they are one surface behind something,
+/// or two. A sensor may have seen something nearer there, which hides what is behind; something
+/// farther, which shows that nothing is there; or nothing at all. What to make of that is a policy.
+///
+/// Klasing 2010, Sec. 4.3.2, Fig. 4.4. Models: `conservative`, `liberal`, and any function of a
+/// `sighting`.
+
+namespace gnomon {
+
+/// What was seen towards a place at which a surface is supposed.
+enum class sighting : char {
+    unseen,  ///< no return: black, transparent or far things, or no ray
+    closer,  ///< something in front of it
+    level,   ///< something just there
+    farther  ///< something behind it: the place is empty
+};
+
+/// Whether a sighting speaks for merging.
+template <class M>
+concept merge_policy = requires(const M& policy, sighting seen) {
+    { policy(seen) } -> std::convertible_to<bool>;
+};
+
+/// Merges if and only if something closer was seen in the gap.
+struct conservative {
+    [[nodiscard]] bool operator()(sighting seen) const { return seen == sighting::closer; }
+};
+
+/// Merges unless something farther was seen in the gap.
+struct liberal {
+    [[nodiscard]] bool operator()(sighting seen) const { return seen != sighting::farther; }
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
+
+/// @file
+/// The omnidirectional range image: what one view point sees in every direction, by azimuth and
+/// elevation. Unlike the image of a camera it holds any field of view, panoramas too.
+///
+/// Klasing 2010, Sec. 2.4.2, Eq. (2.1). There the poles, about which pixels crowd, are up and down;
+/// here the image can be turned, by default such that they lie where least is seen.
+
+namespace gnomon {
+
+/// How large the image is and how it is turned.
+struct range_image_format {
+    std::size_t width = 720;   ///< pixels from azimuth -pi to pi
+    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2
+    /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
+    /// the z-axis the image is that of Eq. (2.1).
+    std::optional<Eigen::Vector3d> pole = std::nullopt;
+};
+
+/// The nearest return of each pixel.
+class range_image {
+  public:
+    struct pixel {
+        std::size_t azimuth, elevation;
+
+        friend bool operator==(const pixel&, const pixel&) = default;
+    };
+    /// The range of a pixel in which nothing was seen, as in the thesis.
+    static constexpr double nothing = -1.0;
+
+    /// The image of all points at a finite distance from the view point [m], but of those in it.
+    /// O(n).
+    /// @throws std::invalid_argument  without a pixel, or for a view point or a pole that is not
+    ///                                finite, or a pole of no length
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, const Eigen::Vector3d& viewpoint,
+                const range_image_format& format = {}, Proj projection = {})
+        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
+        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
+        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+        const position_view<R, Proj> p(points, std::move(projection));
+        turn(format.pole ? *format.pole : least_seen(p));
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::vector<pixel> pixels(p.size());
+        std::size_t lowest = height_, highest = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            pixels[i] = pixel_of(p[i]);
+            lowest = std::min(lowest, pixels[i].elevation);
+            highest = std::max(highest, pixels[i].elevation);
+        }
+        first_row_ = lowest;
+        if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            view& v = seen_[place_of(pixels[i])];
+            const double range = distance_to(p[i]);
+            if (v.range < 0.0 || range < v.range) v = {range, static_cast<point_index>(i)};
+        }
+    }
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] std::size_t height() const { return height_; }
+    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
+
+    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
+    /// the last row. Precondition: its distance, squared, is finite.
+    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
+        const std::array<double, 3> d = turned(p);
+        const double azimuth = std::atan2(d[1], d[0]) / (2.0 * std::numbers::pi) + 0.5;
+        const double elevation =
+            std::atan2(d[2], std::sqrt(d[0] * d[0] + d[1] * d[1])) / std::numbers::pi + 0.5;
+        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
+                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
+                         height_ - 1)};
+    }
+
+    /// The distance of the nearest point in a pixel [m], or `nothing`.
+    [[nodiscard]] double range(const pixel& at) const { return view_of(at).range; }
+
+    /// That point, or nothing.
+    [[nodiscard]] std::optional<point_index> index(const pixel& at) const {
+        const view v = view_of(at);
+        return v.range < 0.0 ? std::nullopt : std::optional(v.index);
+    }
+
+    /// The distance of a point from the view point [m].
+    [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
+        return std::sqrt(squared_distance(p, viewpoint_));
+    }
+
+  private:
+    struct view {
+        double range = nothing;
+        point_index index = 0;
+    };
+
+    [[nodiscard]] bool is_visible(const Eigen::Vector3d& p) const {
+        const double squared = squared_distance(p, viewpoint_);
+        return std::isfinite(squared) && squared > 0.0;
+    }
+
+    [[nodiscard]] view view_of(const pixel& at) const {
+        if (at.elevation < first_row_) return {};
+        const std::size_t place = place_of(at);
+        return place < seen_.size() ? seen_[place] : view{};
+    }
+
+    [[nodiscard]] std::size_t place_of(const pixel& at) const {
+        return (at.elevation - first_row_) * width_ + at.azimuth;
+    }
+
+    /// From the view point to p, in the frame of the image.
+    [[nodiscard]] std::array<double, 3> turned(const Eigen::Vector3d& p) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        return {detail::dot(x_, d), detail::dot(y_, d), detail::dot(z_, d)};
+    }
+
+    /// The axis along which the directions to the points spread least; z where there are none.
+    template <class Points>
+    [[nodiscard]] Eigen::Vector3d least_seen(const Points& p) const {
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+            const double squared = detail::dot(d, d);
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c) sum(r, c) += d[r] * d[c] / squared;
+        }
+        // Where z is as good as any, it is z.
+        sum(2, 2) *= 1.0 - 1e-9;
+        return detail::column(symmetric_eigen(sum).vectors, 2);
+    }
+
+    void turn(const Eigen::Vector3d& pole) {
+        const double length = std::sqrt(detail::dot(pole, pole));
+        detail::require(length > 0.0 && std::isfinite(length),
+                        "range_image: the pole must be a finite direction");
+        z_ = Eigen::Vector3d(pole[0] / length, pole[1] / length, pole[2] / length);
+        // Azimuth counts from the x-axis; where that is the pole, from the y-axis.
+        const Eigen::Vector3d start =
+            std::abs(z_[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        y_ = detail::cross(z_, start);
+        const double across = std::sqrt(detail::dot(y_, y_));
+        y_ = Eigen::Vector3d(y_[0] / across, y_[1] / across, y_[2] / across);
+        x_ = detail::cross(y_, z_);
+    }
+
+    std::size_t width_, height_;
+    Eigen::Vector3d viewpoint_;
+    Eigen::Vector3d x_, y_, z_;  // axes of the image; z is the pole
+    std::size_t first_row_ = 0;
+    std::vector<view> seen_;  // row by row, from the first in which something is seen
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/lines_of_sight.hpp ----------------------------------------------------
+
+/// @file
+/// What a sensor saw towards a place: a range image for each of its view points, be it one, one for
+/// each of several scans, or one for each scan line of a sensor that moves. So places are asked
+/// for, not pixels of one image, and gaps between points are walked in space.
+///
+/// Klasing 2010, Sec. 4.3.5, with the depth of the line at each pixel's ray instead of an
+/// interpolated one (specification of it, A19, F12).
+
+namespace gnomon {
+
+/// How range images are made, and when a range differs.
+struct sight_options {
+    angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
+    std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_format`
+    double sigma = 0.015;  ///< standard deviation of ranges [m]; three of them are no difference
+};
+
+/// How often something was seen, by kind of sighting.
+struct sighting_count {
+    std::array<std::size_t, 4> of{};
+
+    [[nodiscard]] std::size_t operator[](sighting s) const {
+        return of[static_cast<std::size_t>(s)];
+    }
+    void add(sighting s) { ++of[static_cast<std::size_t>(s)]; }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+};
+
+/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
+/// 16 nearest rays has for itself, for three of four rays at least that. From 24 rays; O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    std::vector<Eigen::Vector3d> directions;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i]) || !is_finite(viewpoints[i])) continue;
+        const Eigen::Vector3d d = detail::difference(p[i], viewpoints[i]);
+        const double length = std::sqrt(detail::dot(d, d));
+        if (length > 0.0) directions.emplace_back(d[0] / length, d[1] / length, d[2] / length);
+    }
+    constexpr std::size_t rays = 24, neighbors = 16;
+    const double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    if (directions.size() <= neighbors) return radians(most);
+    std::vector<point_index> all(directions.size());
+    std::iota(all.begin(), all.end(), point_index{0});
+    std::vector<double> squared;
+    for (std::size_t r = 0; r < rays; ++r) {
+        const std::size_t seed = (2 * r + 1) * directions.size() / (2 * rays);
+        const auto nearest = detail::nearest_of(directions, all, directions[seed], neighbors + 1);
+        squared.push_back(nearest.back().squared_distance);
+    }
+    std::nth_element(squared.begin(), squared.begin() + rays * 3 / 4, squared.end());
+    const double side = std::sqrt(squared[rays * 3 / 4] * std::numbers::pi / neighbors);
+    return radians(std::clamp(side, least, most));
+}
+
+/// Knows what was seen towards any place.
+class lines_of_sight {
+  public:
+    /// What a whole cloud tells: also of points that belong to nothing, such as floor and ceiling
+    /// that were left out before segmentation. The view points are those of the range, or else the
+    /// origin. O(n log n) in the view points, and a range image for each.
+    /// @throws std::invalid_argument  for a negative or NaN sigma, an angle of a pixel that is
+    ///                                negative or more than 90 degrees, or a pole of no length
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    explicit lines_of_sight(const R& points, const sight_options& options = {},
+                            Proj projection = {})
+        : sigma_(options.sigma), viewpoints_(viewpoints_of(points)) {
+        detail::require(options.sigma >= 0.0, "lines_of_sight: sigma must not be negative or NaN");
+        detail::require(
+            options.pixel.radians() >= 0.0 && options.pixel.radians() <= 0.5 * std::numbers::pi,
+            "lines_of_sight: a pixel has between 0 and 90 degrees");
+        const angle pixel =
+            options.pixel.radians() > 0.0 ? options.pixel : ray_spacing(points, projection);
+        const auto height =
+            static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
+        pixel_ = std::numbers::pi / static_cast<double>(height);
+        const range_image_format format{2 * height, height, options.pole};
+
+        const position_view<R, Proj> p(points, projection);
+        std::vector<point_index> order;
+        for (std::size_t i = 0; i < p.size(); ++i)
+            if (is_finite(p[i]) && is_finite(viewpoints_[i]))
+                order.push_back(static_cast<point_index>(i));
+        const auto key = [&](point_index i) {
+            const Eigen::Vector3d v = viewpoints_[i];
+            return std::array<double, 3>{v[0], v[1], v[2]};
+        };
+        if (viewpoints_.positions().size() > 1)
+            std::stable_sort(order.begin(), order.end(),
+                             [&](point_index a, point_index b) { return key(a) < key(b); });
+        for (auto first = order.begin(); first != order.end();) {
+            auto last = order.end();
+            if (viewpoints_.positions().size() > 1)
+                last = std::find_if(first, order.end(),
+                                    [&](point_index i) { return key(i) != key(*first); });
+            const subset_view seen(points, std::span<const point_index>(first, last), projection);
+            images_.emplace_back(seen, viewpoints_[*first], format);
+            first = last;
+        }
+    }
+
+    /// The images, one for each view point.
+    [[nodiscard]] const std::vector<range_image>& images() const { return images_; }
+    /// The angle of a pixel.
+    [[nodiscard]] angle pixel() const { return radians(pixel_); }
+
+    /// What was seen towards a place, by most view points that saw anything there; of equally many
+    /// what speaks against a surface.
+    [[nodiscard]] sighting towards(const Eigen::Vector3d& place) const {
+        sighting_count count;
+        for (const range_image& image : images_) count.add(towards(place, image));
+        sighting most = sighting::unseen;
+        std::size_t votes = 0;
+        for (const sighting s : {sighting::farther, sighting::level, sighting::closer}) {
+            if (count[s] > votes) {
+                most = s;
+                votes = count[s];
+            }
+        }
+        return most;
+    }
+
+    /// What was seen along the straight line between two places, as `viewpoint` sees it: at steps
+    /// of a pixel, the ends left out.
+    [[nodiscard]] sighting_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                         const Eigen::Vector3d& viewpoint) const {
+        const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
+        const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
+        const Eigen::Vector3d across = detail::cross(to_p, to_q);
+        const double angle =
+            std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
+        const double near = std::sqrt(detail::dot(to_p, to_p));
+        const double far = std::sqrt(detail::dot(to_q, to_q));
+        sighting_count count;
+        if (!std::isfinite(angle)) return count;
+        const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
+        for (std::size_t s = 1; s < steps; ++s) {
+            const double turned = angle * static_cast<double>(s) / static_cast<double>(steps);
+            // Where the ray that is turned by so much meets the line, by the law of sines.
+            const double a = near * std::sin(turned), b = far * std::sin(angle - turned);
+            count.add(towards(detail::combined(b / (a + b), p, a / (a + b), q)));
+        }
+        return count;
+    }
+
+  private:
+    /// What one view point has seen there.
+    [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
+        const double expected = image.distance_to(place);
+        if (!std::isfinite(expected)) return sighting::unseen;
+        const double margin = 3.0 * sigma_ + expected * pixel_;
+        const auto told_by = [&](const range_image::pixel& at) {
+            const double range = image.range(at);
+            if (range < 0.0) return sighting::unseen;
+            if (range < expected - margin) return sighting::closer;
+            return range > expected + margin ? sighting::farther : sighting::level;
+        };
+        const range_image::pixel at = image.pixel_of(place);
+        const sighting here = told_by(at);
+        if (here != sighting::unseen) return here;
+        // Rays are not spaced as evenly as pixels: what all pixels about it tell holds here, too.
+        sighting about = sighting::unseen;
+        for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
+             e <= std::min(at.elevation + 1, image.height() - 1); ++e) {
+            for (std::size_t a = at.azimuth + image.width() - 1;
+                 a <= at.azimuth + image.width() + 1; ++a) {
+                const sighting s = told_by({a % image.width(), e});
+                if (s == sighting::unseen) continue;
+                if (about != sighting::unseen && s != about) return sighting::unseen;
+                about = s;
+            }
+        }
+        return about;
+    }
+
+    double sigma_;
+    double pixel_ = 0.0;  // [rad]
+    viewpoint_table viewpoints_;
+    std::vector<range_image> images_;
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/segment_distances.hpp -------------------------------------------------
+
+/// @file
+/// How far apart two flat segments are, and how nearly in one plane.
+///
+/// Klasing 2010, Sec. 4.3.3, Eq. (4.4) to (4.6), Fig. 4.6. (The coplanar distance, Eq. (4.7), is in
+/// boundary_pairs.hpp.)
+
+namespace gnomon {
+
+/// rho, between the centroids [m], Eq. (4.4).
+[[nodiscard]] inline double centroid_distance(const principal_frame& a, const principal_frame& b) {
+    return std::sqrt(squared_distance(a.centroid, b.centroid));
+}
+
+/// rho_a, between the planes [rad], from 0 to pi / 2, Eq. (4.5). Where Fig. 4.6 names the inner
+/// product itself, the equation stands.
+[[nodiscard]] inline double angular_distance(const principal_frame& a, const principal_frame& b) {
+    const Eigen::Vector3d n = a.normal(), m = b.normal();
+    const Eigen::Vector3d across = detail::cross(n, m);
+    // Unlike acos, exact for small angles.
+    return std::atan2(std::sqrt(detail::dot(across, across)), std::abs(detail::dot(n, m)));
+}
+
+/// rho_o, the smaller of the distances of each centroid from the other's plane [m], Eq. (4.6).
+[[nodiscard]] inline double orthogonal_distance(const principal_frame& a,
+                                                const principal_frame& b) {
+    const Eigen::Vector3d between = detail::difference(b.centroid, a.centroid);
+    return std::min(std::abs(detail::dot(a.normal(), between)),
+                    std::abs(detail::dot(b.normal(), between)));
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/merge_occluded.hpp ----------------------------------------------------
+
+/// @file
+/// Mends surfaces that something in front has torn: flat segments in one plane are merged where
+/// what was seen in the gap between them speaks for it.
+///
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
+/// judges all pairs of segments as they are and merges those that are accepted, until none is. A
+/// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
+/// is (specification of it, A15 to A19). merge_occluded_literally is the algorithm to the letter.
+
+namespace gnomon {
+
+/// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
+struct occlusion_merging {
+    double max_variation = 0.15;    ///< sigma_sv,max, surface variation of a flat segment
+    angle max_angle = degrees(15);  ///< rho_a between coplanar segments
+    double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
+    double max_gap = 0.20;          ///< rho_c [m]: narrower gaps only stay open if seen through
+    /// Standard deviation of points across a surface [m], greater than 0. What is less flat, or
+    /// less in one plane, than the thresholds want may be so by noise, and what keeps to them by
+    /// less than noise would.
+    double sigma = 0.015;
+    std::size_t boundary_pairs = 6;  ///< n_b, an even number
+    /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
+    /// to 300 segments, and for 20 of more.
+    std::size_t candidates = 0;
+};
+
+/// The gap between two segments whose merging was considered, and what became of it.
+struct considered_gap {
+    std::vector<boundary_pair> lines;
+    bool merged;
+};
+
+/// Segments after merging, and every gap that was looked into, in the order of the rounds.
+struct merged_segments {
+    gnomon::segments segments;
+    std::vector<considered_gap> gaps;
+};
+
+namespace detail {
+
+/// Whether a policy accepts a line: more of its places speak for merging than against, and hardly
+/// any is seen through, be there ever so much in front of the others. Where the surface itself is
+/// seen, nothing speaks against it; a line without a place says what nothing says.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
+    if (seen.total() == 0) return policy(sighting::unseen);
+    if (10 * seen[sighting::farther] > seen.total()) return false;
+    std::size_t in_favor = 0, against = 0;
+    for (const sighting s :
+         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
+        if (policy(s))
+            in_favor += seen[s];
+        else if (s != sighting::level)
+            against += seen[s];
+    }
+    return in_favor > against;
+}
+
+/// One run of the algorithm.
+template <class R, merge_policy M, class Proj>
+class occlusion_merger {
+  public:
+    occlusion_merger(const R& points, const segments& parts, const lines_of_sight& sights,
+                     const M& policy, const occlusion_merging& options, Proj projection)
+        : range_(points),
+          projection_(std::move(projection)),
+          points_(points, projection_),
+          sights_(sights),
+          viewpoints_(viewpoints_of(points)),
+          policy_(policy),
+          options_(options) {
+        for (std::size_t s = 0; s < parts.size(); ++s) {
+            members_.emplace_back(parts[s].begin(), parts[s].end());
+            frames_.push_back(frame_of(members_.back()));
+            changed_.push_back(true);
+        }
+    }
+
+    [[nodiscard]] merged_segments operator()() {
+        while (merge_once()) {
+        }
+        std::vector<std::int32_t> group(points_.size(), unlabeled);
+        union_find sets(points_.size());
+        for (const auto& members : members_) {
+            for (const point_index i : members) {
+                sets.unite(members.front(), i);
+                group[i] = 0;
+            }
+        }
+        return {segments_of(sets, 1, [&](std::size_t i) { return group[i] != unlabeled; }),
+                std::move(gaps_)};
+    }
+
+  private:
+    /// One round.
+    /// @return whether it merged any
+    bool merge_once() {
+        union_find sets(members_.size());
+        bool any = false;
+        for (const auto& [i, j] : candidates()) {
+            if (!(changed_[i] || changed_[j]) || !coplanar(i, j)) continue;
+            considered_gap gap{
+                boundary_pairs(points_, members_[i], members_[j],
+                               {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
+                false};
+            gap.merged = spans(gap.lines);
+            if (gap.merged) sets.unite(i, j);
+            any = any || gap.merged;
+            gaps_.push_back(std::move(gap));
+        }
+        if (any) gather(sets);
+        return any;
+    }
+
+    /// Pairs of flat segments to compare, each once.
+    [[nodiscard]] std::vector<std::pair<point_index, point_index>> candidates() const {
+        std::vector<point_index> flat;
+        std::vector<Eigen::Vector3d> centroids;
+        for (std::size_t s = 0; s < members_.size(); ++s) {
+            if (!is_flat(frames_[s])) continue;
+            flat.push_back(static_cast<point_index>(s));
+            centroids.push_back(frames_[s].centroid);
+        }
+        std::vector<std::pair<point_index, point_index>> pairs;
+        const std::size_t all = 300, few = 20;
+        const std::size_t wanted = options_.candidates > 0 ? options_.candidates
+                                   : flat.size() <= all    ? flat.size()
+                                                           : few;
+        const kd_tree tree(centroids);
+        std::vector<neighbor> nearest;
+        for (std::size_t f = 0; f < flat.size(); ++f) {
+            tree.nearest(centroids[f], wanted, f, nearest);
+            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+        }
+        std::sort(pairs.begin(), pairs.end());
+        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+        return pairs;
+    }
+
+    [[nodiscard]] principal_frame frame_of(std::span<const point_index> members) const {
+        return principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
+    }
+
+    /// A segment no thicker than twice the noise is flat, whatever its variation.
+    [[nodiscard]] bool is_flat(const principal_frame& a) const {
+        return a.spectrum.surface_variation() <= options_.max_variation ||
+               a.spectrum.lambda[2] <= 4.0 * variance();
+    }
+
+    /// Whether two segments lie in one plane, that of the wider one, as far as noise lets them
+    /// tell. The normal of one that is hardly wider than noise tells nothing; then its points do.
+    [[nodiscard]] bool coplanar(std::size_t i, std::size_t j) const {
+        const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
+        const std::size_t wide = first ? i : j, slim = first ? j : i;
+        const principal_frame &a = frames_[wide], &b = frames_[slim];
+        const double offset =
+            std::abs(detail::dot(a.normal(), detail::difference(b.centroid, a.centroid)));
+        const double by_noise = offset_of_noise(slim, wide);
+        if (by_noise >= options_.max_offset || offset >= by_noise) return false;
+        if (angular_distance(a, b) <= options_.max_angle.radians()) return true;
+        const double wider_than_noise = 9.0 * variance();
+        return a.spectrum.lambda[1] > wider_than_noise &&
+               b.spectrum.lambda[1] <= wider_than_noise &&
+               variance_along(a.normal(), b) <= 2.25 * variance();
+    }
+
+    /// How far the centroid of one segment may be from the plane of another by noise [m]: 2.5
+    /// standard deviations of both, and a quarter of one of a point for what is no noise.
+    [[nodiscard]] double offset_of_noise(std::size_t of, std::size_t from) const {
+        const double distance2 = squared_distance(frames_[of].centroid, frames_[from].centroid);
+        const double leverage = distance2 / std::max(frames_[from].spectrum.lambda[1], variance());
+        const double of_centroid = 1.0 / static_cast<double>(members_[of].size());
+        const double of_plane = (1.0 + leverage) / static_cast<double>(members_[from].size());
+        return (2.5 * std::sqrt(of_centroid + of_plane) + 0.25) * options_.sigma;
+    }
+
+    [[nodiscard]] double variance() const { return options_.sigma * options_.sigma; }
+
+    /// Of the points of a segment [m^2].
+    [[nodiscard]] static double variance_along(const Eigen::Vector3d& direction,
+                                               const principal_frame& a) {
+        double sum = 0.0;
+        for (int i = 0; i < 3; ++i) {
+            const double c = detail::dot(direction, detail::column(a.axes, i));
+            sum += a.spectrum.lambda[i] * c * c;
+        }
+        return sum;
+    }
+
+    /// Whether the lines across a gap are accepted: most of them by the policy, or, where it is
+    /// narrow, by whoever merges unless something farther is seen.
+    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
+        std::size_t accepted = 0, passable = 0;
+        for (const boundary_pair& line : lines) {
+            const Eigen::Vector3d v =
+                detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
+            const sighting_count seen =
+                sights_.between(points_[line.first], points_[line.second], v);
+            accepted += accepts(policy_, seen) ? 1 : 0;
+            passable += accepts(liberal{}, seen) ? 1 : 0;
+        }
+        return 2 * accepted > lines.size() ||
+               (coplanar_distance(lines) < options_.max_gap && 2 * passable > lines.size());
+    }
+
+    /// Makes one segment of each set.
+    void gather(union_find& sets) {
+        std::fill(changed_.begin(), changed_.end(), false);
+        for (std::size_t s = 0; s < members_.size(); ++s) {
+            const point_index root = sets.find(static_cast<point_index>(s));
+            if (root == s) continue;
+            members_[root].insert(members_[root].end(), members_[s].begin(), members_[s].end());
+            members_[s].clear();
+            changed_[root] = true;
+        }
+        std::size_t kept = 0;
+        for (std::size_t s = 0; s < members_.size(); ++s) {
+            if (members_[s].empty()) continue;
+            if (changed_[s]) {
+                std::sort(members_[s].begin(), members_[s].end());
+                frames_[s] = frame_of(members_[s]);
+            }
+            if (kept != s) {
+                members_[kept] = std::move(members_[s]);
+                frames_[kept] = frames_[s];
+                changed_[kept] = changed_[s];
+            }
+            ++kept;
+        }
+        members_.resize(kept);
+        frames_.resize(kept);
+        changed_.resize(kept);
+    }
+
+    const R& range_;
+    Proj projection_;
+    position_view<R, Proj> points_;
+    const lines_of_sight& sights_;
+    viewpoint_table viewpoints_;
+    const M& policy_;
+    const occlusion_merging& options_;
+    std::vector<std::vector<point_index>> members_;
+    std::vector<principal_frame> frames_;
+    std::vector<bool> changed_;  // since the round before
+    std::vector<considered_gap> gaps_;
+};
+
+}  // namespace detail
+
+/// Merges flat segments that are one surface behind something.
+///
+/// @param points  any point range of n points; their view points as in `lines_of_sight`
+/// @param parts   segments of these points
+/// @param sights  what was seen from where, best by the whole cloud
+/// @param policy  `conservative`, `liberal` or another
+/// @throws std::invalid_argument  if the segments are of another number of points, for an odd or no
+///                                number of boundary pairs, or a negative or NaN threshold
+/// Complexity: per round O(candidates * (n + pixels of the gaps)); rounds are few.
+template <class R, merge_policy M = conservative, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] merged_segments merge_occluded(const R& points, const segments& parts,
+                                             const lines_of_sight& sights, const M& policy = {},
+                                             const occlusion_merging& options = {},
+                                             Proj projection = {}) {
+    detail::require(parts.labels().size() == position_view<R, Proj>(points, projection).size(),
+                    "merge_occluded: the segments are of other points");
+    detail::require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
+                    "merge_occluded: the number of boundary pairs must be even and not 0");
+    detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
+                        options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
+                    "merge_occluded: a threshold is negative or NaN");
+    detail::require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
+    return detail::occlusion_merger(points, parts, sights, policy, options,
+                                    std::move(projection))();
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion.hpp -------------------------------------------------------------------
+
+/// @file
+/// Which surfaces are one behind something: what was seen from where, the policies of merging, and
+/// the merging itself.
+
 // -------- gnomon/io/detail/os_error.hpp ----------------------------------------------------------
 
 /// @file

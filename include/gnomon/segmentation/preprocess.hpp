@@ -192,12 +192,18 @@ template <class R, class Proj = std::identity>
     const double across = n.x() * n.x() + n.y() * n.y();
     const double h = n.z() >= 0.0 ? 1.0 + n.z() : across / (1.0 - n.z());
     if (h > 0.0) {
-        // Rodrigues' formula for the rotation about n x z, written out.
-        level.rotation << 1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x(),  //
-            -n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y(),                //
-            n.x(), n.y(), n.z();
+        // Rodrigues' formula for the rotation about n x z, row by row. (Not by Eigen's commas,
+        // which take compilers long.)
+        const double rows[3][3] = {{1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x()},
+                                   {-n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y()},
+                                   {n.x(), n.y(), n.z()}};
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) level.rotation(i, j) = rows[i][j];
+        }
     } else {
-        level.rotation.diagonal() << 1.0, -1.0, -1.0;  // upside down: half a turn about x
+        // Upside down: half a turn about x.
+        level.rotation(1, 1) = -1.0;
+        level.rotation(2, 2) = -1.0;
     }
     return level;
 }

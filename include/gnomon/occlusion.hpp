@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Which surfaces are one behind something: what was seen from where, the policies of merging, and
+/// the merging itself.
+#pragma once
+
+#include <gnomon/occlusion/boundary_pairs.hpp>
+#include <gnomon/occlusion/lines_of_sight.hpp>
+#include <gnomon/occlusion/literal_merging.hpp>
+#include <gnomon/occlusion/merge_occluded.hpp>
+#include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/occlusion/range_image.hpp>
+#include <gnomon/occlusion/segment_distances.hpp>

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Where two segments face each other: the points of each that are nearest to the other's centroid,
+/// each with the nearest point of the other. Needs no hull or mesh.
+///
+/// Klasing 2010, Sec. 4.3.4, Fig. 4.7, and the coplanar distance, Eq. (4.7).
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+
+namespace gnomon {
+
+/// A point of one segment and one of another, by their numbers in the cloud.
+struct boundary_pair {
+    point_index first, second;
+    double distance;  ///< [m]
+};
+
+namespace detail {
+
+/// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
+template <class Points>
+[[nodiscard]] std::vector<neighbor> nearest_of(const Points& points,
+                                               std::span<const point_index> some,
+                                               const Eigen::Vector3d& place, std::size_t count) {
+    std::vector<neighbor> nearest;
+    if (count == 0) return nearest;
+    for (const point_index i : some) {
+        const neighbor candidate{squared_distance(points[i], place), i};
+        if (nearest.size() == count && !(candidate < nearest.back())) continue;
+        if (!is_finite(points[i])) continue;
+        if (nearest.size() < count) nearest.emplace_back();
+        auto slot = nearest.end() - 1;
+        for (; slot != nearest.begin() && candidate < slot[-1]; --slot) *slot = slot[-1];
+        *slot = candidate;
+    }
+    return nearest;
+}
+
+}  // namespace detail
+
+/// The boundary pairs of two segments of some points: half of them from each side.
+///
+/// @param points     a position_view of the cloud
+/// @param first      indices of the points of one segment
+/// @param second     of the other
+/// @param centroids  of both
+/// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
+///                   finite points
+/// Complexity: O(pairs * (|first| + |second|)).
+template <class Points>
+[[nodiscard]] std::vector<boundary_pair> boundary_pairs(
+    const Points& points, std::span<const point_index> first, std::span<const point_index> second,
+    const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
+    const auto near_second = detail::nearest_of(points, first, centroids.second, pairs / 2);
+    const auto near_first = detail::nearest_of(points, second, centroids.first, pairs / 2);
+    std::vector<boundary_pair> found;
+    if (near_second.empty() || near_first.empty()) return found;
+    for (const neighbor& p : near_second) {
+        const neighbor q = detail::nearest_of(points, second, points[p.index], 1).front();
+        found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
+    }
+    for (const neighbor& q : near_first) {
+        const neighbor p = detail::nearest_of(points, first, points[q.index], 1).front();
+        found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
+    }
+    return found;
+}
+
+/// rho_c, the least distance of the pairs [m], Eq. (4.7); infinite if there are none.
+[[nodiscard]] inline double coplanar_distance(std::span<const boundary_pair> pairs) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const boundary_pair& p : pairs) least = std::min(least, p.distance);
+    return least;
+}
+
+}  // namespace gnomon

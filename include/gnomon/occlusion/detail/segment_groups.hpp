@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What both forms of Alg. 4.3 need: which segments to compare, and segments of merged ones.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/union_find.hpp>
+#include <gnomon/features/principal_frame.hpp>
+#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::detail {
+
+/// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
+/// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+[[nodiscard]] inline std::vector<std::pair<point_index, point_index>> pairs_to_compare(
+    const std::vector<principal_frame>& frames, std::size_t wanted, auto&& is_flat) {
+    constexpr std::size_t not_many = 300, few = 20;
+    std::vector<point_index> flat;
+    std::vector<Eigen::Vector3d> centroids;
+    for (std::size_t s = 0; s < frames.size(); ++s) {
+        if (!is_flat(frames[s])) continue;
+        flat.push_back(static_cast<point_index>(s));
+        centroids.push_back(frames[s].centroid);
+    }
+    if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
+    const kd_tree tree(centroids);
+    std::vector<neighbor> nearest;
+    std::vector<std::pair<point_index, point_index>> pairs;
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        tree.nearest(centroids[f], wanted, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+/// The segments of n points that consist of these members, numbered as usual.
+[[nodiscard]] inline segments segments_of_groups(
+    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+    union_find sets(n);
+    std::vector<bool> is_member(n, false);
+    for (const auto& members : groups) {
+        for (const point_index i : members) {
+            sets.unite(members.front(), i);
+            is_member[i] = true;
+        }
+    }
+    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The omnidirectional range image: what one view point sees in every direction, by azimuth and
+/// elevation. Unlike the image of a camera it holds any field of view, panoramas too.
+///
+/// Klasing 2010, Sec. 2.4.2, Eq. (2.1). There the poles, about which pixels crowd, are up and down;
+/// here the image can be turned, by default such that they lie where least is seen.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+
+namespace gnomon {
+
+/// How large the image is and how it is turned.
+struct range_image_format {
+    std::size_t width = 720;   ///< pixels from azimuth -pi to pi
+    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2
+    /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
+    /// the z-axis the image is that of Eq. (2.1).
+    std::optional<Eigen::Vector3d> pole = std::nullopt;
+};
+
+/// The nearest return of each pixel.
+class range_image {
+  public:
+    struct pixel {
+        std::size_t azimuth, elevation;
+
+        friend bool operator==(const pixel&, const pixel&) = default;
+    };
+    /// The range of a pixel in which nothing was seen, as in the thesis.
+    static constexpr double nothing = -1.0;
+
+    /// The image of all points at a finite distance from the view point [m], but of those in it.
+    /// O(n).
+    /// @throws std::invalid_argument  without a pixel, or for a view point or a pole that is not
+    ///                                finite, or a pole of no length
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, const Eigen::Vector3d& viewpoint,
+                const range_image_format& format = {}, Proj projection = {})
+        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
+        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
+        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+        const position_view<R, Proj> p(points, std::move(projection));
+        turn(format.pole ? *format.pole : least_seen(p));
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::vector<pixel> pixels(p.size());
+        std::size_t lowest = height_, highest = 0;
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            pixels[i] = pixel_of(p[i]);
+            lowest = std::min(lowest, pixels[i].elevation);
+            highest = std::max(highest, pixels[i].elevation);
+        }
+        first_row_ = lowest;
+        if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            view& v = seen_[place_of(pixels[i])];
+            const double range = distance_to(p[i]);
+            if (v.range < 0.0 || range < v.range) v = {range, static_cast<point_index>(i)};
+        }
+    }
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] std::size_t height() const { return height_; }
+    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
+
+    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
+    /// the last row. Precondition: its distance, squared, is finite.
+    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
+        const std::array<double, 3> d = turned(p);
+        const double azimuth = std::atan2(d[1], d[0]) / (2.0 * std::numbers::pi) + 0.5;
+        const double elevation =
+            std::atan2(d[2], std::sqrt(d[0] * d[0] + d[1] * d[1])) / std::numbers::pi + 0.5;
+        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
+                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
+                         height_ - 1)};
+    }
+
+    /// The distance of the nearest point in a pixel [m], or `nothing`.
+    [[nodiscard]] double range(const pixel& at) const { return view_of(at).range; }
+
+    /// That point, or nothing.
+    [[nodiscard]] std::optional<point_index> index(const pixel& at) const {
+        const view v = view_of(at);
+        return v.range < 0.0 ? std::nullopt : std::optional(v.index);
+    }
+
+    /// The distance of a point from the view point [m].
+    [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
+        return std::sqrt(squared_distance(p, viewpoint_));
+    }
+
+  private:
+    struct view {
+        double range = nothing;
+        point_index index = 0;
+    };
+
+    [[nodiscard]] bool is_visible(const Eigen::Vector3d& p) const {
+        const double squared = squared_distance(p, viewpoint_);
+        return std::isfinite(squared) && squared > 0.0;
+    }
+
+    [[nodiscard]] view view_of(const pixel& at) const {
+        if (at.elevation < first_row_) return {};
+        const std::size_t place = place_of(at);
+        return place < seen_.size() ? seen_[place] : view{};
+    }
+
+    [[nodiscard]] std::size_t place_of(const pixel& at) const {
+        return (at.elevation - first_row_) * width_ + at.azimuth;
+    }
+
+    /// From the view point to p, in the frame of the image.
+    [[nodiscard]] std::array<double, 3> turned(const Eigen::Vector3d& p) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        return {detail::dot(x_, d), detail::dot(y_, d), detail::dot(z_, d)};
+    }
+
+    /// The axis along which the directions to the points spread least; z where there are none.
+    template <class Points>
+    [[nodiscard]] Eigen::Vector3d least_seen(const Points& p) const {
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            if (!is_visible(p[i])) continue;
+            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+            const double squared = detail::dot(d, d);
+            for (int r = 0; r < 3; ++r)
+                for (int c = 0; c < 3; ++c) sum(r, c) += d[r] * d[c] / squared;
+        }
+        // Where z is as good as any, it is z.
+        sum(2, 2) *= 1.0 - 1e-9;
+        return detail::column(symmetric_eigen(sum).vectors, 2);
+    }
+
+    void turn(const Eigen::Vector3d& pole) {
+        const double length = std::sqrt(detail::dot(pole, pole));
+        detail::require(length > 0.0 && std::isfinite(length),
+                        "range_image: the pole must be a finite direction");
+        z_ = Eigen::Vector3d(pole[0] / length, pole[1] / length, pole[2] / length);
+        // Azimuth counts from the x-axis; where that is the pole, from the y-axis.
+        const Eigen::Vector3d start =
+            std::abs(z_[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        y_ = detail::cross(z_, start);
+        const double across = std::sqrt(detail::dot(y_, y_));
+        y_ = Eigen::Vector3d(y_[0] / across, y_[1] / across, y_[2] / across);
+        x_ = detail::cross(y_, z_);
+    }
+
+    std::size_t width_, height_;
+    Eigen::Vector3d viewpoint_;
+    Eigen::Vector3d x_, y_, z_;  // axes of the image; z is the pole
+    std::size_t first_row_ = 0;
+    std::vector<view> seen_;  // row by row, from the first in which something is seen
+};
+
+}  // namespace gnomon

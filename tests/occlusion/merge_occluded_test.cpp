@@ -1,0 +1,518 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <ostream>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "laws/partitions.hpp"
+#include "occlusion/looks.hpp"
+#include <gnomon/occlusion/merge_occluded.hpp>
+
+namespace {
+
+using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight, gnomon::merge_occluded,
+    gnomon::occlusion_merging, gnomon::segments, gnomon::unlabeled;
+
+using looks::origin;
+
+TEST(merge_occluded, has_the_defaults_of_the_thesis) {
+    const occlusion_merging options;
+    EXPECT_DOUBLE_EQ(options.max_variation, 0.15);
+    EXPECT_DOUBLE_EQ(options.max_angle.degrees(), 15.0);
+    EXPECT_DOUBLE_EQ(options.max_offset, 0.05);
+    EXPECT_DOUBLE_EQ(options.max_gap, 0.20);
+    EXPECT_EQ(options.boundary_pairs, 6u);
+}
+
+/// How many segments the two halves of a wall make, by each policy.
+struct remaining {
+    std::size_t conservative, liberal;
+
+    friend bool operator==(const remaining&, const remaining&) = default;
+    friend std::ostream& operator<<(std::ostream& out, const remaining& r) {
+        return out << r.conservative << " and " << r.liberal;
+    }
+};
+
+remaining after_merging(const looks::look& seen, const segments& parts,
+                        const occlusion_merging& options = {}) {
+    const lines_of_sight sights(seen.scan);
+    return {merge_occluded(seen.scan, parts, sights, conservative{}, options).segments.size(),
+            merge_occluded(seen.scan, parts, sights, liberal{}, options).segments.size()};
+}
+
+/// Fig. 4.4: what is seen in a gap of 60 cm, and who merges.
+TEST(merge_occluded, follows_the_truth_table_of_the_policies) {
+    for (const double sigma : {0.0, 0.005, 0.015}) {
+        const looks::eye e{.sigma = sigma};
+        const auto closer = looks::look_at(looks::hidden(), e);
+        const auto farther = looks::look_at(looks::opened(0.6), e);
+        const auto nothing = looks::look_at(looks::torn(0.6), e);
+        EXPECT_EQ(after_merging(closer, looks::halves(closer)), (remaining{1, 1}));
+        EXPECT_EQ(after_merging(farther, looks::halves(farther)), (remaining{2, 2}));
+        EXPECT_EQ(after_merging(nothing, looks::halves(nothing)), (remaining{2, 1}));
+    }
+}
+
+TEST(merge_occluded, asks_a_policy_of_your_own) {
+    const auto seen = looks::look_at(looks::torn(0.6));
+    const auto parts = looks::halves(seen);
+    const lines_of_sight sights(seen.scan);
+    const auto always = [](gnomon::sighting) { return true; };
+    const auto never = [](gnomon::sighting) { return false; };
+    EXPECT_EQ(merge_occluded(seen.scan, parts, sights, always).segments.size(), 1u);
+    EXPECT_EQ(merge_occluded(seen.scan, parts, sights, never).segments.size(), 2u);
+}
+
+/// Sec. 4.3.2: what a column hides may be a door that stands open. Either policy takes it for wall.
+TEST(merge_occluded, takes_a_door_behind_a_column_for_wall) {
+    gnomon::scene world = looks::opened(0.56);
+    looks::add_column(world);
+    const auto seen = looks::look_at(world);
+    EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{1, 1}));
+}
+
+/// The gap is wider than the column: what is seen past it speaks against a wall.
+TEST(merge_occluded, sees_past_a_column) {
+    gnomon::scene world = looks::opened(1.4);
+    looks::add_column(world);
+    const auto seen = looks::look_at(world);
+    EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
+}
+
+/// Two seats, 15 cm apart, 60 cm below the sensor, with or without a floor.
+looks::look seats(bool floor) {
+    gnomon::scene world;
+    for (const double y : {-0.3, 0.3})
+        world.add_object("seat", gnomon::box{0.45, 0.45, 0.02}, gnomon::at(1.2, y, -0.61));
+    if (floor) world.add_object("floor", gnomon::box{6.0, 6.0, 0.1}, gnomon::at(0, 0, -1.15));
+    return looks::look_at(world, {.spacing = 0.5, .low = -60.0, .sigma = 0.003});
+}
+
+segments seats_of(const looks::look& seen) {
+    return seen.parts([](const Eigen::Vector3d& p, std::int32_t object) {
+        return object < 2 && p.z() > -0.615 ? object : unlabeled;
+    });
+}
+
+/// A18
+TEST(merge_occluded, closes_a_narrow_gap_unless_something_farther_is_seen) {
+    const auto above_floor = seats(true);
+    ASSERT_EQ(seats_of(above_floor).size(), 2u);
+    EXPECT_EQ(after_merging(above_floor, seats_of(above_floor)), (remaining{2, 2}));
+
+    const auto in_the_air = seats(false);
+    EXPECT_EQ(after_merging(in_the_air, seats_of(in_the_air)), (remaining{1, 1}));
+    EXPECT_EQ(after_merging(in_the_air, seats_of(in_the_air), {.max_gap = 0.0}), (remaining{2, 1}));
+}
+
+TEST(merge_occluded, closes_no_gap_that_is_not_narrow) {
+    for (const auto& [gap, rest] : {std::pair(0.1, 1u), std::pair(0.3, 2u)}) {
+        const auto seen = looks::look_at(looks::torn(gap), {.spacing = 0.5});
+        EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{rest, 1}));
+    }
+}
+
+/// One of ten places that are seen through are enough against a line, be all others hidden; places
+/// where the surface is seen count for nobody.
+TEST(merge_occluded, weighs_the_places_of_a_line) {
+    const auto accepted = [](const auto& policy, std::size_t unseen, std::size_t closer,
+                             std::size_t level, std::size_t farther) {
+        return gnomon::detail::accepts(policy, {{unseen, closer, level, farther}});
+    };
+    EXPECT_TRUE(accepted(conservative{}, 0, 9, 0, 1));
+    EXPECT_FALSE(accepted(conservative{}, 0, 8, 0, 1));
+    EXPECT_FALSE(accepted(liberal{}, 0, 8, 0, 1));
+    EXPECT_TRUE(accepted(conservative{}, 0, 1, 8, 0));
+    EXPECT_TRUE(accepted(conservative{}, 3, 4, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 4, 4, 0, 0)) << "more than half, not half";
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 5, 0));
+    EXPECT_TRUE(accepted(liberal{}, 4, 0, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 0, 0));
+    EXPECT_TRUE(accepted(liberal{}, 0, 0, 0, 0));
+}
+
+/// A third of the gap is seen through, past the column.
+TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
+    gnomon::scene world = looks::opened(0.9);
+    looks::add_column(world);
+    const auto seen = looks::look_at(world);
+    EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
+}
+
+/// Points by hand, with their labels.
+struct drawn {
+    clouds::cloud points;
+    std::vector<std::int32_t> labels;
+
+    /// A grid of points 2 cm apart about a place, `deep` layers of it along its normal, which is
+    /// the x-axis turned about the z-axis.
+    void add(const Eigen::Vector3d& center, int wide, int high, int deep = 1, double degrees = 0) {
+        const std::int32_t label = labels.empty() ? 0 : labels.back() + 1;
+        const gnomon::angle turned = gnomon::degrees(degrees);
+        const Eigen::Vector3d along(-sin(turned), cos(turned), 0), out(cos(turned), sin(turned), 0);
+        for (int i = 0; i < wide; ++i) {
+            for (int j = 0; j < high; ++j) {
+                for (int k = 0; k < deep; ++k) {
+                    points.push_back(center + 0.02 * (i - 0.5 * (wide - 1)) * along +
+                                     0.02 * (k - 0.5 * (deep - 1)) * out +
+                                     Eigen::Vector3d(0, 0, 0.02 * (j - 0.5 * (high - 1))));
+                    labels.push_back(label);
+                }
+            }
+        }
+    }
+
+    [[nodiscard]] gnomon::merged_segments merged(const occlusion_merging& options = {}) const {
+        return merge_occluded(points, segments(labels), lines_of_sight(points), conservative{},
+                              options);
+    }
+};
+
+TEST(merge_occluded, wants_planes_at_a_small_angle) {
+    for (const auto& [turned, rest] : {std::pair(0.0, 1u), {10.0, 1u}, {25.0, 2u}, {80.0, 2u}}) {
+        drawn wall;
+        wall.add({3, -0.5, 0}, 50, 50);
+        wall.add({3, 0.25, 0}, 15, 30, 1, turned);
+        EXPECT_EQ(wall.merged().segments.size(), rest) << turned;
+        EXPECT_EQ(wall.merged({.max_angle = gnomon::degrees(90)}).gaps.size(), 1u);
+    }
+}
+
+/// Something as thick as wide is no wall, be its middle in the wall's plane.
+TEST(merge_occluded, looks_only_at_flat_segments) {
+    drawn wall;
+    wall.add({3, -0.5, 0}, 50, 50);
+    wall.add({3, 0.35, 0}, 25, 30, 20);
+    EXPECT_TRUE(wall.merged().gaps.empty());
+    EXPECT_EQ(wall.merged({.max_variation = 1.0}).gaps.size(), 1u);
+}
+
+/// Four tiles tell together what each does not know alone: that the fifth lies in their plane. So
+/// it takes a second round.
+TEST(merge_occluded, goes_on_in_rounds) {
+    drawn tiles;
+    for (const double y : {0.0, 0.08})
+        for (const double z : {0.0, 0.08}) tiles.add({3, y, z}, 4, 4);
+    tiles.add({3, 0.31, 0.04}, 4, 4);
+    const auto merged = tiles.merged();
+    EXPECT_EQ(merged.segments.size(), 1u);
+    EXPECT_EQ(merged.gaps.back().lines.size(), 6u);
+    EXPECT_TRUE(merged.gaps.back().merged);
+    for (const gnomon::boundary_pair& line : merged.gaps.back().lines)
+        EXPECT_GE(line.distance, 0.15);
+    const auto again = merge_occluded(tiles.points, merged.segments, lines_of_sight(tiles.points));
+    EXPECT_EQ(again.segments, merged.segments);
+}
+
+/// Beside each other behind a column, but not in one plane: no gap is looked into.
+TEST(merge_occluded, merges_only_what_lies_in_one_plane) {
+    for (const double step : {0.1, 0.5}) {
+        gnomon::scene world;
+        looks::add_wall(world, -2.0, 0.0);
+        looks::add_wall(world, 0.0, 2.0, 3.0 + step);
+        looks::add_column(world);
+        const auto seen = looks::look_at(world, {.sigma = 0.005});
+        const auto parts = seen.parts([](const Eigen::Vector3d&, std::int32_t object) {
+            return object < 2 ? object : unlabeled;
+        });
+        ASSERT_EQ(parts.size(), 2u);
+        const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan), liberal{});
+        EXPECT_EQ(merged.segments.size(), 2u);
+        EXPECT_TRUE(merged.gaps.empty());
+    }
+}
+
+/// A wall that two columns have torn into three.
+looks::look two_columns(const looks::eye& e = {.sigma = 0.01}) {
+    gnomon::scene world;
+    looks::add_wall(world, -3.0, 3.0);
+    world.add_object("column", gnomon::box{0.1, 0.3, 3.0}, gnomon::at(1.55, -0.5, 0.0));
+    world.add_object("column", gnomon::box{0.1, 0.3, 3.0}, gnomon::at(1.55, 0.5, 0.0));
+    return looks::look_at(world, e);
+}
+
+/// The three parts of that wall and the columns, each its own segment.
+segments five_parts(const looks::look& seen) {
+    return seen.parts([](const Eigen::Vector3d& p, std::int32_t object) {
+        if (object > 0) return object + 2;
+        return p.y() < -1.0 ? 0 : p.y() < 1.0 ? 1 : 2;
+    });
+}
+
+TEST(merge_occluded, tells_what_it_has_looked_into) {
+    const auto seen = two_columns();
+    const auto parts = five_parts(seen);
+    ASSERT_EQ(parts.size(), 5u);
+    const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan));
+    EXPECT_EQ(merged.segments.size(), 3u);
+    std::size_t closed = 0;
+    for (const gnomon::considered_gap& gap : merged.gaps) {
+        EXPECT_EQ(gap.lines.size(), 6u);
+        closed += gap.merged ? 1 : 0;
+        for (const gnomon::boundary_pair& line : gap.lines) {
+            const auto a = merged.segments.labels()[line.first];
+            const auto b = merged.segments.labels()[line.second];
+            EXPECT_NE(parts.labels()[line.first], parts.labels()[line.second]);
+            if (gap.merged) {
+                EXPECT_EQ(a, b);
+            }
+        }
+    }
+    EXPECT_GE(closed, 2u);
+}
+
+TEST(merge_occluded, again_changes_nothing) {
+    for (std::uint64_t form = 0; form < 3; ++form) {
+        const auto seen = form == 0   ? two_columns()
+                          : form == 1 ? looks::look_at(looks::opened(0.6), {.sigma = 0.015})
+                                      : seats(true);
+        const auto parts = form == 0   ? five_parts(seen)
+                           : form == 1 ? looks::halves(seen)
+                                       : seats_of(seen);
+        const lines_of_sight sights(seen.scan);
+        const auto once = merge_occluded(seen.scan, parts, sights);
+        const auto twice = merge_occluded(seen.scan, once.segments, sights);
+        EXPECT_EQ(twice.segments, once.segments);
+        for (const auto& gap : twice.gaps) EXPECT_FALSE(gap.merged);
+    }
+}
+
+/// What was together stays so, and what had no label gets none.
+TEST(merge_occluded, keeps_the_points_of_segments_together_largest_first) {
+    const auto seen = two_columns();
+    const auto parts = five_parts(seen);
+    const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan)).segments;
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+        for (const auto i : parts[s])
+            EXPECT_EQ(merged.labels()[i], merged.labels()[parts[s].front()]);
+    }
+    for (std::size_t s = 1; s < merged.size(); ++s)
+        EXPECT_GE(merged[s - 1].size(), merged[s].size());
+
+    const auto some = looks::halves(seen);
+    const auto of_some = merge_occluded(seen.scan, some, lines_of_sight(seen.scan)).segments;
+    for (std::size_t i = 0; i < seen.scan.size(); ++i)
+        EXPECT_EQ(of_some.labels()[i] == unlabeled, some.labels()[i] == unlabeled);
+}
+
+/// Labels may have holes.
+TEST(merge_occluded, passes_over_empty_segments) {
+    const auto seen = two_columns();
+    auto labels = five_parts(seen).labels();
+    const auto expected = merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan));
+    for (auto& l : labels) l = 3 * l + 2;
+    const auto merged = merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan));
+    EXPECT_EQ(merged.segments, expected.segments);
+}
+
+TEST(merge_occluded, depends_on_no_order_of_points_or_segments) {
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        for (const bool moves : {false, true}) {
+            const auto seen = two_columns({.step = {0, moves ? 0.005 : 0.0, 0}, .sigma = 0.01});
+            const auto parts = five_parts(seen);
+            const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan));
+            std::vector<std::size_t> order;
+            const auto points = clouds::permuted(seen.scan.points, seed, order);
+            std::vector<std::int32_t> labels, expected;
+            clouds::cloud viewpoints;
+            for (const std::size_t i : order) {
+                labels.push_back((parts.labels()[i] * 3 + static_cast<std::int32_t>(seed)) % 5);
+                expected.push_back(merged.segments.labels()[i]);
+                viewpoints.push_back(seen.scan.viewpoints[i]);
+            }
+            const auto shuffled =
+                gnomon::with_viewpoints(points, gnomon::viewpoint_table(viewpoints));
+            const auto again = merge_occluded(shuffled, segments(labels), lines_of_sight(shuffled));
+            EXPECT_EQ(laws::rand_index(again.segments.labels(), expected), 1.0);
+        }
+    }
+}
+
+TEST(merge_occluded, stays_under_rigid_motion) {
+    const auto hidden = two_columns();
+    const auto bench = seats(true);
+    for (const auto& [seen, parts] :
+         {std::pair(hidden, five_parts(hidden)), std::pair(bench, seats_of(bench))}) {
+        const auto expected = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan)).segments;
+        for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+            const auto r = clouds::random_rotation(seed);
+            const Eigen::Vector3d t =
+                seed % 2 ? Eigen::Vector3d(1, 2, 3) : Eigen::Vector3d(6e5, 4.8e6, 100);
+            const auto points = clouds::moved(seen.scan.points, r, t);
+            const auto moved = gnomon::with_viewpoint(points, t);
+            const auto merged = merge_occluded(moved, parts, lines_of_sight(moved)).segments;
+            EXPECT_EQ(merged, expected) << seed;
+        }
+    }
+}
+
+/// F12: a wall behind a column, scanned line by line from view points 2 cm apart, is mended as from
+/// one; whether there is one for each scan line or one for each point.
+TEST(merge_occluded, reasons_with_view_points_that_move) {
+    for (const Eigen::Vector3d& step :
+         {Eigen::Vector3d(0, 0, 0), {0, 0.02, 0}, {0, -0.005, 0}, {0.01, 0, 0}, {0, 0, 0.002}}) {
+        SCOPED_TRACE(step.norm());
+        // The middle of the way is the origin.
+        const looks::eye e{.first = -50.0 * step, .step = step, .sigma = 0.005};
+        const auto closer = looks::look_at(looks::hidden(), e);
+        EXPECT_EQ(after_merging(closer, looks::halves(closer)), (remaining{1, 1}));
+        const auto farther = looks::look_at(looks::opened(0.6), e);
+        EXPECT_EQ(after_merging(farther, looks::halves(farther)), (remaining{2, 2}));
+
+        clouds::cloud of_points;
+        for (std::size_t i = 0; i < closer.scan.size(); ++i)
+            of_points.push_back(closer.scan.viewpoints[i]);
+        const auto per_point =
+            gnomon::with_viewpoints(closer.scan.points, gnomon::viewpoint_table(of_points));
+        EXPECT_EQ(merge_occluded(per_point, looks::halves(closer), lines_of_sight(per_point))
+                      .segments.size(),
+                  1u);
+    }
+}
+
+/// Two scans, registered: what one does not see behind its column the other sees as wall or hole.
+TEST(merge_occluded, reasons_with_several_scans) {
+    for (const bool door : {false, true}) {
+        gnomon::scene world = door ? looks::opened(0.56) : looks::torn(0.0);
+        looks::add_column(world);
+        looks::look both;
+        std::vector<gnomon::point_index> scan_of_point;
+        const clouds::cloud viewpoints{{0, 0, 0}, {0.5, 1.5, 0}};
+        for (gnomon::point_index v = 0; v < 2; ++v) {
+            const auto seen = looks::look_at(world, {.first = viewpoints[v], .right = -70.0});
+            both.scan.points.insert(both.scan.points.end(), seen.scan.points.begin(),
+                                    seen.scan.points.end());
+            both.objects.insert(both.objects.end(), seen.objects.begin(), seen.objects.end());
+            scan_of_point.resize(both.scan.size(), v);
+        }
+        both.scan.viewpoints = gnomon::viewpoint_table(viewpoints, scan_of_point);
+        EXPECT_EQ(after_merging(both, looks::halves(both)),
+                  door ? (remaining{2, 2}) : (remaining{1, 1}));
+    }
+}
+
+TEST(merge_occluded, refuses_what_makes_no_sense) {
+    const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
+    const auto parts = looks::halves(seen);
+    const lines_of_sight sights(seen.scan);
+    const auto merge = [&](const occlusion_merging& options) {
+        return merge_occluded(seen.scan, parts, sights, conservative{}, options);
+    };
+    const double nan = clouds::nan;
+    EXPECT_THROW(merge({.max_variation = nan}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_angle = gnomon::radians(nan)}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_offset = nan}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_gap = nan}), std::invalid_argument);
+    EXPECT_THROW(merge({.sigma = nan}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_variation = -0.1}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_angle = gnomon::degrees(-1)}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_offset = -0.1}), std::invalid_argument);
+    EXPECT_THROW(merge({.max_gap = -0.1}), std::invalid_argument);
+    EXPECT_THROW(merge({.sigma = 0.0}), std::invalid_argument);
+    EXPECT_THROW(merge({.boundary_pairs = 0}), std::invalid_argument);
+    EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
+    EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));
+    const segments of_others(std::vector<std::int32_t>(seen.scan.size() + 1, 0));
+    EXPECT_THROW((void)merge_occluded(seen.scan, of_others, sights), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, segments(), sights), std::invalid_argument);
+}
+
+TEST(merge_occluded, merges_none_of_no_segments) {
+    const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
+    const segments none(std::vector<std::int32_t>(seen.scan.size(), unlabeled));
+    const auto merged = merge_occluded(seen.scan, none, lines_of_sight(seen.scan));
+    EXPECT_TRUE(merged.segments.empty());
+    EXPECT_EQ(merged.segments.labels(), none.labels());
+    EXPECT_TRUE(merged.gaps.empty());
+    const clouds::cloud nothing;
+    EXPECT_TRUE(merge_occluded(nothing, segments(), lines_of_sight(nothing)).segments.empty());
+}
+
+/// Every label is kept together, be the points coincident, in a line, in the view point, NaN or
+/// huge, and be segments of one point.
+TEST(merge_occluded, survives_any_cloud) {
+    for (const auto& [name, points] : clouds::degenerate()) {
+        SCOPED_TRACE(name);
+        const auto n = static_cast<std::int32_t>(points.size());
+        for (const std::int32_t groups : {1, 2, 7, std::max(1, n)}) {
+            std::vector<std::int32_t> labels;
+            for (std::int32_t i = 0; i < n; ++i) labels.push_back(i % groups);
+            const segments parts(labels);
+            for (const Eigen::Vector3d& viewpoint :
+                 {origin, points.empty() || !gnomon::is_finite(points[0]) ? origin : points[0]}) {
+                const auto viewed = gnomon::with_viewpoint(points, viewpoint);
+                for (const double pixel : {0.0, 90.0}) {
+                    const lines_of_sight sights(viewed, {.pixel = gnomon::degrees(pixel)});
+                    const auto merged = merge_occluded(viewed, parts, sights, liberal{});
+                    ASSERT_EQ(merged.segments.labels().size(), points.size());
+                    for (std::size_t s = 0; s < parts.size(); ++s) {
+                        for (const auto i : parts[s])
+                            ASSERT_EQ(merged.segments.labels()[i],
+                                      merged.segments.labels()[parts[s].front()]);
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// From within a box, of which all sides are seen, nothing is merged across its edges.
+TEST(merge_occluded, may_look_from_within_an_object) {
+    gnomon::scene world;
+    world.add_object("room", gnomon::box{4.0, 3.0, 2.5});
+    const auto seen =
+        looks::look_at(world, {.right = -180.0, .left = 179.0, .low = -89.0, .high = 89.0});
+    const auto parts = seen.parts([](const Eigen::Vector3d& p, std::int32_t) {
+        const double x = std::abs(p.x()) / 2.0, y = std::abs(p.y()) / 1.5,
+                     z = std::abs(p.z()) / 1.25;
+        const int axis = x >= y && x >= z ? 0 : y >= z ? 1 : 2;
+        return 2 * axis + (p[axis] > 0.0 ? 1 : 0);
+    });
+    ASSERT_EQ(parts.size(), 6u);
+    EXPECT_EQ(after_merging(seen, parts), (remaining{6, 6}));
+}
+
+/// A wall in tiles of 4 x 4 points, 5,000 of them: each is compared with about 20 others, not with
+/// all.
+TEST(merge_occluded, of_thousands_of_segments_looks_into_few_gaps) {
+    clouds::cloud points;
+    std::vector<std::int32_t> labels;
+    for (int i = 0; i < 4 * 100; ++i) {
+        for (int j = 0; j < 4 * 50; ++j) {
+            points.push_back({3.0, 0.02 * (i - 200), 0.02 * (j - 100)});
+            labels.push_back(i / 4 * 50 + j / 4);
+        }
+    }
+    const auto never = [](gnomon::sighting) { return false; };
+    // With so little noise that the plane of a tile tells of all that are near.
+    const auto apart = merge_occluded(points, segments(labels), lines_of_sight(points), never,
+                                      {.max_gap = 0.0, .sigma = 0.001});
+    EXPECT_EQ(apart.segments.size(), 5000u);
+    EXPECT_GE(apart.gaps.size(), 5000u * 10);
+    EXPECT_LE(apart.gaps.size(), 5000u * 20);
+    // With more, only of those beside it.
+    EXPECT_EQ(merge_occluded(points, segments(labels), lines_of_sight(points), never).gaps.size(),
+              100u * 49 + 99 * 50);
+    const auto merged = merge_occluded(points, segments(labels), lines_of_sight(points));
+    EXPECT_EQ(merged.segments.size(), 1u) << "the gaps between them are narrow";
+}
+
+/// A16: the candidates matter little from 20 on.
+TEST(merge_occluded, depends_little_on_the_number_of_candidates) {
+    const auto seen = two_columns();
+    const auto parts = five_parts(seen);
+    const lines_of_sight sights(seen.scan);
+    const auto all = merge_occluded(seen.scan, parts, sights).segments;
+    for (const std::size_t candidates : {4u, 20u, 1000u})
+        EXPECT_EQ(merge_occluded(seen.scan, parts, sights, {}, {.candidates = candidates}).segments,
+                  all);
+}
+
+}  // namespace
