@@ -8,10 +8,10 @@
 
 #include <array>
 #include <bit>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
 
 namespace gnomon::detail {
