@@ -14,6 +14,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <functional>
@@ -51,6 +52,13 @@
 #define GNOMON_VERSION_MAJOR 0
 #define GNOMON_VERSION_MINOR 1
 #define GNOMON_VERSION_PATCH 0
+
+// -------- gnomon/core/detail/cmath.hpp -----------------------------------------------------------
+
+/// @file
+/// <cmath>, read once. That of g++ begins outside its include guard and so is read anew, all two
+/// thousand lines, by every header that includes it. With hundreds of thousands of lines g++ also
+/// runs out of short numbers for places in the source, and keeps a table of the others.
 
 // -------- gnomon/core/error.hpp ------------------------------------------------------------------
 
@@ -466,7 +474,7 @@ struct weighted_moments {
 [[nodiscard]] inline moments moments_about(const Eigen::Vector3d& p,
                                            std::span<const Eigen::Vector3d> neighbors) {
     moments m;
-    for (const Eigen::Vector3d& q : neighbors) m.add(q - p);
+    for (const Eigen::Vector3d& q : neighbors) m.add(detail::difference(q, p));
     return m;
 }
 
@@ -5233,7 +5241,7 @@ inline constexpr double smallest_gap = 1e-12;
         fit.trust = trust::degenerate;
         return fit;
     }
-    fit.normal = e.vectors.col(2);
+    fit.normal = detail::column(e.vectors, 2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
 }
@@ -8010,7 +8018,7 @@ struct principal_frame {
     Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
 
     /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
-    [[nodiscard]] Eigen::Vector3d normal() const { return axes.col(2); }
+    [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
 };
 
 /// The principal frame of all finite points of a range; at the origin and of size zero if there are
@@ -8870,9 +8878,10 @@ template <class R, class Proj = std::identity>
         const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
-        plane next{e.vectors.col(2), 0.0};
-        if (next.normal.dot(floor.normal) < 0.0) next.normal = -next.normal;
-        const Eigen::Vector3d centroid = *origin + m.sum / static_cast<double>(m.count);
+        plane next{detail::column(e.vectors, 2), 0.0};
+        if (next.normal.dot(floor.normal) < 0.0) next.normal = detail::scaled(-1.0, next.normal);
+        Eigen::Vector3d centroid = *origin;
+        for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
         next.offset = next.normal.dot(centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
@@ -8881,7 +8890,7 @@ template <class R, class Proj = std::identity>
         std::nth_element(distances.begin(), median, distances.end());
         const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
 
-        const bool rests = (next.normal - floor.normal).norm() < 1e-9 &&
+        const bool rests = detail::length(detail::difference(next.normal, floor.normal)) < 1e-9 &&
                            std::abs(floor.signed_distance(centroid)) < 1e-8 &&
                            std::abs(narrower - band) < 1e-9;
         floor = next;
@@ -8936,12 +8945,18 @@ template <class R, class Proj = std::identity>
     const double across = n.x() * n.x() + n.y() * n.y();
     const double h = n.z() >= 0.0 ? 1.0 + n.z() : across / (1.0 - n.z());
     if (h > 0.0) {
-        // Rodrigues' formula for the rotation about n x z, written out.
-        level.rotation << 1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x(),  //
-            -n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y(),                //
-            n.x(), n.y(), n.z();
+        // Rodrigues' formula for the rotation about n x z, row by row. (Not by Eigen's commas,
+        // which take compilers long.)
+        const double rows[3][3] = {{1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x()},
+                                   {-n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y()},
+                                   {n.x(), n.y(), n.z()}};
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j) level.rotation(i, j) = rows[i][j];
+        }
     } else {
-        level.rotation.diagonal() << 1.0, -1.0, -1.0;  // upside down: half a turn about x
+        // Upside down: half a turn about x.
+        level.rotation(1, 1) = -1.0;
+        level.rotation(2, 2) = -1.0;
     }
     return level;
 }
@@ -9550,6 +9565,92 @@ class lines_of_sight {
 
 }  // namespace gnomon
 
+// -------- gnomon/occlusion/detail/bresenham.hpp --------------------------------------------------
+
+/// @file
+/// The pixels of a straight line in a range image, by the shorter way around: across the seam where
+/// azimuth pi meets -pi, if that is nearer (Bresenham 1965; Klasing 2010, Sec. 4.3.2).
+
+namespace gnomon::detail {
+
+/// Calls visit(pixel, share) from one pixel to another, both included; share is how far along, from
+/// 0 to 1.
+inline void for_each_pixel_between(const range_image& image, const range_image::pixel& from,
+                                   const range_image::pixel& to, auto&& visit) {
+    const auto width = static_cast<std::int64_t>(image.width());
+    auto across = static_cast<std::int64_t>(to.azimuth) - static_cast<std::int64_t>(from.azimuth);
+    if (2 * across > width) across -= width;
+    if (2 * across < -width) across += width;
+    const auto up =
+        static_cast<std::int64_t>(to.elevation) - static_cast<std::int64_t>(from.elevation);
+    const std::int64_t steps = std::max(std::abs(across), std::abs(up));
+    // Rounded to the nearest, halves away from the start.
+    const auto at = [steps](std::int64_t way, std::int64_t step) {
+        if (steps == 0) return std::int64_t{0};
+        const std::int64_t twice = 2 * std::abs(way) * step + steps;
+        return (way < 0 ? -1 : 1) * (twice / (2 * steps));
+    };
+    for (std::int64_t s = 0; s <= steps; ++s) {
+        const std::int64_t azimuth =
+            (static_cast<std::int64_t>(from.azimuth) + at(across, s) + width) % width;
+        const std::int64_t elevation = static_cast<std::int64_t>(from.elevation) + at(up, s);
+        const double share = steps == 0 ? 0.0 : static_cast<double>(s) / static_cast<double>(steps);
+        visit(range_image::pixel{static_cast<std::size_t>(azimuth),
+                                 static_cast<std::size_t>(elevation)},
+              share);
+    }
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/segment_groups.hpp ---------------------------------------------
+
+/// @file
+/// What both forms of Alg. 4.3 need: which segments to compare, and segments of merged ones.
+
+namespace gnomon::detail {
+
+/// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
+/// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+[[nodiscard]] inline std::vector<std::pair<point_index, point_index>> pairs_to_compare(
+    const std::vector<principal_frame>& frames, std::size_t wanted, auto&& is_flat) {
+    constexpr std::size_t not_many = 300, few = 20;
+    std::vector<point_index> flat;
+    std::vector<Eigen::Vector3d> centroids;
+    for (std::size_t s = 0; s < frames.size(); ++s) {
+        if (!is_flat(frames[s])) continue;
+        flat.push_back(static_cast<point_index>(s));
+        centroids.push_back(frames[s].centroid);
+    }
+    if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
+    const kd_tree tree(centroids);
+    std::vector<neighbor> nearest;
+    std::vector<std::pair<point_index, point_index>> pairs;
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        tree.nearest(centroids[f], wanted, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    }
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    return pairs;
+}
+
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+    union_find sets(n);
+    std::vector<bool> is_member(n, false);
+    for (const auto& members : groups) {
+        for (const point_index i : members) {
+            sets.unite(members.front(), i);
+            is_member[i] = true;
+        }
+    }
+    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/segment_distances.hpp -------------------------------------------------
 
 /// @file
@@ -9668,16 +9769,7 @@ class occlusion_merger {
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        std::vector<std::int32_t> group(points_.size(), unlabeled);
-        union_find sets(points_.size());
-        for (const auto& members : members_) {
-            for (const point_index i : members) {
-                sets.unite(members.front(), i);
-                group[i] = 0;
-            }
-        }
-        return {segments_of(sets, 1, [&](std::size_t i) { return group[i] != unlabeled; }),
-                std::move(gaps_)};
+        return {segments_of_groups(points_.size(), members_), std::move(gaps_)};
     }
 
   private:
@@ -9686,7 +9778,8 @@ class occlusion_merger {
     bool merge_once() {
         union_find sets(members_.size());
         bool any = false;
-        for (const auto& [i, j] : candidates()) {
+        for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
+                                                   [this](const auto& f) { return is_flat(f); })) {
             if (!(changed_[i] || changed_[j]) || !coplanar(i, j)) continue;
             considered_gap gap{
                 boundary_pairs(points_, members_[i], members_[j],
@@ -9699,31 +9792,6 @@ class occlusion_merger {
         }
         if (any) gather(sets);
         return any;
-    }
-
-    /// Pairs of flat segments to compare, each once.
-    [[nodiscard]] std::vector<std::pair<point_index, point_index>> candidates() const {
-        std::vector<point_index> flat;
-        std::vector<Eigen::Vector3d> centroids;
-        for (std::size_t s = 0; s < members_.size(); ++s) {
-            if (!is_flat(frames_[s])) continue;
-            flat.push_back(static_cast<point_index>(s));
-            centroids.push_back(frames_[s].centroid);
-        }
-        std::vector<std::pair<point_index, point_index>> pairs;
-        const std::size_t all = 300, few = 20;
-        const std::size_t wanted = options_.candidates > 0 ? options_.candidates
-                                   : flat.size() <= all    ? flat.size()
-                                                           : few;
-        const kd_tree tree(centroids);
-        std::vector<neighbor> nearest;
-        for (std::size_t f = 0; f < flat.size(); ++f) {
-            tree.nearest(centroids[f], wanted, f, nearest);
-            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
-        }
-        std::sort(pairs.begin(), pairs.end());
-        pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-        return pairs;
     }
 
     [[nodiscard]] principal_frame frame_of(std::span<const point_index> members) const {
@@ -9861,6 +9929,93 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     detail::require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
     return detail::occlusion_merger(points, parts, sights, policy, options,
                                     std::move(projection))();
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/literal_merging.hpp ---------------------------------------------------
+
+/// @file
+/// Alg. 4.3 to the letter, to reproduce and to compare with: one pass over the segments as they
+/// are, narrow gaps closed whatever is seen in them, depths of lines interpolated from pixel to
+/// pixel. Only the comparison of angles, which line 6 has the wrong way round, is set right
+/// (specification of Klasing 2010, A15). Use merge_occluded.
+
+namespace gnomon {
+
+namespace detail {
+
+/// Whether a policy finds most pixels of a line in its favor: what is less far than the line is
+/// closer, the rest farther.
+template <merge_policy M>
+[[nodiscard]] bool most_pixels_speak_for(const M& policy, const range_image& image,
+                                         const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+    const double first = image.distance_to(p), last = image.distance_to(q);
+    std::size_t in_favor = 0, pixels = 0;
+    for_each_pixel_between(image, image.pixel_of(p), image.pixel_of(q),
+                           [&](const range_image::pixel& at, double share) {
+                               const double range = image.range(at);
+                               const bool closer = range < first + share * (last - first);
+                               const sighting seen = range < 0.0 ? sighting::unseen
+                                                     : closer    ? sighting::closer
+                                                                 : sighting::farther;
+                               in_favor += policy(seen) ? 1 : 0;
+                               ++pixels;
+                           });
+    return 2 * in_favor > pixels;
+}
+
+}  // namespace detail
+
+/// Merges flat segments as Alg. 4.3 says. Parameters as of merge_occluded, of whose options sigma
+/// is not asked for; a pair of boundary points from different view points counts as not occluded.
+/// @throws std::invalid_argument  if the segments are of another number of points
+template <class R, merge_policy M = conservative, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
+                                                const lines_of_sight& sights, const M& policy = {},
+                                                const occlusion_merging& options = {},
+                                                Proj projection = {}) {
+    const position_view<R, Proj> p(points, projection);
+    detail::require(parts.labels().size() == p.size(),
+                    "merge_occluded_literally: the segments are of other points");
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    const auto image_of = [&](point_index i) {
+        return std::find_if(
+            sights.images().begin(), sights.images().end(),
+            [&](const range_image& image) { return image.viewpoint() == viewpoints[i]; });
+    };
+    const auto is_occluded = [&](const boundary_pair& line) {
+        const auto image = image_of(line.first);
+        return image != sights.images().end() && image == image_of(line.second) &&
+               detail::most_pixels_speak_for(policy, *image, p[line.first], p[line.second]);
+    };
+
+    std::vector<principal_frame> frames;
+    for (std::size_t s = 0; s < parts.size(); ++s)
+        frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
+    union_find sets(parts.size());
+    for (const auto& [i, j] :
+         detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
+             return f.spectrum.surface_variation() <= options.max_variation;
+         })) {
+        if (angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
+            orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
+            continue;
+        const auto lines =
+            boundary_pairs(p, parts[i], parts[j], {frames[i].centroid, frames[j].centroid},
+                           options.boundary_pairs);
+        const auto occluded = std::count_if(lines.begin(), lines.end(), is_occluded);
+        if (coplanar_distance(lines) < options.max_gap ||
+            2 * static_cast<std::size_t>(occluded) > lines.size())
+            sets.unite(i, j);
+    }
+    std::vector<std::vector<point_index>> groups(parts.size());
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+        auto& group = groups[sets.find(static_cast<point_index>(s))];
+        group.insert(group.end(), parts[s].begin(), parts[s].end());
+    }
+    return detail::segments_of_groups(p.size(), groups);
 }
 
 }  // namespace gnomon
