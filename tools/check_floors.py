@@ -33,6 +33,7 @@ BELOW["roof"] = [floor for floor in BELOW if floor not in ("simulation", "io", "
 FORBIDDEN = {
     "Eigen/Dense": "include the Eigen modules that are used",
     "Eigen/Eigen": "include the Eigen modules that are used",
+    "cmath": "read anew by every header; gnomon/core/detail/cmath.hpp reads it once",
     "execution": "does not link where oneTBB's headers are installed",
     "filesystem": "too dear",
     "iostream": "too dear; nothing is ever printed",
@@ -43,6 +44,7 @@ FORBIDDEN = {
 # Needs Boost, which not everybody has: users include it by name.
 OUTSIDE = {"gnomon/normals/registry.hpp"}
 ROOF = "gnomon/perception.hpp"
+CMATH_HOME = "gnomon/core/detail/cmath.hpp"
 NANOFLANN_HOME = "gnomon/neighborhoods/detail/"
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.M)
@@ -68,7 +70,7 @@ def check_header(header, includes):
         problem(header, f"no floor is called '{floor}'")
         return
     for include in includes:
-        if include in FORBIDDEN:
+        if include in FORBIDDEN and not (include == "cmath" and header == CMATH_HOME):
             problem(header, f"<{include}>: {FORBIDDEN[include]}")
         elif include == "nanoflann.hpp" and not header.startswith(NANOFLANN_HOME):
             problem(header, f"nanoflann is only for {NANOFLANN_HOME}")

@@ -54,6 +54,13 @@
 #define GNOMON_VERSION_MINOR 1
 #define GNOMON_VERSION_PATCH 0
 
+// -------- gnomon/core/detail/cmath.hpp -----------------------------------------------------------
+
+/// @file
+/// <cmath>, read once. That of g++ begins outside its include guard and so is read anew, all two
+/// thousand lines, by every header that includes it. With hundreds of thousands of lines g++ also
+/// runs out of short numbers for places in the source, and keeps a table of the others.
+
 // -------- gnomon/core/error.hpp ------------------------------------------------------------------
 
 /// @file
@@ -468,7 +475,7 @@ struct weighted_moments {
 [[nodiscard]] inline moments moments_about(const Eigen::Vector3d& p,
                                            std::span<const Eigen::Vector3d> neighbors) {
     moments m;
-    for (const Eigen::Vector3d& q : neighbors) m.add(q - p);
+    for (const Eigen::Vector3d& q : neighbors) m.add(detail::difference(q, p));
     return m;
 }
 
@@ -5404,7 +5411,7 @@ inline constexpr double smallest_gap = 1e-12;
         fit.trust = trust::degenerate;
         return fit;
     }
-    fit.normal = e.vectors.col(2);
+    fit.normal = detail::column(e.vectors, 2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
 }
@@ -8181,7 +8188,7 @@ struct principal_frame {
     Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
 
     /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
-    [[nodiscard]] Eigen::Vector3d normal() const { return axes.col(2); }
+    [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
 };
 
 /// The principal frame of all finite points of a range; at the origin and of size zero if there are
@@ -9041,9 +9048,10 @@ template <class R, class Proj = std::identity>
         const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
-        plane next{e.vectors.col(2), 0.0};
-        if (next.normal.dot(floor.normal) < 0.0) next.normal = -next.normal;
-        const Eigen::Vector3d centroid = *origin + m.sum / static_cast<double>(m.count);
+        plane next{detail::column(e.vectors, 2), 0.0};
+        if (next.normal.dot(floor.normal) < 0.0) next.normal = detail::scaled(-1.0, next.normal);
+        Eigen::Vector3d centroid = *origin;
+        for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
         next.offset = next.normal.dot(centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
@@ -9052,7 +9060,7 @@ template <class R, class Proj = std::identity>
         std::nth_element(distances.begin(), median, distances.end());
         const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
 
-        const bool rests = (next.normal - floor.normal).norm() < 1e-9 &&
+        const bool rests = detail::length(detail::difference(next.normal, floor.normal)) < 1e-9 &&
                            std::abs(floor.signed_distance(centroid)) < 1e-8 &&
                            std::abs(narrower - band) < 1e-9;
         floor = next;
@@ -9797,9 +9805,9 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of n points that consist of these members, numbered as usual.
-[[nodiscard]] inline segments segments_of_groups(
-    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
     union_find sets(n);
     std::vector<bool> is_member(n, false);
     for (const auto& members : groups) {

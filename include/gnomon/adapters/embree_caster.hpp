@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -14,6 +13,8 @@
 #include <vector>
 
 #include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
 
 #if __has_include(<embree4/rtcore.h>)
 #include <embree4/rtcore.h>

@@ -5,10 +5,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <compare>
 #include <numbers>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
 namespace gnomon {

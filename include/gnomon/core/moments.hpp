@@ -116,7 +116,7 @@ struct weighted_moments {
 [[nodiscard]] inline moments moments_about(const Eigen::Vector3d& p,
                                            std::span<const Eigen::Vector3d> neighbors) {
     moments m;
-    for (const Eigen::Vector3d& q : neighbors) m.add(q - p);
+    for (const Eigen::Vector3d& q : neighbors) m.add(detail::difference(q, p));
     return m;
 }
 

@@ -6,7 +6,6 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,8 @@
 #include <utility>
 
 #include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
 
 namespace gnomon {
 

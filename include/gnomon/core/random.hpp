@@ -5,9 +5,10 @@
 /// library leaves its distributions to each implementation.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 #include <numbers>
+
+#include <gnomon/core/detail/cmath.hpp>
 
 namespace gnomon {
 

@@ -7,11 +7,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <utility>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/square_array.hpp>
 
 namespace gnomon {

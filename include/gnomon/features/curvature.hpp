@@ -19,13 +19,13 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <type_traits>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/detail/eigen_2x2.hpp>
 #include <gnomon/features/detail/height_frame.hpp>

@@ -4,7 +4,6 @@
 /// all of them. Orient the normals first (`orient_normals`): their side decides the signs.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -13,6 +12,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>

@@ -32,7 +32,7 @@ struct principal_frame {
     Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
 
     /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
-    [[nodiscard]] Eigen::Vector3d normal() const { return axes.col(2); }
+    [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
 };
 
 /// The principal frame of all finite points of a range; at the origin and of size zero if there are

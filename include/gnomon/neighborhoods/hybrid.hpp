@@ -4,12 +4,12 @@
 /// or `radius` that does not drown in dense places.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>

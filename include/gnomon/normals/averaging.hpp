@@ -11,12 +11,12 @@
 /// Klasing 2010, Eqs. (3.9)-(3.11), Tab. 3.2; Gouraud 1971; Jin, Lewis and West 2005.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>

@@ -5,13 +5,13 @@
 /// Klasing 2010, Sec. 3.2.6, Eq. (3.12).
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <iterator>
 #include <limits>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/normal_range.hpp>

@@ -7,12 +7,12 @@
 /// Klasing 2010, Sec. 3.2.7, Alg. 3.2, Eqs. (3.16)-(3.18).
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>

@@ -5,8 +5,7 @@
 /// Klasing 2010, Sec. 3.2.6, Eq. (3.13).
 #pragma once
 
-#include <cmath>
-
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
 namespace gnomon {

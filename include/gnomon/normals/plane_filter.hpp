@@ -17,11 +17,11 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <concepts>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>

@@ -13,6 +13,7 @@
 
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/separated_eigen.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
@@ -43,7 +44,7 @@ inline constexpr double smallest_gap = 1e-12;
         fit.trust = trust::degenerate;
         return fit;
     }
-    fit.normal = e.vectors.col(2);
+    fit.normal = detail::column(e.vectors, 2);
     fit.trust = fit.aspect_ratio() < min_aspect_ratio ? trust::weak : trust::good;
     return fit;
 }

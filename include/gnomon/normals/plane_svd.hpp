@@ -11,11 +11,11 @@
 /// Klasing 2010, Eq. (3.1), which forgets the column of ones in the matrix of its text.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/square_array.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>

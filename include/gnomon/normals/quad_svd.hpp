@@ -9,11 +9,11 @@
 /// Klasing 2010, Eq. (3.7), which leaves the gradient to the reader.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/small_svd.hpp>

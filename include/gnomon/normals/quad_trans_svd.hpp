@@ -10,11 +10,11 @@
 /// Klasing 2010, Eq. (3.8).
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>

@@ -8,10 +8,9 @@
 /// Klasing 2010, Sec. 3.2.6 names robust fits as an improvement.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>

@@ -9,11 +9,11 @@
 /// the variance along the normal (Kanatani 1996; Wang et al. 2001 for noise along rays).
 #pragma once
 
-#include <cmath>
 #include <functional>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/trust.hpp>

@@ -7,7 +7,6 @@
 /// Klasing 2010, Sec. 4.2.4 and Fig. 4.2.
 #pragma once
 
-#include <cmath>
 #include <concepts>
 #include <cstddef>
 #include <functional>
@@ -17,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>

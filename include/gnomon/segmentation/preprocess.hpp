@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -17,6 +16,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
@@ -126,9 +126,10 @@ template <class R, class Proj = std::identity>
         const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
-        plane next{e.vectors.col(2), 0.0};
-        if (next.normal.dot(floor.normal) < 0.0) next.normal = -next.normal;
-        const Eigen::Vector3d centroid = *origin + m.sum / static_cast<double>(m.count);
+        plane next{detail::column(e.vectors, 2), 0.0};
+        if (next.normal.dot(floor.normal) < 0.0) next.normal = detail::scaled(-1.0, next.normal);
+        Eigen::Vector3d centroid = *origin;
+        for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
         next.offset = next.normal.dot(centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
@@ -137,7 +138,7 @@ template <class R, class Proj = std::identity>
         std::nth_element(distances.begin(), median, distances.end());
         const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
 
-        const bool rests = (next.normal - floor.normal).norm() < 1e-9 &&
+        const bool rests = detail::length(detail::difference(next.normal, floor.normal)) < 1e-9 &&
                            std::abs(floor.signed_distance(centroid)) < 1e-8 &&
                            std::abs(narrower - band) < 1e-9;
         floor = next;

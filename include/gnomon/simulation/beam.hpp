@@ -10,10 +10,10 @@
 /// equal energy; which of its echoes counts is up to the instrument.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
 namespace gnomon {

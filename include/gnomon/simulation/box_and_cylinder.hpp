@@ -6,12 +6,12 @@
 /// Klasing 2010, Sec. 3.2.6, Scenario I, Fig. 3.3.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/simulation/beam.hpp>

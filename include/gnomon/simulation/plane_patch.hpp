@@ -4,11 +4,11 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <optional>
 #include <span>
 #include <string_view>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>

@@ -3,11 +3,10 @@
 /// Where something is and how it is turned: a rigid motion from its own frame to the world's.
 #pragma once
 
-#include <cmath>
-
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/point.hpp>
 
 namespace gnomon {

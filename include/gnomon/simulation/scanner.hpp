@@ -6,12 +6,12 @@
 /// Klasing 2010, Sec. 2.4.3: a scan of t_s seconds has n = t_s f_s alpha_FoV / alpha_r beams.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
 namespace gnomon {

@@ -7,12 +7,12 @@
 /// Klasing 2010: Figs. 3.3, 3.4, 3.9, 4.8 and 4.11.
 #pragma once
 
-#include <cmath>
 #include <cstdint>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/cylinder.hpp>

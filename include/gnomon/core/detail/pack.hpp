@@ -5,11 +5,11 @@
 /// templates of expressions.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
 
 namespace gnomon::detail {

@@ -11,10 +11,10 @@
 /// residual A v - x v tells.
 #pragma once
 
-#include <cmath>
 #include <cstddef>
 #include <type_traits>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/pack.hpp>
 
 namespace gnomon::detail {

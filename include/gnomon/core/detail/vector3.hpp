@@ -5,9 +5,10 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 
 #include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
 
 namespace gnomon::detail {
 

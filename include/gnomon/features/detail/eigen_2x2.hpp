@@ -3,7 +3,7 @@
 /// Eigenvalues and eigenvectors of a symmetric 2x2 matrix, in closed form.
 #pragma once
 
-#include <cmath>
+#include <gnomon/core/detail/cmath.hpp>
 
 namespace gnomon::detail {
 

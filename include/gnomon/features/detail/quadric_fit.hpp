@@ -6,10 +6,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <optional>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/square_array.hpp>
 #include <gnomon/core/symmetric_eigen.hpp>
 

@@ -10,12 +10,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 #include <span>
 #include <vector>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/expansion.hpp>
 

@@ -9,9 +9,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
+
+#include <gnomon/core/detail/cmath.hpp>
 
 namespace gnomon::detail {
 

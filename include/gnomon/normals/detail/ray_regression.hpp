@@ -5,10 +5,10 @@
 #pragma once
 
 #include <array>
-#include <cmath>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/trust.hpp>
 

@@ -3,8 +3,7 @@
 /// What every estimator with a noise model asks of its noise.
 #pragma once
 
-#include <cmath>
-
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
 namespace gnomon::detail {

@@ -6,12 +6,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/point.hpp>
 
 namespace gnomon::detail {

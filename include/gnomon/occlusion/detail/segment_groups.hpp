@@ -46,9 +46,9 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of n points that consist of these members, numbered as usual.
-[[nodiscard]] inline segments segments_of_groups(
-    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
     union_find sets(n);
     std::vector<bool> is_member(n, false);
     for (const auto& members : groups) {

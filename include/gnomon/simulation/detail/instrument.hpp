@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <numbers>
 #include <optional>
@@ -16,6 +15,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/ray.hpp>

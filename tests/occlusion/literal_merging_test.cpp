@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <stdexcept>
+#include <tuple>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "occlusion/looks.hpp"
+#include <gnomon/occlusion/literal_merging.hpp>
+#include <gnomon/occlusion/merge_occluded.hpp>
+
+namespace {
+
+using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight,
+    gnomon::merge_occluded_literally, gnomon::segments;
+
+/// How many segments the two halves of a wall make.
+std::size_t remaining_literally(const looks::look& seen, const auto& policy,
+                                const gnomon::occlusion_merging& options = {}) {
+    return merge_occluded_literally(seen.scan, looks::halves(seen), lines_of_sight(seen.scan),
+                                    policy, options)
+        .size();
+}
+
+/// Fig. 4.4: what is seen in a gap of 60 cm, and who merges.
+TEST(merge_occluded_literally, follows_the_truth_table_of_the_policies) {
+    const auto closer = looks::look_at(looks::hidden());
+    const auto farther = looks::look_at(looks::opened(0.6));
+    const auto nothing = looks::look_at(looks::torn(0.6));
+    EXPECT_EQ(remaining_literally(closer, conservative{}), 1u);
+    EXPECT_EQ(remaining_literally(closer, liberal{}), 1u);
+    EXPECT_EQ(remaining_literally(farther, conservative{}), 2u);
+    EXPECT_EQ(remaining_literally(farther, liberal{}), 2u);
+    EXPECT_EQ(remaining_literally(nothing, conservative{}), 2u);
+    EXPECT_EQ(remaining_literally(nothing, liberal{}), 1u);
+}
+
+/// Line 8, where merge_occluded looks through the gap (A18).
+TEST(merge_occluded_literally, closes_a_narrow_gap_whatever_is_seen_in_it) {
+    const auto seen = looks::look_at(looks::opened(0.1));
+    EXPECT_EQ(remaining_literally(seen, conservative{}), 1u);
+    EXPECT_EQ(remaining_literally(seen, conservative{}, {.max_gap = 0.0}), 2u);
+    EXPECT_EQ(gnomon::merge_occluded(seen.scan, looks::halves(seen), lines_of_sight(seen.scan))
+                  .segments.size(),
+              2u);
+}
+
+/// Lines 12 and 13, where merge_occluded reasons with view points that move (F12).
+TEST(merge_occluded_literally, does_not_look_between_view_points) {
+    const auto seen =
+        looks::look_at(looks::hidden(), {.first = {0, 0.5, 0}, .step = {0, -0.01, 0}});
+    EXPECT_EQ(remaining_literally(seen, liberal{}), 2u);
+}
+
+TEST(merge_occluded_literally, keeps_what_is_not_in_one_plane) {
+    gnomon::scene world;
+    looks::add_wall(world, -2.0, 0.0);
+    looks::add_wall(world, 0.0, 2.0, 3.07);
+    EXPECT_EQ(remaining_literally(looks::look_at(world), liberal{}), 2u);
+}
+
+TEST(merge_occluded_literally, refuses_segments_of_other_points) {
+    const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
+    EXPECT_THROW((void)merge_occluded_literally(seen.scan, segments(), lines_of_sight(seen.scan)),
+                 std::invalid_argument);
+}
+
+/// From the first pixel to the last, each next to the one before, by the shorter way around.
+TEST(pixels_between, go_the_shorter_way_around) {
+    const clouds::cloud one{{1, 0, 0}};
+    const gnomon::range_image image(one, looks::origin, {.width = 20, .height = 10});
+    using pixel = gnomon::range_image::pixel;
+    for (const auto& [from, to, steps] :
+         {std::tuple(pixel{18, 2}, pixel{2, 3}, 4u), std::tuple(pixel{2, 3}, pixel{18, 2}, 4u),
+          std::tuple(pixel{4, 1}, pixel{6, 8}, 7u), std::tuple(pixel{5, 5}, pixel{5, 5}, 0u)}) {
+        std::vector<pixel> line;
+        std::vector<double> shares;
+        gnomon::detail::for_each_pixel_between(image, from, to, [&](const pixel& at, double share) {
+            line.push_back(at);
+            shares.push_back(share);
+        });
+        ASSERT_EQ(line.size(), steps + 1);
+        EXPECT_EQ(line.front(), from);
+        EXPECT_EQ(line.back(), to);
+        EXPECT_EQ(shares.front(), 0.0);
+        EXPECT_EQ(shares.back(), steps == 0 ? 0.0 : 1.0);
+        for (std::size_t s = 1; s < line.size(); ++s) {
+            const std::size_t across = (line[s].azimuth + 21 - line[s - 1].azimuth) % 20;
+            const std::size_t up = line[s].elevation + 1 - line[s - 1].elevation;
+            EXPECT_LE(across, 2u);
+            EXPECT_LE(up, 2u);
+        }
+    }
+}
+
+}  // namespace
