@@ -34,6 +34,9 @@ METHOD = """\
 - As in [peers.md](peers.md): a program for each library, compiled by the same compiler, in turns
   after a warm-up; times are medians. All tasks start with the points in the library's own container
   and pay for trees, searches and everything else; k does not count the point itself.
+- What is compiled with `-O2` alone may still use better instructions if it asks the processor: so
+  does gnomon's search, for AVX2 (with `GNOMON_COMPILED_LANES` it would not); Open3D, PCL and FLANN
+  come compiled as packages, Eigen and nanoflann as headers.
 - Search: the k nearest neighbors of all points, sorted by distance, as one list of n times k
   numbers. `knn{}(points, threads{})`; for the others a loop around their search, by OpenMP. Equal
   mean distances to the last neighbor show that the same was found.
