@@ -68,7 +68,8 @@ class Results:
         if not self.tables:
             raise ValueError(f"nothing was measured in {folder}")
         self.quick = any(c["quick"] for c in self.contexts.values())
-        self.pictures = {program: sorted(p.name for p in folder.glob(f"{program}*.png"))
+        self.pictures = {program: [p.name for pattern in (".png", "_*.png")
+                                   for p in sorted(folder.glob(program + pattern))]
                          for program in self.tables}
 
 
