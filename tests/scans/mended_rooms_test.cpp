@@ -23,12 +23,12 @@ namespace {
 using gnomon::unlabeled;
 
 /// A scan of a room, and what was perceived in it.
-struct room {
+struct perceived_room {
     gnomon::scene world;
     gnomon::true_scan truth;
     gnomon::perceived<gnomon::plane_fit> seen;
 
-    room(gnomon::scene scene, const auto& trajectory, std::uint64_t seed)
+    perceived_room(gnomon::scene scene, const auto& trajectory, std::uint64_t seed)
         : world(std::move(scene)),
           truth(gnomon::simulate(world, trajectory, {}, {.sigma = 0.015, .seed = seed},
                                  gnomon::threads{2})),
@@ -61,21 +61,21 @@ struct room {
     }
 };
 
-room kitchen(std::uint64_t seed) {
+perceived_room perceived_kitchen(std::uint64_t seed) {
     const gnomon::scene world = gnomon::scenes::kitchen();
     return {world, gnomon::rotational{.mount = world.sensor}, seed};
 }
 
-room living_room(std::uint64_t seed) {
+perceived_room perceived_living_room(std::uint64_t seed) {
     const gnomon::scene world = gnomon::scenes::living_room();
     return {world, gnomon::rotational{.mount = world.sensor}, seed};
 }
 
-constexpr std::uint64_t seeds = 3;
+constexpr std::uint64_t seeds_of_rooms = 3;
 
 TEST(mended_rooms, major_surfaces_of_the_kitchen_are_one_segment_each) {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const room r = kitchen(seed);
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const perceived_room r = perceived_kitchen(seed);
         for (const char* name : {"room/wall +x/plane", "room/wall -y/plane", "room/wall +y/plane",
                                  "cupboard/body/-x", "table/top/+z", "chair 2/seat/+z"})
             EXPECT_GE(r.of(name).iou, 0.8) << name << ", seed " << seed;
@@ -83,8 +83,8 @@ TEST(mended_rooms, major_surfaces_of_the_kitchen_are_one_segment_each) {
 }
 
 TEST(mended_rooms, major_surfaces_of_the_living_room_are_one_segment_each) {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const room r = living_room(seed);
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const perceived_room r = perceived_living_room(seed);
         for (const char* name :
              {"room/wall +x/plane", "room/wall -y/plane", "room/wall +y/plane", "platform/body/+z",
               "small table/top/+z", "armchair 1/arm right/-y", "armchair 2/arm left/+y"})
@@ -95,9 +95,9 @@ TEST(mended_rooms, major_surfaces_of_the_living_room_are_one_segment_each) {
 /// Where the axis of sight meets a surface, 50 neighbors are hardly wider than the noise, and such
 /// points get into no segment. What of the surface is in segments is one, though it was torn.
 TEST(mended_rooms, surfaces_in_the_middle_of_the_scan_are_one_but_for_what_noise_hides) {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const double sink = kitchen(seed).of("sink cabinet/body/-x").of_whole;
-        const double sideboard = living_room(seed).of("sideboard/body/-x").of_whole;
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const double sink = perceived_kitchen(seed).of("sink cabinet/body/-x").of_whole;
+        const double sideboard = perceived_living_room(seed).of("sideboard/body/-x").of_whole;
         std::printf("of what is in segments: sink cabinet %.3f, sideboard %.3f\n", sink, sideboard);
         EXPECT_GE(sink, 0.95);
         EXPECT_GE(sideboard, 0.95);
@@ -105,7 +105,7 @@ TEST(mended_rooms, surfaces_in_the_middle_of_the_scan_are_one_but_for_what_noise
 }
 
 TEST(mended_rooms, seats_of_neighboring_chairs_stay_apart) {
-    const auto expect_apart = [](const room& r, const std::vector<std::string>& seats) {
+    const auto expect_apart = [](const perceived_room& r, const std::vector<std::string>& seats) {
         std::set<std::int32_t> segments;
         for (const std::string& seat : seats) {
             const std::int32_t segment = r.of(seat).segment;
@@ -114,8 +114,9 @@ TEST(mended_rooms, seats_of_neighboring_chairs_stay_apart) {
         }
         EXPECT_EQ(segments.size(), seats.size());
     };
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        expect_apart(kitchen(seed), {"chair 1/seat/+z", "chair 2/seat/+z", "chair 4/seat/+z"});
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        expect_apart(perceived_kitchen(seed),
+                     {"chair 1/seat/+z", "chair 2/seat/+z", "chair 4/seat/+z"});
         const gnomon::scene world = gnomon::scenes::two_chairs();
         expect_apart({world, gnomon::rotational{.mount = world.sensor}, seed},
                      {"chair 1/seat/+z", "chair 2/seat/+z"});
@@ -123,8 +124,8 @@ TEST(mended_rooms, seats_of_neighboring_chairs_stay_apart) {
 }
 
 TEST(mended_rooms, second_run_changes_nothing) {
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        for (const room& r : {kitchen(seed), living_room(seed)}) {
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        for (const perceived_room& r : {perceived_kitchen(seed), perceived_living_room(seed)}) {
             const auto again = gnomon::merge_occluded(r.truth.scan, r.seen.surfaces,
                                                       gnomon::lines_of_sight(r.truth.scan));
             EXPECT_EQ(again.segments.labels(), r.seen.surfaces.labels());
@@ -137,7 +138,7 @@ TEST(mended_rooms, second_run_changes_nothing) {
 TEST(mended_rooms, wall_behind_the_column_is_mended_from_any_trajectory) {
     const gnomon::scene world = gnomon::scenes::two_chairs();
     const auto expect_mended = [&](const auto& trajectory) {
-        const room r(world, trajectory, 1);
+        const perceived_room r(world, trajectory, 1);
         EXPECT_GT(r.seen.fragments.size(), r.seen.surfaces.size());
         EXPECT_GE(r.of("room/wall +x/plane").iou, 0.95);
     };
