@@ -30,7 +30,7 @@ done
 
 . "$root/tools/setup.sh"
 # shellcheck disable=SC2086  # a list of words
-set_up $build_packages libbenchmark-dev pkgconf python3 python3-matplotlib
+set_up $build_packages libbenchmark-dev libstb-dev nlohmann-json3-dev pkgconf python3 python3-matplotlib
 
 build=$root/build/benchmarks
 cmake -S "$root" -B "$build" -G Ninja -D CMAKE_BUILD_TYPE=Release -D GNOMON_BUILD_BENCHMARKS=ON \

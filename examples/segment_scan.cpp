@@ -4,11 +4,8 @@
 /// and a table: read, perceive, describe the segments.
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdio>
-#include <numbers>
 #include <optional>
 #include <string>
 #include <variant>
@@ -20,7 +17,7 @@
 #include "common/output_directory.hpp"
 #include "common/program.hpp"
 #include "common/progress.hpp"
-#include "picture/picture.hpp"
+#include "picture/of_perception.hpp"
 #include "segment_scan/options.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
@@ -94,50 +91,14 @@ json description_of(const gnomon::scan& scan, const gnomon::segments& segments) 
     return list;
 }
 
-/// The points as they are drawn: those that are finite and were not left out.
-std::vector<picture::splat> splats_of(const gnomon::scan& scan, const result& r) {
-    std::vector<picture::splat> splats;
-    for (const gnomon::point_index i : r.kept) {
-        if (!gnomon::is_finite(scan.points[i])) continue;
-        const surfel& s = r.surface[i];
-        // k points that fill a disc at the distance rho_bar on average are 1.5 rho_bar sqrt(pi / k)
-        // apart; a little more than that closes the surface, for points that lie in rows too.
-        const double neighbors = std::max<double>(1.0, s.neighbors);
-        const double spacing = 1.5 * s.mean_distance * std::sqrt(std::numbers::pi / neighbors);
-        splats.push_back({scan.points[i], s.normal, 1.35 * spacing, r.surfaces.labels()[i]});
-    }
-    return splats;
-}
-
-/// The boundary pairs of the gaps that were closed, and of those that were not.
-picture::annotation gaps_of(const gnomon::scan& scan, const result& r) {
-    constexpr picture::color closed{20, 150, 60}, open{215, 30, 30};
-    picture::annotation lines;
-    std::size_t merged = 0;
-    for (const gnomon::considered_gap& gap : r.gaps) {
-        merged += gap.merged ? 1 : 0;
-        for (const gnomon::boundary_pair& pair : gap.lines)
-            lines.strokes.push_back(
-                {scan.points[pair.first], scan.points[pair.second], gap.merged ? closed : open});
-    }
-    if (!r.gaps.empty()) {
-        lines.legend = {{closed, picture::counted(merged, "gap") + " closed"},
-                        {open, picture::counted(r.gaps.size() - merged, "gap") + " left open"}};
-    }
-    return lines;
-}
-
 std::string picture_of(const gnomon::scan& scan, const result& r, const options& o) {
     const progress telling("drawing");
-    std::vector<std::string> legend;
-    for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
-        legend.push_back(picture::with_commas(r.surfaces[label].size()));
-    }
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
-    return picture::picture_of(splats_of(scan, r), legend, "segment", viewpoint, o.up,
-                               picture::color_of, gaps_of(scan, r))
+    return picture::picture_of(picture::splats_of(scan, r), picture::sizes_of(r.surfaces),
+                               "segment", viewpoint, o.up, picture::color_of,
+                               picture::gaps_of(scan, r))
         .png();
 }
 

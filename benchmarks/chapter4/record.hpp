@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a program of this chapter leaves behind: DIR/NAME.json, and pictures DIR/NAME*.png. The
+/// page shows the tables of any program in its list, so that a figure needs no code in the page:
+///
+///     {"context": {"quick": false, "processor": "...", "compiler": "...", "flags": "..."},
+///      "tables": {"what these rows are": [{"column": value, ...}, ...]}}
+#pragma once
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <nlohmann/json.hpp>
+
+using json = nlohmann::ordered_json;
+
+/// How much is measured, and where it goes.
+struct effort {
+    bool quick = false;
+    std::filesystem::path out;
+
+    [[nodiscard]] unsigned seeds() const { return quick ? 1 : 5; }
+    [[nodiscard]] int passes() const { return quick ? 1 : 7; }
+};
+
+/// What must be known of the machine to read times.
+inline json context_of(const effort& much) {
+    std::string processor = "unknown";
+    std::ifstream info("/proc/cpuinfo");
+    for (std::string line; std::getline(info, line);) {
+        if (!line.starts_with("model name")) continue;
+        processor = line.substr(line.find(':') + 2);
+        break;
+    }
+    return {{"quick", much.quick},
+            {"processor", processor},
+            {"compiler", CHAPTER4_COMPILER},
+            {"flags", CHAPTER4_FLAGS}};
+}
+
+/// Precondition: there are some.
+inline double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+}
+
+/// Rounded to so many digits after the point, as nobody reads more.
+inline double rounded(double value, int digits) {
+    char text[64];
+    std::snprintf(text, sizeof text, "%.*f", digits, value);
+    return std::stod(text);
+}
+
+/// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables.
+int run_program(int argc, char** argv, auto&& measure) {
+    effort much;
+    bool understood = true;
+    for (int i = 1; i < argc; ++i) {
+        const std::string_view word = argv[i];
+        if (word == "--quick")
+            much.quick = true;
+        else if (word == "--out" && i + 1 < argc)
+            much.out = argv[++i];
+        else
+            understood = false;
+    }
+    const std::string name = std::filesystem::path(argv[0]).filename().string();
+    if (!understood || much.out.empty()) {
+        std::fprintf(stderr, "usage: %s [--quick] --out DIR\n", name.c_str());
+        return 2;
+    }
+    try {
+        std::filesystem::create_directories(much.out);
+        const json tables = measure(much);
+        std::ofstream file(much.out / (name + ".json"));
+        file << json{{"context", context_of(much)}, {"tables", tables}}.dump(1) << '\n';
+        if (!file.flush()) throw std::runtime_error("cannot write " + name + ".json");
+    } catch (const std::exception& problem) {
+        std::fprintf(stderr, "%s: %s\n", name.c_str(), problem.what());
+        return 1;
+    }
+    return 0;
+}

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What `gnomon::perception` found in a scan, as a picture draws it.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include "picture.hpp"
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/perception.hpp>
+
+namespace picture {
+
+/// The points as they are drawn: those that are finite and were not left out.
+template <class Estimate>
+[[nodiscard]] std::vector<splat> splats_of(const gnomon::scan& scan,
+                                           const gnomon::perceived<Estimate>& seen) {
+    std::vector<splat> splats;
+    for (const gnomon::point_index i : seen.kept) {
+        if (!gnomon::is_finite(scan.points[i])) continue;
+        const auto& s = seen.surface[i];
+        // k points that fill a disc at the distance rho_bar on average are 1.5 rho_bar sqrt(pi / k)
+        // apart; a little more than that closes the surface, for points that lie in rows too.
+        const double neighbors = std::max<double>(1.0, s.neighbors);
+        const double spacing = 1.5 * s.mean_distance * std::sqrt(std::numbers::pi / neighbors);
+        splats.push_back({scan.points[i], s.normal, 1.35 * spacing, seen.surfaces.labels()[i]});
+    }
+    return splats;
+}
+
+/// What to say of segments: their numbers of points, by label.
+[[nodiscard]] inline std::vector<std::string> sizes_of(const gnomon::segments& segments) {
+    std::vector<std::string> sizes;
+    for (std::size_t label = 0; label < segments.size(); ++label)
+        sizes.push_back(with_commas(segments[label].size()));
+    return sizes;
+}
+
+/// The boundary pairs of the gaps that were closed, and of those that were not.
+template <class Estimate>
+[[nodiscard]] annotation gaps_of(const gnomon::scan& scan,
+                                 const gnomon::perceived<Estimate>& seen) {
+    constexpr color closed{20, 150, 60}, open{215, 30, 30};
+    annotation lines;
+    std::size_t merged = 0;
+    for (const gnomon::considered_gap& gap : seen.gaps) {
+        merged += gap.merged ? 1 : 0;
+        for (const gnomon::boundary_pair& pair : gap.lines)
+            lines.strokes.push_back(
+                {scan.points[pair.first], scan.points[pair.second], gap.merged ? closed : open});
+    }
+    if (!seen.gaps.empty()) {
+        lines.legend = {{closed, counted(merged, "gap") + " closed"},
+                        {open, counted(seen.gaps.size() - merged, "gap") + " left open"}};
+    }
+    return lines;
+}
+
+}  // namespace picture

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSL-1.0
+// Figs. 4.9, 4.10 and 4.12 as laws: rooms of known truth, 15 mm of noise, the parameters of Sec.
+// 4.4.1. (Not among them: the vase and the seats that few scan lines meet; benchmarks/chapter4 says
+// how far these are recovered, and why no farther.)
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/perception.hpp>
+#include <gnomon/simulation/simulate.hpp>
+#include <gnomon/simulation/thesis_scenes.hpp>
+
+namespace {
+
+using gnomon::unlabeled;
+
+/// A scan of a room, and what was perceived in it.
+struct perceived_room {
+    gnomon::scene world;
+    gnomon::true_scan truth;
+    gnomon::perceived<gnomon::plane_fit> seen;
+
+    perceived_room(gnomon::scene scene, const auto& trajectory, std::uint64_t seed)
+        : world(std::move(scene)),
+          truth(gnomon::simulate(world, trajectory, {}, {.sigma = 0.015, .seed = seed},
+                                 gnomon::threads{2})),
+          seen(gnomon::perception<>{.leave_out = gnomon::floor_and_ceiling{}}(truth.scan)) {}
+
+    struct recovery {
+        double iou = 0.0;     ///< of the surface with the segment that has most of it
+        double of_whole = 0;  ///< the share of that segment in the points that are in segments
+        std::int32_t segment = unlabeled;
+    };
+
+    [[nodiscard]] recovery of(const std::string& name) const {
+        const std::int32_t surface = world.find_surface(name);
+        EXPECT_NE(surface, gnomon::nothing) << name;
+        std::map<std::int32_t, std::size_t> held;
+        std::size_t points = 0;
+        for (const auto i : seen.kept) {
+            if (truth.surfaces[i] != surface) continue;
+            ++held[seen.surfaces.labels()[i]];
+            ++points;
+        }
+        const std::size_t labeled = points - held[unlabeled];
+        held.erase(unlabeled);
+        if (held.empty()) return {};
+        const auto& [label, common] =
+            *std::ranges::max_element(held, {}, [](const auto& h) { return h.second; });
+        const std::size_t size = seen.surfaces[static_cast<std::size_t>(label)].size();
+        return {static_cast<double>(common) / static_cast<double>(points + size - common),
+                static_cast<double>(common) / static_cast<double>(labeled), label};
+    }
+};
+
+perceived_room perceived_kitchen(std::uint64_t seed) {
+    const gnomon::scene world = gnomon::scenes::kitchen();
+    return {world, gnomon::rotational{.mount = world.sensor}, seed};
+}
+
+perceived_room perceived_living_room(std::uint64_t seed) {
+    const gnomon::scene world = gnomon::scenes::living_room();
+    return {world, gnomon::rotational{.mount = world.sensor}, seed};
+}
+
+constexpr std::uint64_t seeds_of_rooms = 3;
+
+TEST(mended_rooms, major_surfaces_of_the_kitchen_are_one_segment_each) {
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const perceived_room r = perceived_kitchen(seed);
+        for (const char* name : {"room/wall +x/plane", "room/wall -y/plane", "room/wall +y/plane",
+                                 "cupboard/body/-x", "table/top/+z", "chair 2/seat/+z"})
+            EXPECT_GE(r.of(name).iou, 0.8) << name << ", seed " << seed;
+    }
+}
+
+TEST(mended_rooms, major_surfaces_of_the_living_room_are_one_segment_each) {
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const perceived_room r = perceived_living_room(seed);
+        for (const char* name :
+             {"room/wall +x/plane", "room/wall -y/plane", "room/wall +y/plane", "platform/body/+z",
+              "small table/top/+z", "armchair 1/arm right/-y", "armchair 2/arm left/+y"})
+            EXPECT_GE(r.of(name).iou, 0.8) << name << ", seed " << seed;
+    }
+}
+
+/// Where the axis of sight meets a surface, 50 neighbors are hardly wider than the noise, and such
+/// points get into no segment. What of the surface is in segments is one, though it was torn.
+TEST(mended_rooms, surfaces_in_the_middle_of_the_scan_are_one_but_for_what_noise_hides) {
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        const double sink = perceived_kitchen(seed).of("sink cabinet/body/-x").of_whole;
+        const double sideboard = perceived_living_room(seed).of("sideboard/body/-x").of_whole;
+        std::printf("of what is in segments: sink cabinet %.3f, sideboard %.3f\n", sink, sideboard);
+        EXPECT_GE(sink, 0.95);
+        EXPECT_GE(sideboard, 0.95);
+    }
+}
+
+TEST(mended_rooms, seats_of_neighboring_chairs_stay_apart) {
+    const auto expect_apart = [](const perceived_room& r, const std::vector<std::string>& seats) {
+        std::set<std::int32_t> segments;
+        for (const std::string& seat : seats) {
+            const std::int32_t segment = r.of(seat).segment;
+            EXPECT_NE(segment, unlabeled) << seat;
+            segments.insert(segment);
+        }
+        EXPECT_EQ(segments.size(), seats.size());
+    };
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        expect_apart(perceived_kitchen(seed),
+                     {"chair 1/seat/+z", "chair 2/seat/+z", "chair 4/seat/+z"});
+        const gnomon::scene world = gnomon::scenes::two_chairs();
+        expect_apart({world, gnomon::rotational{.mount = world.sensor}, seed},
+                     {"chair 1/seat/+z", "chair 2/seat/+z"});
+    }
+}
+
+TEST(mended_rooms, second_run_changes_nothing) {
+    for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
+        for (const perceived_room& r : {perceived_kitchen(seed), perceived_living_room(seed)}) {
+            const auto again = gnomon::merge_occluded(r.truth.scan, r.seen.surfaces,
+                                                      gnomon::lines_of_sight(r.truth.scan));
+            EXPECT_EQ(again.segments.labels(), r.seen.surfaces.labels());
+        }
+    }
+}
+
+/// Fig. 4.12, also for a sensor on an arm that turns about its elbow: no two scan lines are from
+/// one place.
+TEST(mended_rooms, wall_behind_the_column_is_mended_from_any_trajectory) {
+    const gnomon::scene world = gnomon::scenes::two_chairs();
+    const auto expect_mended = [&](const auto& trajectory) {
+        const perceived_room r(world, trajectory, 1);
+        EXPECT_GT(r.seen.fragments.size(), r.seen.surfaces.size());
+        EXPECT_GE(r.of("room/wall +x/plane").iou, 0.95);
+    };
+    expect_mended(gnomon::rotational{.mount = world.sensor});
+    expect_mended(gnomon::vertical{.mount = world.sensor});
+    const auto forearm = gnomon::at(0.25, 0, 0), elbow = world.sensor * gnomon::at(-0.25, 0, 0);
+    expect_mended(gnomon::along(4.0, [&](double seconds) {
+        return elbow * gnomon::yaw(gnomon::degrees(45.0 * seconds - 90.0)) * forearm *
+               gnomon::roll(gnomon::degrees(90));
+    }));
+}
+
+}  // namespace
