@@ -32,6 +32,7 @@
 #include <gnomon/occlusion/lines_of_sight.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/segmentation/claim_strays.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segments.hpp>
 #include <gnomon/segmentation/surface_segmentation.hpp>
@@ -54,7 +55,8 @@ struct perception_seconds {
     double preprocessing = 0.0;  ///< finding floor and ceiling
     double normals = 0.0;        ///< and their repair and orientation
     double segmentation = 0.0;
-    double merging = 0.0;  ///< and range images
+    double merging = 0.0;   ///< and range images
+    double claiming = 0.0;  ///< of strays
 };
 
 /// What was perceived in n points.
@@ -65,7 +67,7 @@ struct perceived {
     std::vector<point_index> kept;          ///< the points that were not left out, ascending
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
     segments fragments;                     ///< of the n points, before merging
-    segments surfaces;                      ///< after merging
+    segments surfaces;                      ///< after merging and claiming strays
     std::vector<considered_gap> gaps;       ///< what merging looked into
     perception_seconds seconds;
 };
@@ -86,6 +88,8 @@ struct perception {
     std::optional<floor_and_ceiling> leave_out = std::nullopt;
     /// Needles among the neighborhoods are widened (Eq. 3.19), where policy and estimator can.
     anisotropy_repair repair{};
+    /// Points without a segment go to flat ones that they are of.
+    std::optional<stray_claiming> strays = stray_claiming{};
 
     /// Perceives n points: any point range; their view points as everywhere.
     /// @throws std::invalid_argument  what the steps throw, for parameters out of range
@@ -102,10 +106,7 @@ struct perception {
         result.seconds.normals = seconds_of([&] { surface = surface_of(kept, run); });
         result.seconds.segmentation = seconds_of([&] {
             const segments parts = segment_surfaces(kept, surface, segmentation, run);
-            std::vector<std::int32_t> labels(n, unlabeled);
-            for (std::size_t i = 0; i < kept.size(); ++i)
-                labels[result.kept[i]] = parts.labels()[i];
-            result.fragments = segments(std::move(labels));
+            result.fragments = segments(of_all(parts.labels(), result.kept, n));
         });
         result.surface.resize(n);
         for (std::size_t i = 0; i < kept.size(); ++i) result.surface[result.kept[i]] = surface[i];
@@ -120,10 +121,28 @@ struct perception {
                 result.gaps = std::move(merged.gaps);
             });
         }
+        if (strays) {
+            result.seconds.claiming = seconds_of([&] {
+                std::vector<std::int32_t> labels(kept.size());
+                for (std::size_t i = 0; i < kept.size(); ++i)
+                    labels[i] = result.surfaces.labels()[result.kept[i]];
+                const segments claimed =
+                    claim_strays(kept, segments(std::move(labels)), *strays, run);
+                result.surfaces = segments(of_all(claimed.labels(), result.kept, n));
+            });
+        }
         return result;
     }
 
   private:
+    /// Labels of n points from those of the kept ones.
+    static std::vector<std::int32_t> of_all(const std::vector<std::int32_t>& of_kept,
+                                            const std::vector<point_index>& kept, std::size_t n) {
+        std::vector<std::int32_t> labels(n, unlabeled);
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept[i];
+        return labels;
+    }
+
     static double seconds_of(auto&& step) {
         const auto start = std::chrono::steady_clock::now();
         step();
@@ -163,6 +182,7 @@ struct perception {
 template <class Neighborhood, class Estimator, class Merge>
 perception(Neighborhood, Estimator, Merge, surface_segmentation = {}, occlusion_merging = {},
            sight_options = {}, std::optional<floor_and_ceiling> = std::nullopt,
-           anisotropy_repair = {}) -> perception<Neighborhood, Estimator, Merge>;
+           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{})
+    -> perception<Neighborhood, Estimator, Merge>;
 
 }  // namespace gnomon

@@ -3,6 +3,7 @@
 /// Which points are one surface: pre-processing and the segmentations of Sec. 4.2.
 #pragma once
 
+#include <gnomon/segmentation/claim_strays.hpp>
 #include <gnomon/segmentation/oriented_point_segmentation.hpp>
 #include <gnomon/segmentation/point_segmentation.hpp>
 #include <gnomon/segmentation/preprocess.hpp>

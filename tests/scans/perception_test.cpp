@@ -42,13 +42,14 @@ TEST(perception, is_its_steps) {
     gnomon::orient_normals(rest, surface);
     const gnomon::segments parts = gnomon::segment_surfaces(rest, surface);
     const auto merged = gnomon::merge_occluded(rest, parts, gnomon::lines_of_sight(scan));
+    const gnomon::segments whole = gnomon::claim_strays(rest, merged.segments);
 
     std::vector<bool> left_out(scan.size(), true);
     for (std::size_t i = 0; i < kept.size(); ++i) {
         left_out[kept[i]] = false;
         ASSERT_EQ(result.surface[kept[i]].normal, surface[i].normal);
         ASSERT_EQ(result.fragments.labels()[kept[i]], parts.labels()[i]);
-        ASSERT_EQ(result.surfaces.labels()[kept[i]], merged.segments.labels()[i]);
+        ASSERT_EQ(result.surfaces.labels()[kept[i]], whole.labels()[i]);
     }
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!left_out[i]) continue;
@@ -65,13 +66,16 @@ TEST(perception, is_its_steps) {
     EXPECT_LT(result.surfaces.size(), result.fragments.size());
     EXPECT_GT(result.seconds.normals, 0.0);
     EXPECT_GT(result.seconds.merging, 0.0);
+    EXPECT_GT(result.seconds.claiming, 0.0);
 }
 
 TEST(perception, leaves_torn_what_is_not_to_be_merged) {
-    const perception chain{gnomon::knn{.k = 30},
-                           gnomon::plane_pca{},
-                           gnomon::unmerged{},
-                           {.max_angle = gnomon::degrees(4)}};
+    perception chain{gnomon::knn{.k = 30},
+                     gnomon::plane_pca{},
+                     gnomon::unmerged{},
+                     {.max_angle = gnomon::degrees(4)}};
+    EXPECT_EQ(chain(scan_of_kitchen()).surfaces.size(), chain(scan_of_kitchen()).fragments.size());
+    chain.strays.reset();
     const auto result = chain(scan_of_kitchen(), gnomon::threads{2});
     EXPECT_EQ(result.surfaces.labels(), result.fragments.labels());
     EXPECT_TRUE(result.gaps.empty());
@@ -133,6 +137,7 @@ TEST(perception, refuses_what_its_steps_refuse) {
     refused(perception{gnomon::knn{.k = 0}, gnomon::plane_pca{}, gnomon::conservative{}});
     refused(perception<>{.segmentation = {.max_distance = -1.0}});
     refused(perception<>{.merging = {.boundary_pairs = 3}});
+    refused(perception<>{.strays = gnomon::stray_claiming{.sigma = 0.0}});
     refused(perception<>{.sights = {.sigma = -1.0}});
     refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.up = Eigen::Vector3d(0, 0, 2)}});
 }

@@ -100,5 +100,19 @@ namespace detail {
     return segments(std::move(labels));
 }
 
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+    union_find sets(n);
+    std::vector<bool> is_member(n, false);
+    for (const auto& members : groups) {
+        for (const point_index i : members) {
+            sets.unite(members.front(), i);
+            is_member[i] = true;
+        }
+    }
+    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
+}
+
 }  // namespace detail
 }  // namespace gnomon

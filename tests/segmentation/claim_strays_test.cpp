@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/segmentation/claim_strays.hpp>
+
+namespace {
+
+using gnomon::claim_strays, gnomon::segments, gnomon::unlabeled;
+
+constexpr double sigma = 0.01;
+constexpr gnomon::stray_claiming options{.sigma = sigma};
+
+/// Points with noise across the planes they are of, and a label for each.
+struct cloud {
+    std::vector<Eigen::Vector3d> points;
+    std::vector<std::int32_t> labels;
+    gnomon::random_stream random{1};
+
+    /// A grid in the plane z = height, 1 cm wide, from (x, y) on.
+    void add_sheet(double x, double y, std::size_t columns, std::size_t rows, double height,
+                   std::int32_t label) {
+        for (std::size_t i = 0; i < columns; ++i) {
+            for (std::size_t j = 0; j < rows; ++j) {
+                const double z = height + sigma * random.gaussian();
+                points.emplace_back(x + 0.01 * static_cast<double>(i),
+                                    y + 0.01 * static_cast<double>(j), z);
+                labels.push_back(label);
+            }
+        }
+    }
+    [[nodiscard]] segments claimed(const gnomon::stray_claiming& o = options) const {
+        return claim_strays(points, segments(labels), o);
+    }
+    /// The share of the points from `first` on that have a label.
+    [[nodiscard]] static double share(const std::vector<std::int32_t>& labels, std::size_t first,
+                                      std::size_t last, std::int32_t label) {
+        const auto begin = labels.begin() + static_cast<std::ptrdiff_t>(first);
+        const auto end = labels.begin() + static_cast<std::ptrdiff_t>(last);
+        return static_cast<double>(std::count(begin, end, label)) /
+               static_cast<double>(last - first);
+    }
+};
+
+TEST(claim_strays, gives_a_plane_the_points_beside_it) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 60, 60, 0.0, 0);
+    const std::size_t first = c.points.size();
+    c.add_sheet(0.6, 0.0, 40, 60, 0.0, unlabeled);  // farther than any one step
+    const segments found = c.claimed();
+    EXPECT_EQ(found.size(), 1u);
+    EXPECT_GE(cloud::share(found.labels(), first, c.points.size(), 0), 0.97);
+}
+
+/// A thin board's rim is within three deviations of its face, but not in the mean.
+TEST(claim_strays, leaves_what_only_seems_to_be_of_the_plane) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 60, 60, 0.0, 0);
+    const std::size_t first = c.points.size();
+    c.add_sheet(0.6, 0.0, 20, 60, -1.5 * sigma, unlabeled);
+    EXPECT_LE(cloud::share(c.claimed().labels(), first, c.points.size(), 0), 0.05);
+}
+
+TEST(claim_strays, gives_each_to_the_nearest_plane) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 50, 60, 0.0, 0);
+    c.add_sheet(1.0, 0.0, 50, 60, 2.0 * sigma, 1);
+    const std::size_t first = c.points.size();
+    c.add_sheet(0.5, 0.0, 20, 60, 0.0, unlabeled);
+    const std::size_t second = c.points.size();
+    c.add_sheet(0.8, 0.0, 20, 60, 2.0 * sigma, unlabeled);
+    const segments found = c.claimed();
+    EXPECT_GE(cloud::share(found.labels(), first, second, found.labels().front()), 0.8);
+    EXPECT_GE(cloud::share(found.labels(), second, c.points.size(), found.labels()[3000]), 0.8);
+}
+
+TEST(claim_strays, takes_nothing_from_a_segment) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 40, 40, 0.0, 1);
+    c.add_sheet(0.4, 0.0, 20, 40, 0.0, 0);
+    c.add_sheet(0.2, 0.4, 40, 10, 0.0, unlabeled);
+    const segments found = c.claimed();
+    ASSERT_EQ(found.size(), 2u);
+    EXPECT_GE(found[0].size(), found[1].size());
+    for (std::size_t i = 0; i < c.points.size(); ++i) {
+        if (c.labels[i] == unlabeled) continue;
+        EXPECT_EQ(found.labels()[i] == 0, c.labels[i] == 1);
+    }
+}
+
+TEST(claim_strays, thick_segments_and_far_ones_claim_nothing) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 40, 20, 0.0, 0);
+    c.add_sheet(0.0, 0.2, 40, 20, 10.0 * sigma, 0);  // no plane
+    c.add_sheet(2.0, 0.0, 40, 40, 0.0, 1);
+    c.add_sheet(0.4, 0.0, 40, 40, 0.0, unlabeled);  // 1.2 m from it
+    EXPECT_EQ(c.claimed(), claim_strays(c.points, c.claimed(), options));
+    EXPECT_EQ(cloud::share(c.claimed().labels(), 3200, 4800, unlabeled), 1.0);
+    c.add_sheet(2.8, 0.1, 3, 3, 0.0, unlabeled);  // so few that points 0.4 m away are next to them
+    EXPECT_EQ(cloud::share(c.claimed().labels(), 4800, 4809, unlabeled), 1.0);
+    EXPECT_EQ(
+        cloud::share(c.claimed({.sigma = sigma, .max_distance = 0.5}).labels(), 4800, 4809, 0),
+        1.0);
+}
+
+/// The order of points and their place change nothing, nor the number of threads.
+TEST(claim_strays, depends_on_no_order_place_or_thread) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 30, 60, 0.0, 0);
+    c.add_sheet(0.3, 0.0, 30, 60, 0.0, unlabeled);
+    c.add_sheet(0.6, 0.0, 20, 60, 1.5 * sigma, unlabeled);
+    c.add_sheet(0.8, 0.0, 20, 60, 1.5 * sigma, 1);
+    const auto expected = c.claimed().labels();
+    for (const unsigned n : {2u, 4u}) {
+        EXPECT_EQ(claim_strays(c.points, segments(c.labels), options, gnomon::threads{n}).labels(),
+                  expected);
+    }
+    cloud turned = c;
+    std::reverse(turned.points.begin(), turned.points.end());
+    std::reverse(turned.labels.begin(), turned.labels.end());
+    for (Eigen::Vector3d& p : turned.points)
+        p = Eigen::Vector3d(-p.y() + 512.0, p.x() - 256.0, p.z() + 1024.0);
+    auto labels = turned.claimed().labels();
+    std::reverse(labels.begin(), labels.end());
+    std::size_t differ = 0;
+    for (std::size_t i = 0; i < labels.size(); ++i) differ += labels[i] != expected[i] ? 1 : 0;
+    EXPECT_LE(differ, 2u);
+}
+
+TEST(claim_strays, survives_what_is_no_surface) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    const std::vector<Eigen::Vector3d> none;
+    EXPECT_TRUE(claim_strays(none, segments()).empty());
+    const std::vector<Eigen::Vector3d> holes(50, Eigen::Vector3d(nan, 0, 0));
+    EXPECT_EQ(claim_strays(holes, segments(std::vector<std::int32_t>(50, unlabeled))).size(), 0u);
+    const std::vector<Eigen::Vector3d> one_place(5000, Eigen::Vector3d(1, 2, 3));
+    std::vector<std::int32_t> labels(5000, unlabeled);
+    EXPECT_EQ(claim_strays(one_place, segments(labels)).size(), 0u);
+    labels[7] = 0, labels[8] = 2;  // and 1 is empty
+    EXPECT_NO_THROW(static_cast<void>(claim_strays(one_place, segments(labels))));
+}
+
+/// A stray at a time, each the neighbor of the one before: as many rounds as strays.
+TEST(claim_strays, a_long_thin_tail_takes_no_long_time) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 30, 30, 0.0, 0);
+    for (Eigen::Vector3d& p : c.points) p.z() = 0.0;
+    for (int i = 0; i < 50'000; ++i) {
+        c.points.emplace_back(0.3 + 0.01 * i, 0.15, 0.0);
+        c.labels.push_back(unlabeled);
+    }
+    const auto found = c.claimed({.sigma = sigma, .k = 2});
+    EXPECT_EQ(cloud::share(found.labels(), 900, c.points.size(), 0), 1.0);
+}
+
+TEST(claim_strays, refuses_bad_parameters) {
+    cloud c;
+    c.add_sheet(0.0, 0.0, 3, 3, 0.0, 0);
+    const auto refused = [&](const gnomon::stray_claiming& o) {
+        EXPECT_THROW(static_cast<void>(c.claimed(o)), std::invalid_argument);
+    };
+    refused({.sigma = 0.0});
+    refused({.sigma = std::numeric_limits<double>::quiet_NaN()});
+    refused({.k = 0});
+    refused({.max_distance = -1.0});
+    EXPECT_THROW(static_cast<void>(claim_strays(c.points, segments(std::vector<std::int32_t>{0}))),
+                 std::invalid_argument);
+}
+
+}  // namespace
