@@ -153,7 +153,8 @@ void segment_scan(const options& o) {
                   {"preprocessing", r.seconds.preprocessing},
                   {"normals", r.seconds.normals},
                   {"segmentation", r.seconds.segmentation},
-                  {"merging", r.seconds.merging}}},
+                  {"merging", r.seconds.merging},
+                  {"claiming", r.seconds.claiming}}},
                 {"segments_before_merging", r.fragments.size()},
                 {"segments", description_of(scan, r.surfaces)}};
     const std::string png = picture_of(scan, r, o);

@@ -41,17 +41,19 @@ json measure(const effort& much) {
         std::fflush(stdout);
         const gnomon::true_scan truth = d.scan(1);
         const perceived seen = perceive(truth);  // warms up
-        std::vector<double> pp, nve, seg, m;
+        std::vector<double> pp, nve, seg, m, c;
         for (int pass = 0; pass < much.passes(); ++pass) {
             const gnomon::perception_seconds s = perceive(truth).seconds;
             pp.push_back(s.preprocessing);
             nve.push_back(s.normals);
             seg.push_back(s.segmentation);
             m.push_back(s.merging);
+            c.push_back(s.claiming);
         }
         const gnomon::lines_of_sight sights(truth.scan);
-        const gnomon::segments again =
-            gnomon::merge_occluded(truth.scan, seen.surfaces, sights).segments;
+        const gnomon::segments once =
+            gnomon::merge_occluded(truth.scan, seen.fragments, sights).segments;
+        const gnomon::segments again = gnomon::merge_occluded(truth.scan, once, sights).segments;
         const gnomon::segments literal =
             gnomon::merge_occluded_literally(truth.scan, seen.fragments, sights);
         const auto seats = segments_of_seats(d.world, truth, seen.surfaces);
@@ -66,12 +68,13 @@ json measure(const effort& much) {
              {"t_nve", rounded(median_of(nve), 5)},
              {"t_seg", rounded(median_of(seg), 5)},
              {"t_m", rounded(median_of(m), 5)},
+             {"strays", rounded(median_of(c), 5)},
              {"n_m", seen.fragments.size() - seen.surfaces.size()},
              {"n_s", seen.surfaces.size()},
              {"view points", sights.images().size()},
              {"gaps closed", merged},
              {"gaps looked into", seen.gaps.size()},
-             {"changed by a second run", again.labels() != seen.surfaces.labels()},
+             {"changed by a second run", again.labels() != once.labels()},
              {"seats found", seats.size()},
              {"seats merged", shared(seats)},
              {"n_m literally", seen.fragments.size() - literal.size()},
