@@ -1,9 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cstddef>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <gnomon/core/detail/touched_vector.hpp>
+
+#if defined(__SANITIZE_ADDRESS__)
+#include <sanitizer/asan_interface.h>
+#endif
 
 namespace {
 
@@ -22,6 +28,19 @@ TEST(touched_vector, holds_n_default_values) {
         expect(n, gnomon::sequential{});
         expect(n, gnomon::threads{3});
     }
+}
+
+/// As standard libraries do that tell AddressSanitizer how much of its memory a vector uses.
+TEST(touched_vector, touches_memory_that_nobody_may_use_yet) {
+#if defined(__SANITIZE_ADDRESS__)
+    std::vector<std::byte> memory(10'000, std::byte{1});
+    __asan_poison_memory_region(memory.data(), memory.size());
+    gnomon::detail::touch(memory.data(), memory.data() + memory.size());
+    __asan_unpoison_memory_region(memory.data(), memory.size());
+    EXPECT_EQ(std::count(memory.begin(), memory.end(), std::byte{}), 3);
+#else
+    GTEST_SKIP() << "needs AddressSanitizer";
+#endif
 }
 
 }  // namespace
