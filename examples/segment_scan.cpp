@@ -55,7 +55,10 @@ result surfaces_of(const gnomon::scan& scan, const options& o) {
                 .neighborhood = o.neighborhood,
                 .merge = merge,
                 .segmentation = o.segmentation,
-                .leave_out = leave_out};
+                .merging = {.sigma = o.sigma},
+                .sights = {.sigma = o.sigma},
+                .leave_out = leave_out,
+                .strays = gnomon::stray_claiming{.sigma = o.sigma}};
             return chain(scan, o.threads);
         },
         o.merge);

@@ -27,6 +27,7 @@ one behind something; without SCAN, a simulated kitchen. Writes normals.ply, seg
   --min-points N      smaller segments are noise (30)
   --merge POLICY      conservative: where something closer was seen in the gap (default);
                       liberal: unless something farther was seen; or none
+  --sigma M           noise across surfaces, for merging and stray points (0.015)
   --viewpoint X,Y,Z   where the sensor stood (what SCAN says, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
@@ -42,6 +43,7 @@ struct options {
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<Eigen::Vector3d> up;  ///< unit length
     std::variant<gnomon::conservative, gnomon::liberal, gnomon::unmerged> merge;
+    double sigma = 0.015;  ///< [m]
     bool remove_floor = false;
     gnomon::threads threads;
 };
@@ -78,6 +80,10 @@ inline constexpr option<options> known_options[] = {
              o.merge = gnomon::unmerged{};
          else
              throw usage_error(name + ": '" + value + "' is not conservative, liberal or none");
+     }},
+    {"--sigma", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.sigma = number_within(name, value, 1e-9, 1e9, "from 1e-9 to 1e9");
      }},
     {"--viewpoint", true,
      [](options& o, const std::string& name, const std::string& value) {
