@@ -74,6 +74,25 @@ class segments {
 
 namespace detail {
 
+/// The segments that have points, renumbered from the largest to the smallest, equal ones by their
+/// smallest point index, with the numbers that they had. O(n + s log s) for s segments.
+[[nodiscard]] inline std::pair<segments, std::vector<std::size_t>> largest_first(
+    const segments& found) {
+    std::vector<std::size_t> order;
+    for (std::size_t s = 0; s < found.size(); ++s) {
+        if (!found[s].empty()) order.push_back(s);
+    }
+    std::sort(order.begin(), order.end(), [&found](std::size_t a, std::size_t b) {
+        if (found[a].size() != found[b].size()) return found[a].size() > found[b].size();
+        return found[a].front() < found[b].front();
+    });
+    std::vector<std::int32_t> labels(found.labels().size(), unlabeled);
+    for (std::size_t s = 0; s < order.size(); ++s) {
+        for (const point_index i : found[order[s]]) labels[i] = static_cast<std::int32_t>(s);
+    }
+    return {segments(std::move(labels)), std::move(order)};
+}
+
 /// The sets of a partition that have at least `min_points` members, largest first, where counts(i)
 /// tells whether i may be a member at all. O(n log n).
 [[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
