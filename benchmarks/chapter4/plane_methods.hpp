@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,25 @@ inline constexpr std::array<std::size_t, 2> least_points{30, 100};
     if (digits.back() == '.') digits.pop_back();
     return name + "=" + digits;
 }
+
+/// What was made last, and for which cloud and k: settings that differ in other things share it.
+template <class T>
+class latest {
+  public:
+    const T& operator()(const cloud& scene, std::size_t k, const auto& make) {
+        if (!value_ || cloud_ != scene.name || k_ != k) {
+            value_.emplace(make());
+            cloud_ = scene.name;
+            k_ = k;
+        }
+        return *value_;
+    }
+
+  private:
+    std::optional<T> value_;
+    std::string cloud_;
+    std::size_t k_ = 0;
+};
 
 std::vector<method> gnomon_methods();
 std::vector<method> pcl_methods();

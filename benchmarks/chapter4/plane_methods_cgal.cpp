@@ -22,7 +22,7 @@ using points_with_normals = std::vector<point>;
 using point_map = CGAL::Nth_of_tuple_property_map<0, point>;
 using normal_map = CGAL::Nth_of_tuple_property_map<1, point>;
 
-points_with_normals with_normals(const cloud& scene, unsigned k) {
+points_with_normals estimated(const cloud& scene, unsigned k) {
     points_with_normals points;
     for (const Eigen::Vector3d& p : scene.points)
         points.emplace_back(kernel::Point_3(p.x(), p.y(), p.z()), kernel::Vector_3(0, 0, 0),
@@ -30,6 +30,11 @@ points_with_normals with_normals(const cloud& scene, unsigned k) {
     CGAL::pca_estimate_normals<CGAL::Sequential_tag>(
         points, k, CGAL::parameters::point_map(point_map()).normal_map(normal_map()));
     return points;
+}
+
+points_with_normals with_normals(const cloud& scene, unsigned k) {
+    static latest<points_with_normals> made;
+    return made(scene, k, [&] { return estimated(scene, k); });
 }
 
 namespace sd = CGAL::Shape_detection::Point_set;

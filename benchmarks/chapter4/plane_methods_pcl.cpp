@@ -2,36 +2,43 @@
 // Region growing of the Point Cloud Library.
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "plane_methods.hpp"
 #include <pcl/features/normal_3d.h>
 #include <pcl/point_cloud.h>
 #include <pcl/point_types.h>
-#include <pcl/search/kdtree.h>
 #include <pcl/segmentation/region_growing.h>
 
 namespace planes {
 namespace {
 
-/// `configure` changes what the class has as defaults.
-labels grown(const cloud& scene, int k, auto&& configure) {
-    const pcl::PointCloud<pcl::PointXYZ>::Ptr points(new pcl::PointCloud<pcl::PointXYZ>);
+using points_and_normals =
+    std::pair<pcl::PointCloud<pcl::PointXYZ>::Ptr, pcl::PointCloud<pcl::Normal>::Ptr>;
+
+points_and_normals estimated(const cloud& scene, int k) {
+    const points_and_normals made(new pcl::PointCloud<pcl::PointXYZ>,
+                                  new pcl::PointCloud<pcl::Normal>);
     for (const Eigen::Vector3d& p : scene.points) {
         const Eigen::Vector3f q = p.cast<float>();
-        points->emplace_back(q.x(), q.y(), q.z());
+        made.first->emplace_back(q.x(), q.y(), q.z());
     }
-    const pcl::search::KdTree<pcl::PointXYZ>::Ptr tree(new pcl::search::KdTree<pcl::PointXYZ>);
     pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> estimate;
-    const pcl::PointCloud<pcl::Normal>::Ptr normals(new pcl::PointCloud<pcl::Normal>);
-    estimate.setInputCloud(points);
-    estimate.setSearchMethod(tree);
+    estimate.setInputCloud(made.first);
     estimate.setKSearch(k);
-    estimate.compute(*normals);
+    estimate.compute(*made.second);
+    return made;
+}
+
+/// `configure` changes what the class has as defaults.
+labels grown(const cloud& scene, int k, auto&& configure) {
+    static latest<points_and_normals> made;
+    const auto& [points, normals] =
+        made(scene, static_cast<std::size_t>(k), [&] { return estimated(scene, k); });
     pcl::RegionGrowing<pcl::PointXYZ, pcl::Normal> growing;
     growing.setInputCloud(points);
     growing.setInputNormals(normals);
-    growing.setSearchMethod(tree);
     configure(growing);
     std::vector<pcl::PointIndices> clusters;
     growing.extract(clusters);
