@@ -122,12 +122,13 @@ std::vector<source> all_scans(bool quick) {
     };
     add_file("synpeb_test_100", "synpeb_test_100.pcd", "intensity", 10);
     if (!quick) add_file("tum_office_room1", "tum_office_room1_parts.pcd", "label", 1);
-    for (std::uint64_t seed = 1; seed <= (quick ? 1u : 3u); ++seed) {
+    const std::uint64_t seeds = quick ? 1 : 3;
+    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         scans.push_back([=] { return planes::blocks(seed, 100, 0.001); });
-        if (quick) break;
-        scans.push_back([=] { return planes::blocks(seed + 10, 200, 0.005); });
-        scans.push_back([=] { return planes::furniture(seed, 0.003); });
+        if (!quick) scans.push_back([=] { return planes::blocks(seed + 10, 200, 0.005); });
     }
+    for (std::uint64_t seed = 1; seed <= seeds && !quick; ++seed)
+        scans.push_back([=] { return planes::furniture(seed, 0.003); });
     return scans;
 }
 

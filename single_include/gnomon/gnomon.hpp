@@ -8617,11 +8617,11 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
+// -------- gnomon/segmentation/detail/plane_of_sums.hpp -------------------------------------------
 
 /// @file
-/// The regions of segment_planes while they are made: each the sums over its points, from which its
-/// plane and that of two regions together follow without looking at a point again.
+/// Planes of whole regions from sums over their points about one origin: that of two regions
+/// together follows without looking at a point again.
 
 namespace gnomon::detail {
 
@@ -8661,6 +8661,16 @@ inline void add(moments& to, const moments& more) {
     return dot(to.normal, product(c, to.normal)) + off * off;
 }
 
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
+
+/// @file
+/// How segment_planes grows a region: from a seed to neighbors that lie on its plane, which is
+/// fitted again each time that it has doubled.
+
+namespace gnomon::detail {
+
 /// What regions have to keep to.
 struct plane_rules {
     double noise;       ///< sigma, across the surface [m]
@@ -8669,35 +8679,164 @@ struct plane_rules {
     std::size_t min_points;
 };
 
-/// Makes regions of the points of a position_view.
+/// Regions of the points of a position_view, one after the other.
 template <class Points, neighborhood_graph Graph, normal_range Surface>
-class plane_regions {
+class plane_growth {
   public:
-    plane_regions(const Points& points, const Graph& graph, const Surface& surface,
-                  const plane_rules& rules)
+    plane_growth(const Points& points, const Graph& graph, const Surface& surface,
+                 const plane_rules& rules)
         : points_(points),
           graph_(graph),
           surface_(surface),
           rules_(rules),
           labels_(points.size(), unlabeled),
-          visit_(points.size(), 0) {
-        std::size_t first = 0;
-        while (first < points.size() && !is_finite(points[first])) ++first;
-        if (first < points.size()) origin_ = points[first];
-    }
+          visit_(points.size(), 0) {}
 
-    /// Regions from one seed after the other, those in the flattest surroundings first.
+    /// From one seed after the other, those in the flattest surroundings first.
+    /// @return the labels of the points
     template <execution X>
-    void grow_all(const X& run) {
+    [[nodiscard]] std::vector<std::int32_t> operator()(const X& run) {
+        std::int32_t label = 0;
         for (const point_index seed : seeds(run)) {
             if (labels_[seed] != unlabeled) continue;
             grow(seed);
             if (members_.size() < rules_.min_points) continue;
-            const auto label = static_cast<std::int32_t>(sums_.size());
             for (const point_index i : members_) labels_[i] = label;
-            sums_.push_back(sum_of(members_));
-            planes_.push_back(fitted(sums_.back(), origin_));
+            ++label;
         }
+        return std::move(labels_);
+    }
+
+  private:
+    /// The points with a normal, by the mean square of their neighbors' distances from their
+    /// tangent planes.
+    template <execution X>
+    std::vector<point_index> seeds(const X& run) const {
+        std::vector<double> roughness(points_.size(), 0.0);
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (!may_grow(i)) continue;
+                std::size_t count = 0;
+                for (const point_index j : graph_[i]) {
+                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
+                    roughness[i] += d * d;
+                    ++count;
+                }
+                if (count > 0) roughness[i] /= static_cast<double>(count);
+            }
+        });
+        std::vector<point_index> order;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
+        return order;
+    }
+
+    bool may_grow(std::size_t i) const {
+        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
+    }
+
+    /// Sets members_ to the region of a seed: grown while its plane becomes surer, then twice more
+    /// with the whole plane, for what an early plane refused or should not have taken.
+    void grow(point_index seed) {
+        gnomon::plane along{surface_[seed].normal, 0.0};
+        double reach = rules_.deviations * rules_.noise;
+        along.offset = dot(along.normal, mean_around(seed, along.normal));
+        members_.clear();
+        if (!fits(seed, along, reach)) return;
+        members_.push_back(seed);
+        constexpr int passes = 3;
+        for (int pass = 0; pass < passes; ++pass) {
+            ++stamp_;
+            if (pass > 0)
+                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
+            for (const point_index i : members_) visit_[i] = stamp_;
+            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
+            for (std::size_t next = 0; next < members_.size(); ++next) {
+                for (const point_index j : graph_[members_[next]]) {
+                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
+                    visit_[j] = stamp_;
+                    members_.push_back(j);
+                }
+                if (members_.size() < refit_at) continue;
+                if (const auto f = plane_of_members(points_[seed]); !is_missing(f.plane.normal))
+                    along = f.plane;
+                refit_at *= 2;
+            }
+            const fitted_plane f = plane_of_members(points_[seed]);
+            if (is_missing(f.plane.normal)) {
+                members_.clear();
+                return;
+            }
+            along = f.plane;
+            // Where there is more noise than elsewhere, up to twice as much.
+            reach = rules_.deviations *
+                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
+        }
+    }
+
+    /// Whether a free point may join a plane.
+    bool fits(point_index i, const gnomon::plane& to, double reach) const {
+        return labels_[i] == unlabeled && may_grow(i) &&
+               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
+               std::abs(to.signed_distance(points_[i])) <= reach;
+    }
+
+    /// The mean of the seed and those of its neighbors whose normals agree [m].
+    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
+        moments m;
+        for (const point_index j : graph_[seed]) {
+            if (labels_[j] == unlabeled && may_grow(j) &&
+                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
+                m.add(difference(points_[j], points_[seed]));
+        }
+        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
+    }
+
+    /// The plane of the members.
+    fitted_plane plane_of_members(const Eigen::Vector3d& origin) const {
+        moments m;
+        for (const point_index i : members_) m.add(difference(points_[i], origin));
+        return fitted(m, origin);
+    }
+
+    const Points& points_;
+    const Graph& graph_;
+    const Surface& surface_;
+    plane_rules rules_;
+    std::vector<std::int32_t> labels_;
+    std::vector<std::size_t> visit_;  // by which pass of which seed
+    std::size_t stamp_ = 0;
+    std::vector<point_index> members_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
+
+/// @file
+/// The regions of segment_planes once they are grown: those that are one plane merge, and all
+/// compete for the points.
+
+namespace gnomon::detail {
+
+/// Regions of the points of a position_view.
+template <class Points, neighborhood_graph Graph>
+class plane_regions {
+  public:
+    plane_regions(const Points& points, const Graph& graph, const plane_rules& rules,
+                  std::vector<std::int32_t> labels)
+        : points_(points), graph_(graph), rules_(rules), labels_(std::move(labels)) {
+        std::size_t first = 0;
+        while (first < points.size() && !is_finite(points[first])) ++first;
+        if (first < points.size()) origin_ = points[first];
+        std::int32_t last = unlabeled;
+        for (const std::int32_t label : labels_) last = std::max(last, label);
+        sums_.resize(static_cast<std::size_t>(last + 1));
+        planes_.resize(sums_.size());
+        refit();
     }
 
     /// Neighboring regions that are one plane become one, the most alike first.
@@ -8757,99 +8896,6 @@ class plane_regions {
     }
 
   private:
-    /// The points with a normal, by the mean square of their neighbors' distances from their
-    /// tangent planes.
-    template <execution X>
-    std::vector<point_index> seeds(const X& run) const {
-        std::vector<double> roughness(points_.size(), 0.0);
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (!may_grow(i)) continue;
-                std::size_t count = 0;
-                for (const point_index j : graph_[i]) {
-                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
-                    roughness[i] += d * d;
-                    ++count;
-                }
-                if (count > 0) roughness[i] /= static_cast<double>(count);
-            }
-        });
-        std::vector<point_index> order;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
-        }
-        std::stable_sort(order.begin(), order.end(),
-                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
-        return order;
-    }
-
-    bool may_grow(std::size_t i) const {
-        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
-    }
-
-    /// Sets members_ to the region of a seed: grown while its plane becomes surer, then twice more
-    /// with the whole plane, for what an early plane refused or should not have taken.
-    void grow(point_index seed) {
-        gnomon::plane along{surface_[seed].normal, 0.0};
-        double reach = rules_.deviations * rules_.noise;
-        along.offset = dot(along.normal, mean_around(seed, along.normal));
-        members_.clear();
-        if (!fits(seed, along, reach)) return;
-        members_.push_back(seed);
-        constexpr int passes = 3;
-        for (int pass = 0; pass < passes; ++pass) {
-            ++stamp_;
-            if (pass > 0)
-                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
-            for (const point_index i : members_) visit_[i] = stamp_;
-            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
-            for (std::size_t next = 0; next < members_.size(); ++next) {
-                for (const point_index j : graph_[members_[next]]) {
-                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
-                    visit_[j] = stamp_;
-                    members_.push_back(j);
-                }
-                if (members_.size() < refit_at) continue;
-                if (const auto f = fitted(sum_of(members_), origin_); !is_missing(f.plane.normal))
-                    along = f.plane;
-                refit_at *= 2;
-            }
-            const fitted_plane f = fitted(sum_of(members_), origin_);
-            if (is_missing(f.plane.normal)) {
-                members_.clear();
-                return;
-            }
-            along = f.plane;
-            // Where there is more noise than elsewhere, up to twice as much.
-            reach = rules_.deviations *
-                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
-        }
-    }
-
-    /// Whether a free point may join a plane.
-    bool fits(point_index i, const gnomon::plane& to, double reach) const {
-        return labels_[i] == unlabeled && may_grow(i) &&
-               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
-               std::abs(to.signed_distance(points_[i])) <= reach;
-    }
-
-    /// The mean of the seed and those of its neighbors whose normals agree [m].
-    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
-        moments m;
-        for (const point_index j : graph_[seed]) {
-            if (labels_[j] == unlabeled && may_grow(j) &&
-                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
-                m.add(difference(points_[j], points_[seed]));
-        }
-        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
-    }
-
-    moments sum_of(const std::vector<point_index>& members) const {
-        moments m;
-        for (const point_index i : members) m.add(difference(points_[i], origin_));
-        return m;
-    }
-
     /// The variance across a region's plane, at least that of the noise [m^2].
     double variance_of(std::int32_t r) const {
         return std::max(planes_[static_cast<std::size_t>(r)].variance, rules_.noise * rules_.noise);
@@ -8944,12 +8990,8 @@ class plane_regions {
 
     const Points& points_;
     const Graph& graph_;
-    const Surface& surface_;
     plane_rules rules_;
     std::vector<std::int32_t> labels_;
-    std::vector<std::size_t> visit_;  // by which pass of which seed
-    std::size_t stamp_ = 0;
-    std::vector<point_index> members_;
     Eigen::Vector3d origin_{0.0, 0.0, 0.0};
     std::vector<moments> sums_;  // by label, about origin_
     std::vector<fitted_plane> planes_;
@@ -9030,13 +9072,12 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     const double rounding = 1e-12 * farthest;
     const double noise = options.noise ? *options.noise : noise_level(points, projection);
 
-    detail::plane_regions regions(
-        p, graph, surface,
-        detail::plane_rules{.noise = std::max(noise, rounding),
-                            .deviations = options.max_deviations,
-                            .min_cosine = detail::min_cosine(options.max_angle),
-                            .min_points = std::max<std::size_t>(options.min_points, 3)});
-    regions.grow_all(run);
+    const detail::plane_rules rules{.noise = std::max(noise, rounding),
+                                    .deviations = options.max_deviations,
+                                    .min_cosine = detail::min_cosine(options.max_angle),
+                                    .min_points = std::max<std::size_t>(options.min_points, 3)};
+    detail::plane_growth grow(p, graph, surface, rules);
+    detail::plane_regions regions(p, graph, rules, grow(run));
     regions.merge();
     for (int round = 0; round < options.rounds; ++round) {
         if (!regions.compete(run)) break;

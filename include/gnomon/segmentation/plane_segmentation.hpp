@@ -34,6 +34,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/normals/noise_level.hpp>
+#include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -92,13 +93,12 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     const double rounding = 1e-12 * farthest;
     const double noise = options.noise ? *options.noise : noise_level(points, projection);
 
-    detail::plane_regions regions(
-        p, graph, surface,
-        detail::plane_rules{.noise = std::max(noise, rounding),
-                            .deviations = options.max_deviations,
-                            .min_cosine = detail::min_cosine(options.max_angle),
-                            .min_points = std::max<std::size_t>(options.min_points, 3)});
-    regions.grow_all(run);
+    const detail::plane_rules rules{.noise = std::max(noise, rounding),
+                                    .deviations = options.max_deviations,
+                                    .min_cosine = detail::min_cosine(options.max_angle),
+                                    .min_points = std::max<std::size_t>(options.min_points, 3)};
+    detail::plane_growth grow(p, graph, surface, rules);
+    detail::plane_regions regions(p, graph, rules, grow(run));
     regions.merge();
     for (int round = 0; round < options.rounds; ++round) {
         if (!regions.compete(run)) break;
