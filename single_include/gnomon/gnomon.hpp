@@ -22,6 +22,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <numbers>
@@ -8400,6 +8401,25 @@ class segments {
 
 namespace detail {
 
+/// The segments that have points, renumbered from the largest to the smallest, equal ones by their
+/// smallest point index, with the numbers that they had. O(n + s log s) for s segments.
+[[nodiscard]] inline std::pair<segments, std::vector<std::size_t>> largest_first(
+    const segments& found) {
+    std::vector<std::size_t> order;
+    for (std::size_t s = 0; s < found.size(); ++s) {
+        if (!found[s].empty()) order.push_back(s);
+    }
+    std::sort(order.begin(), order.end(), [&found](std::size_t a, std::size_t b) {
+        if (found[a].size() != found[b].size()) return found[a].size() > found[b].size();
+        return found[a].front() < found[b].front();
+    });
+    std::vector<std::int32_t> labels(found.labels().size(), unlabeled);
+    for (std::size_t s = 0; s < order.size(); ++s) {
+        for (const point_index i : found[order[s]]) labels[i] = static_cast<std::int32_t>(s);
+    }
+    return {segments(std::move(labels)), std::move(order)};
+}
+
 /// The sets of a partition that have at least `min_points` members, largest first, where counts(i)
 /// tells whether i may be a member at all. O(n log n).
 [[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
@@ -8812,6 +8832,481 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
         linker.link_all(radius_of, similar, run);
     }
     return linker.result(options.min_points);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/plane_of_sums.hpp -------------------------------------------
+
+/// @file
+/// Planes of whole regions from sums over their points about one origin: that of two regions
+/// together follows without looking at a point again.
+
+namespace gnomon::detail {
+
+/// The least squares plane of points.
+struct fitted_plane {
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};  ///< no normal if not determined
+    double variance = 0.0;                                     ///< of the points across it [m^2]
+};
+
+/// Adds the moments about the same point.
+inline void add(moments& to, const moments& more) {
+    to.count += more.count;
+    for (int j = 0; j < 3; ++j) {
+        to.sum[j] += more.sum[j];
+        for (int i = j; i < 3; ++i) to.outer(i, j) += more.outer(i, j);
+    }
+}
+
+/// The plane of points with these moments about `origin`.
+[[nodiscard]] inline fitted_plane fitted(const moments& m, const Eigen::Vector3d& origin) {
+    fitted_plane f;
+    if (m.count < 3) return f;
+    const plane_fit fit = plane_of_least_spread(m.covariance_of_neighbors(), 0.0);
+    if (!usable(fit.trust)) return f;
+    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
+    f.plane = {fit.normal, dot(fit.normal, mean)};
+    f.variance = fit.spectrum.lambda[2];
+    return f;
+}
+
+/// The mean squared distance [m^2] of points with these moments about `origin` from a plane.
+[[nodiscard]] inline double mean_square(const moments& m, const Eigen::Vector3d& origin,
+                                        const plane& to) {
+    const Eigen::Matrix3d c = m.covariance_of_neighbors();
+    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
+    const double off = to.signed_distance(mean);
+    return dot(to.normal, product(c, to.normal)) + off * off;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
+
+/// @file
+/// How segment_planes grows a region: from a seed to neighbors that lie on its plane, which is
+/// fitted again each time that it has doubled.
+
+namespace gnomon::detail {
+
+/// What regions have to keep to.
+struct plane_rules {
+    double noise;       ///< sigma, across the surface [m]
+    double deviations;  ///< of a point from its plane, in sigma
+    double min_cosine;  ///< between a point's normal and its plane's
+    std::size_t min_points;
+};
+
+/// Regions of the points of a position_view, one after the other.
+template <class Points, neighborhood_graph Graph, normal_range Surface>
+class plane_growth {
+  public:
+    plane_growth(const Points& points, const Graph& graph, const Surface& surface,
+                 const plane_rules& rules)
+        : points_(points),
+          graph_(graph),
+          surface_(surface),
+          rules_(rules),
+          labels_(points.size(), unlabeled),
+          visit_(points.size(), 0) {}
+
+    /// From one seed after the other, those in the flattest surroundings first.
+    /// @return the labels of the points
+    template <execution X>
+    [[nodiscard]] std::vector<std::int32_t> operator()(const X& run) {
+        std::int32_t label = 0;
+        for (const point_index seed : seeds(run)) {
+            if (labels_[seed] != unlabeled) continue;
+            grow(seed);
+            if (members_.size() < rules_.min_points) continue;
+            for (const point_index i : members_) labels_[i] = label;
+            ++label;
+        }
+        return std::move(labels_);
+    }
+
+  private:
+    /// The points with a normal, by the mean square of their neighbors' distances from their
+    /// tangent planes.
+    template <execution X>
+    std::vector<point_index> seeds(const X& run) const {
+        std::vector<double> roughness(points_.size(), 0.0);
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (!may_grow(i)) continue;
+                std::size_t count = 0;
+                for (const point_index j : graph_[i]) {
+                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
+                    roughness[i] += d * d;
+                    ++count;
+                }
+                if (count > 0) roughness[i] /= static_cast<double>(count);
+            }
+        });
+        std::vector<point_index> order;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
+        return order;
+    }
+
+    bool may_grow(std::size_t i) const {
+        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
+    }
+
+    /// Sets members_ to the region of a seed: grown while its plane becomes surer, then twice more
+    /// with the whole plane, for what an early plane refused or should not have taken.
+    void grow(point_index seed) {
+        gnomon::plane along{surface_[seed].normal, 0.0};
+        double reach = rules_.deviations * rules_.noise;
+        along.offset = dot(along.normal, mean_around(seed, along.normal));
+        members_.clear();
+        if (!fits(seed, along, reach)) return;
+        members_.push_back(seed);
+        constexpr int passes = 3;
+        for (int pass = 0; pass < passes; ++pass) {
+            ++stamp_;
+            if (pass > 0)
+                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
+            for (const point_index i : members_) visit_[i] = stamp_;
+            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
+            for (std::size_t next = 0; next < members_.size(); ++next) {
+                for (const point_index j : graph_[members_[next]]) {
+                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
+                    visit_[j] = stamp_;
+                    members_.push_back(j);
+                }
+                if (members_.size() < refit_at) continue;
+                if (const auto f = plane_of_members(points_[seed]); !is_missing(f.plane.normal))
+                    along = f.plane;
+                refit_at *= 2;
+            }
+            const fitted_plane f = plane_of_members(points_[seed]);
+            if (is_missing(f.plane.normal)) {
+                members_.clear();
+                return;
+            }
+            along = f.plane;
+            // Where there is more noise than elsewhere, up to twice as much.
+            reach = rules_.deviations *
+                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
+        }
+    }
+
+    /// Whether a free point may join a plane.
+    bool fits(point_index i, const gnomon::plane& to, double reach) const {
+        return labels_[i] == unlabeled && may_grow(i) &&
+               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
+               std::abs(to.signed_distance(points_[i])) <= reach;
+    }
+
+    /// The mean of the seed and those of its neighbors whose normals agree [m].
+    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
+        moments m;
+        for (const point_index j : graph_[seed]) {
+            if (labels_[j] == unlabeled && may_grow(j) &&
+                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
+                m.add(difference(points_[j], points_[seed]));
+        }
+        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
+    }
+
+    /// The plane of the members.
+    fitted_plane plane_of_members(const Eigen::Vector3d& origin) const {
+        moments m;
+        for (const point_index i : members_) m.add(difference(points_[i], origin));
+        return fitted(m, origin);
+    }
+
+    const Points& points_;
+    const Graph& graph_;
+    const Surface& surface_;
+    plane_rules rules_;
+    std::vector<std::int32_t> labels_;
+    std::vector<std::size_t> visit_;  // by which pass of which seed
+    std::size_t stamp_ = 0;
+    std::vector<point_index> members_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
+
+/// @file
+/// The regions of segment_planes once they are grown: those that are one plane merge, and all
+/// compete for the points.
+
+namespace gnomon::detail {
+
+/// Regions of the points of a position_view.
+template <class Points, neighborhood_graph Graph>
+class plane_regions {
+  public:
+    plane_regions(const Points& points, const Graph& graph, const plane_rules& rules,
+                  std::vector<std::int32_t> labels)
+        : points_(points), graph_(graph), rules_(rules), labels_(std::move(labels)) {
+        std::size_t first = 0;
+        while (first < points.size() && !is_finite(points[first])) ++first;
+        if (first < points.size()) origin_ = points[first];
+        std::int32_t last = unlabeled;
+        for (const std::int32_t label : labels_) last = std::max(last, label);
+        sums_.resize(static_cast<std::size_t>(last + 1));
+        planes_.resize(sums_.size());
+        refit();
+    }
+
+    /// Neighboring regions that are one plane become one, the most alike first.
+    void merge() {
+        std::map<std::pair<std::int32_t, std::int32_t>, std::size_t> links;
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            if (labels_[i] == unlabeled) continue;
+            for (const point_index j : graph_[i]) {
+                if (labels_[j] != unlabeled && labels_[j] != labels_[i])
+                    ++links[std::minmax(labels_[i], labels_[j])];
+            }
+        }
+        constexpr std::size_t min_links = 5;  // fewer are a touch by chance
+        std::map<std::pair<std::int32_t, std::int32_t>, double> unlike;
+        for (const auto& [pair, count] : links) {
+            if (count >= min_links) unlike[pair] = unlikeness(pair.first, pair.second);
+        }
+        std::vector<std::int32_t> now(sums_.size());
+        for (std::size_t r = 0; r < now.size(); ++r) now[r] = static_cast<std::int32_t>(r);
+        for (;;) {
+            const auto best =
+                std::min_element(unlike.begin(), unlike.end(),
+                                 [](const auto& a, const auto& b) { return a.second < b.second; });
+            if (best == unlike.end() || !(best->second <= 1.0)) break;
+            const auto [kept, gone] = best->first;
+            unite(kept, gone, unlike);
+            for (std::int32_t& label : now) {
+                if (label == gone) label = kept;
+            }
+        }
+        for (std::int32_t& label : labels_) {
+            if (label != unlabeled) label = now[static_cast<std::size_t>(label)];
+        }
+    }
+
+    /// Each point goes to the region among its neighbors that suits it best, or to none.
+    /// @return whether any changed
+    template <execution X>
+    [[nodiscard]] bool compete(const X& run) {
+        std::vector<std::int32_t> next(labels_.size(), unlabeled);
+        for_each_chunk(run, labels_.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<std::int32_t> around;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (is_finite(points_[i])) next[i] = best_region(i, around);
+            }
+        });
+        const bool changed = next != labels_;
+        labels_ = std::move(next);
+        refit();
+        return changed;
+    }
+
+    /// The labels of the points, and the planes by label; some labels have no points.
+    [[nodiscard]] const std::vector<std::int32_t>& labels() const { return labels_; }
+    [[nodiscard]] const gnomon::plane& plane_of(std::size_t label) const {
+        return planes_[label].plane;
+    }
+
+  private:
+    /// The variance across a region's plane, at least that of the noise [m^2].
+    double variance_of(std::int32_t r) const {
+        return std::max(planes_[static_cast<std::size_t>(r)].variance, rules_.noise * rules_.noise);
+    }
+
+    /// At most 1 if two regions may be one plane: it is then no farther from the points of either,
+    /// in the root mean square, than one and a half times what these scatter about their own.
+    double unlikeness(std::int32_t a, std::int32_t b) const {
+        constexpr double no = 2.0;
+        const auto &one = sums_[static_cast<std::size_t>(a)],
+                   &other = sums_[static_cast<std::size_t>(b)];
+        const Eigen::Vector3d& n_a = planes_[static_cast<std::size_t>(a)].plane.normal;
+        const Eigen::Vector3d& n_b = planes_[static_cast<std::size_t>(b)].plane.normal;
+        if (!(std::abs(dot(n_a, n_b)) >= rules_.min_cosine)) return no;
+        moments both = one;
+        add(both, other);
+        const fitted_plane f = fitted(both, origin_);
+        if (is_missing(f.plane.normal)) return no;
+        constexpr double more = 1.5 * 1.5;
+        return std::max(mean_square(one, origin_, f.plane), mean_square(other, origin_, f.plane)) /
+               (more * std::max(variance_of(a), variance_of(b)));
+    }
+
+    /// Makes one region of two, and renews what was known of the pairs.
+    void unite(std::int32_t kept, std::int32_t gone, auto& unlike) {
+        const auto k = static_cast<std::size_t>(kept), g = static_cast<std::size_t>(gone);
+        add(sums_[k], sums_[g]);
+        sums_[g] = {};
+        planes_[k] = fitted(sums_[k], origin_);
+        std::vector<std::int32_t> others;
+        for (auto pair = unlike.begin(); pair != unlike.end();) {
+            const auto [a, b] = pair->first;
+            if (a == kept || a == gone || b == kept || b == gone) {
+                const std::int32_t other = a == kept || a == gone ? b : a;
+                if (other != kept && other != gone) others.push_back(other);
+                pair = unlike.erase(pair);
+            } else {
+                ++pair;
+            }
+        }
+        for (const std::int32_t other : others)
+            unlike[std::minmax(kept, other)] = unlikeness(kept, other);
+    }
+
+    /// The region among those of the neighbors that costs point i least: its squared distance in
+    /// variances, as a likelihood, and so much for each neighbor of another region, as of Potts.
+    std::int32_t best_region(std::size_t i, std::vector<std::int32_t>& around) const {
+        constexpr double all_others = 4.0;
+        around.clear();
+        std::size_t count = 0;
+        for (const point_index j : graph_[i]) {
+            ++count;
+            if (labels_[j] != unlabeled) around.push_back(labels_[j]);
+        }
+        if (labels_[i] != unlabeled) around.push_back(labels_[i]);  // may stay, alone
+        std::sort(around.begin(), around.end());
+        std::int32_t best = unlabeled;
+        double least = 0.0;
+        for (auto first = around.begin(); first != around.end();) {
+            const auto last = std::upper_bound(first, around.end(), *first);
+            const double d =
+                planes_[static_cast<std::size_t>(*first)].plane.signed_distance(points_[i]);
+            const double deviation = d * d / variance_of(*first);
+            const double agreeing = static_cast<double>(last - first) - (*first == labels_[i]);
+            const double cost =
+                0.5 * deviation + all_others * (1.0 - agreeing / static_cast<double>(count));
+            if (deviation <= rules_.deviations * rules_.deviations &&
+                (best == unlabeled || cost < least)) {
+                best = *first;
+                least = cost;
+            }
+            first = last;
+        }
+        return best;
+    }
+
+    /// Sums and planes anew; regions that became too small are given up.
+    void refit() {
+        for (moments& m : sums_) m = {};
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            if (labels_[i] != unlabeled)
+                sums_[static_cast<std::size_t>(labels_[i])].add(difference(points_[i], origin_));
+        }
+        for (std::size_t r = 0; r < sums_.size(); ++r) planes_[r] = fitted(sums_[r], origin_);
+        for (std::int32_t& label : labels_) {
+            if (label == unlabeled) continue;
+            const auto r = static_cast<std::size_t>(label);
+            if (sums_[r].count < rules_.min_points || is_missing(planes_[r].plane.normal))
+                label = unlabeled;
+        }
+    }
+
+    const Points& points_;
+    const Graph& graph_;
+    plane_rules rules_;
+    std::vector<std::int32_t> labels_;
+    Eigen::Vector3d origin_{0.0, 0.0, 0.0};
+    std::vector<moments> sums_;  // by label, about origin_
+    std::vector<fitted_plane> planes_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/plane_segmentation.hpp ---------------------------------------------
+
+/// @file
+/// Flat surfaces, with their planes. Smooth surfaces (surface_segmentation.hpp) end where normals
+/// are blended, some points before an edge, and leak where the blend is gentle; a plane knows by
+/// distance, to the noise, which points are its own:
+///
+///  1. grow     From the flattest places on, points whose normals roughly agree join while they lie
+///              within a few deviations of the region's plane, which is fitted again as it grows.
+///  2. merge    Neighbors that one plane fits as well as two are one.
+///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
+///              explains it best, and planes are fitted again: edges come out sharp.
+///
+/// Region growing as of Poppinga et al. 2008, merging as of agglomerative clustering (Feng et al.
+/// 2014), and the competition for points as of variational shape approximation (Cohen-Steiner et
+/// al. 2004) with the Potts model of Isack and Boykov 2012. All lengths follow the noise of the
+/// cloud, so that there is no distance to be set.
+
+namespace gnomon {
+
+struct plane_segmentation {
+    std::optional<double> noise =
+        {};                         ///< sigma across the surface [m]; else what `noise_level` finds
+    double max_deviations = 4.0;    ///< of a point from its plane, in sigma
+    angle max_angle = degrees(25);  ///< between a point's normal and its plane's, to grow
+    std::size_t min_points = 30;    ///< n_min, smaller segments are noise
+    int rounds = 6;                 ///< of the competition, at most
+};
+
+/// Segments, and the plane of each.
+struct planar_segments {
+    gnomon::segments segments;  ///< largest first
+    std::vector<plane> planes;  ///< by label; the normal's sign is arbitrary
+};
+
+/// The planes of a cloud.
+///
+/// @param points   any point range of n points [m]
+/// @param graph    the neighbors of each: few, as edges are found to their width (`knn{12}`)
+/// @param surface  a normal for each point, from as few; where it is missing, no plane grows, but a
+///                 point may be taken by one
+/// @return the segments of at least `min_points` points and their planes
+/// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists a
+///                                neighbor of no point; unless noise and max_deviations are finite
+///                                and not negative, and max_angle is from 0 to 90 degrees
+/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(s^2) for s segments. Growing
+/// runs on one thread. The same bytes for every execution.
+template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] planar_segments segment_planes(const R& points, const G& graph,
+                                             const Surface& surface,
+                                             const plane_segmentation& options = {},
+                                             const X& run = {}, Proj projection = {}) {
+    const auto is_length = [](double x) { return x >= 0.0 && std::isfinite(x); };
+    const position_view<R, Proj> p(points, projection);
+    detail::require(graph.size() == p.size(), "segment_planes: the graph is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "segment_planes: the surface is of other points");
+    detail::require(!options.noise || is_length(*options.noise),
+                    "segment_planes: the noise must be finite and not negative");
+    detail::require(is_length(options.max_deviations),
+                    "segment_planes: max_deviations must be finite and not negative");
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        for (const point_index j : graph[i])
+            detail::require(j < p.size(), "segment_planes: the graph lists a neighbor of no point");
+        if (is_finite(p[i])) farthest = std::max(farthest, p[i].cwiseAbs().maxCoeff());
+    }
+    // Of a clean cloud, rounding is the noise.
+    const double rounding = 1e-12 * farthest;
+    const double noise = options.noise ? *options.noise : noise_level(points, projection);
+
+    const detail::plane_rules rules{.noise = std::max(noise, rounding),
+                                    .deviations = options.max_deviations,
+                                    .min_cosine = detail::min_cosine(options.max_angle),
+                                    .min_points = std::max<std::size_t>(options.min_points, 3)};
+    detail::plane_growth grow(p, graph, surface, rules);
+    detail::plane_regions regions(p, graph, rules, grow(run));
+    regions.merge();
+    for (int round = 0; round < options.rounds; ++round) {
+        if (!regions.compete(run)) break;
+        regions.merge();
+    }
+
+    auto [found, label_of] = detail::largest_first(segments(regions.labels()));
+    planar_segments result{std::move(found), {}};
+    for (const std::size_t label : label_of) result.planes.push_back(regions.plane_of(label));
+    return result;
 }
 
 }  // namespace gnomon
@@ -9366,6 +9861,107 @@ template <class R, class Proj = std::identity>
         kept.push_back(static_cast<point_index>(i));
     }
     return kept;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/segment_extension.hpp ----------------------------------------------
+
+/// @file
+/// Gives segments back what they lost: smooth surfaces end where normals are blended, a few points
+/// before an edge, and have holes where normals are noisy. Those points are no segment, or too
+/// small ones; they go to the segment beside them that they lie on, ring by ring. What segments
+/// have is not touched, so that surfaces that were told apart stay apart.
+///
+/// The last step of region growing in two thresholds (hysteresis): strict where surfaces are found,
+/// lenient where they are only extended.
+
+namespace gnomon {
+
+struct segment_extension {
+    angle max_angle = degrees(20);  ///< between the normals of a point and of who takes it in
+    int rings = 10;                 ///< how many neighbors deep, at most
+};
+
+namespace detail {
+
+/// The segment, among those of the neighbors whose normals agree, on whose tangent planes point i
+/// lies best in the mean; unlabeled if there is none. Of equals, the smaller label.
+template <class Points, neighborhood_graph G, normal_range Surface>
+[[nodiscard]] std::int32_t nearest_segment(const Points& p, const G& graph, const Surface& surface,
+                                           const std::vector<std::int32_t>& labels, std::size_t i,
+                                           double min_cosine,
+                                           std::vector<std::pair<std::int32_t, double>>& votes) {
+    votes.clear();
+    for (const point_index j : graph[i]) {
+        const Eigen::Vector3d& n_j = surface[j].normal;
+        if (labels[j] != unlabeled && std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
+            votes.emplace_back(labels[j], std::abs(dot(n_j, difference(p[i], p[j]))));
+    }
+    std::sort(votes.begin(), votes.end());
+    std::int32_t best = unlabeled;
+    double least = 0.0;
+    for (auto first = votes.begin(); first != votes.end();) {
+        auto last = first;
+        double sum = 0.0;
+        for (; last != votes.end() && last->first == first->first; ++last) sum += last->second;
+        const double mean = sum / static_cast<double>(last - first);
+        if (best == unlabeled || mean < least) {
+            best = first->first;
+            least = mean;
+        }
+        first = last;
+    }
+    return best;
+}
+
+}  // namespace detail
+
+/// The segments with the points beside them that are theirs.
+///
+/// @param points   any point range of n points
+/// @param graph    the neighbors of each: few, as each ring reaches one neighbor farther
+/// @param surface  a normal for each; points without one are left as they are
+/// @param found    segments of the n points
+/// @return the same segments, extended, largest first
+/// @throws std::invalid_argument  if points, graph, surface and segments differ in size, the graph
+///                                lists a neighbor of no point, or max_angle is outside [0, 90]
+///                                degrees
+/// Complexity: O(n k) for each ring. The same bytes for every execution.
+template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments extend_segments(const R& points, const G& graph, const Surface& surface,
+                                       const segments& found, const segment_extension& options = {},
+                                       const X& run = {}, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(graph.size() == p.size(), "extend_segments: the graph is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "extend_segments: the surface is of other points");
+    detail::require(found.labels().size() == p.size(),
+                    "extend_segments: the segments are of other points");
+    const double cosine = detail::min_cosine(options.max_angle);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        for (const point_index j : graph[i])
+            detail::require(j < p.size(),
+                            "extend_segments: the graph lists a neighbor of no point");
+    }
+
+    std::vector<std::int32_t> labels = found.labels();
+    for (int ring = 0; ring < options.rings; ++ring) {
+        std::vector<std::int32_t> next = labels;
+        for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<std::pair<std::int32_t, double>> votes;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (labels[i] != unlabeled || !is_finite(p[i]) || is_missing(surface[i].normal))
+                    continue;
+                next[i] = detail::nearest_segment(p, graph, surface, labels, i, cosine, votes);
+            }
+        });
+        if (next == labels) break;
+        labels = std::move(next);
+    }
+    return detail::largest_first(segments(std::move(labels))).first;
 }
 
 }  // namespace gnomon

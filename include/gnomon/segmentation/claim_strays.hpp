@@ -18,7 +18,6 @@
 #include <limits>
 #include <numeric>
 #include <optional>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -84,10 +83,7 @@ class stray_claimer {
             next.erase(std::unique(next.begin(), next.end()), next.end());
             layer.swap(next);
         }
-        const segments claimed(std::move(labels_));
-        std::vector<std::span<const point_index>> groups;
-        for (std::size_t s = 0; s < claimed.size(); ++s) groups.push_back(claimed[s]);
-        return segments_of_groups(points_.size(), groups);
+        return largest_first(segments(std::move(labels_))).first;
     }
 
   private:

@@ -74,6 +74,25 @@ class segments {
 
 namespace detail {
 
+/// The segments that have points, renumbered from the largest to the smallest, equal ones by their
+/// smallest point index, with the numbers that they had. O(n + s log s) for s segments.
+[[nodiscard]] inline std::pair<segments, std::vector<std::size_t>> largest_first(
+    const segments& found) {
+    std::vector<std::size_t> order;
+    for (std::size_t s = 0; s < found.size(); ++s) {
+        if (!found[s].empty()) order.push_back(s);
+    }
+    std::sort(order.begin(), order.end(), [&found](std::size_t a, std::size_t b) {
+        if (found[a].size() != found[b].size()) return found[a].size() > found[b].size();
+        return found[a].front() < found[b].front();
+    });
+    std::vector<std::int32_t> labels(found.labels().size(), unlabeled);
+    for (std::size_t s = 0; s < order.size(); ++s) {
+        for (const point_index i : found[order[s]]) labels[i] = static_cast<std::int32_t>(s);
+    }
+    return {segments(std::move(labels)), std::move(order)};
+}
+
 /// The sets of a partition that have at least `min_points` members, largest first, where counts(i)
 /// tells whether i may be a member at all. O(n log n).
 [[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
@@ -98,20 +117,6 @@ namespace detail {
         labels[i] = label_of_root[sets.find(static_cast<point_index>(i))];
     }
     return segments(std::move(labels));
-}
-
-/// The segments of n points that consist of these members, vectors of their indices, numbered as
-/// usual. (As a template, it costs only those who use it the compilation of a sort.)
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
-    union_find sets(n);
-    std::vector<bool> is_member(n, false);
-    for (const auto& members : groups) {
-        for (const point_index i : members) {
-            sets.unite(members.front(), i);
-            is_member[i] = true;
-        }
-    }
-    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
 }
 
 }  // namespace detail

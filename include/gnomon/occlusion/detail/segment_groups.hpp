@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What both forms of Alg. 4.3 need: which segments to compare.
+/// What both forms of Alg. 4.3 need: which segments to compare, and segments of merged ones.
 #pragma once
 
 #include <algorithm>
@@ -44,6 +44,20 @@ namespace gnomon::detail {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
+}
+
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+    union_find sets(n);
+    std::vector<bool> is_member(n, false);
+    for (const auto& members : groups) {
+        for (const point_index i : members) {
+            sets.unite(members.front(), i);
+            is_member[i] = true;
+        }
+    }
+    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
 }
 
 }  // namespace gnomon::detail
