@@ -8446,20 +8446,6 @@ namespace detail {
     return segments(std::move(labels));
 }
 
-/// The segments of n points that consist of these members, vectors of their indices, numbered as
-/// usual. (As a template, it costs only those who use it the compilation of a sort.)
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
-    union_find sets(n);
-    std::vector<bool> is_member(n, false);
-    for (const auto& members : groups) {
-        for (const point_index i : members) {
-            sets.unite(members.front(), i);
-            is_member[i] = true;
-        }
-    }
-    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
-}
-
 }  // namespace detail
 }  // namespace gnomon
 
@@ -8520,10 +8506,7 @@ class stray_claimer {
             next.erase(std::unique(next.begin(), next.end()), next.end());
             layer.swap(next);
         }
-        const segments claimed(std::move(labels_));
-        std::vector<std::span<const point_index>> groups;
-        for (std::size_t s = 0; s < claimed.size(); ++s) groups.push_back(claimed[s]);
-        return segments_of_groups(points_.size(), groups);
+        return largest_first(segments(std::move(labels_))).first;
     }
 
   private:
@@ -8549,7 +8532,7 @@ class stray_claimer {
             for (std::size_t s = begin; s < end; ++s)
                 tree.nearest(positions_[s], options_.k, strays_[s], around_[s]);
         });
-        stray_tree_.emplace(positions_);
+        sum_up_cells();
         for (std::size_t s = 0; s < strays_.size(); ++s) {
             for (const neighbor& q : around_[s]) {
                 const auto other = std::lower_bound(strays_.begin(), strays_.end(), q.index);
@@ -8557,6 +8540,29 @@ class stray_claimer {
                     listed_by_[static_cast<std::size_t>(other - strays_.begin())].push_back(s);
             }
         }
+    }
+
+    /// Sums up the strays in cubes of sigma, so that thousands at one place cost no more than a
+    /// few: what a plane asks of them, the sum of distances from it, needs no more than their mean.
+    void sum_up_cells() {
+        std::vector<std::pair<std::array<double, 3>, std::size_t>> by_cell;
+        for (std::size_t s = 0; s < positions_.size(); ++s) {
+            const auto cell = [&](int a) { return std::floor(positions_[s][a] / options_.sigma); };
+            by_cell.push_back({{cell(0), cell(1), cell(2)}, s});
+        }
+        std::sort(by_cell.begin(), by_cell.end());
+        for (auto first = by_cell.begin(); first != by_cell.end();) {
+            const Eigen::Vector3d& origin = positions_[first->second];
+            moments m;
+            auto last = first;
+            for (; last != by_cell.end() && last->first == first->first; ++last)
+                m.add(difference(positions_[last->second], origin));
+            const auto n = static_cast<double>(m.count);
+            cell_means_.push_back(combined(1.0, origin, 1.0 / n, m.sum));
+            cell_counts_.push_back(n);
+            first = last;
+        }
+        cells_.emplace(cell_means_);
     }
 
     /// The segment to which a stray goes in this round: of those about it whose plane is its own,
@@ -8591,18 +8597,16 @@ class stray_claimer {
         const double farthest =
             around_[s].empty() ? 0.0 : std::sqrt(around_[s].back().squared_distance);
         const double width = std::max(thickness, farthest);
-        double sum = 0.0;
-        std::size_t count = 0;
-        stray_tree_->for_each_within(
+        double sum = 0.0, n = 0.0;
+        cells_->for_each_within(
             combined(1.0, p, -distance, of.normal), std::hypot(width, thickness),
             [&](const neighbor& q) {
-                const double off = of.signed_distance(positions_[q.index]);
+                const double off = of.signed_distance(cell_means_[q.index]);
                 if (std::abs(off) > thickness || q.squared_distance - off * off > width * width)
                     return;
-                sum += off;
-                ++count;
+                sum += cell_counts_[q.index] * off;
+                n += cell_counts_[q.index];
             });
-        const double n = static_cast<double>(count);
         const bool is_of_plane = std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
         return is_of_plane ? std::abs(distance) : no;
     }
@@ -8613,7 +8617,9 @@ class stray_claimer {
     std::vector<plane> planes_;        // of the segments; those that are not flat have no normal
     std::vector<point_index> strays_;  // ascending
     std::vector<Eigen::Vector3d> positions_;           // of the strays [m]
-    std::optional<kd_tree> stray_tree_;                // of these
+    std::vector<Eigen::Vector3d> cell_means_;          // of the strays in a cube [m]
+    std::vector<double> cell_counts_;                  // how many these are
+    std::optional<kd_tree> cells_;                     // of the means
     std::vector<std::vector<neighbor>> around_;        // each stray, in the cloud
     std::vector<std::vector<std::size_t>> listed_by_;  // the strays that it is a neighbor of
     std::vector<std::vector<judgement>> judgements_;   // about it, once for all
@@ -8629,7 +8635,7 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n log n), and for s strays O(s (k + those of them in the slab about each)).
+/// Complexity: O(n log n), and for s strays O(s (k + cubes of sigma in the slab about each)).
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,
@@ -10584,7 +10590,7 @@ inline void for_each_pixel_between(const range_image& image, const range_image::
 // -------- gnomon/occlusion/detail/segment_groups.hpp ---------------------------------------------
 
 /// @file
-/// What both forms of Alg. 4.3 need: which segments to compare.
+/// What both forms of Alg. 4.3 need: which segments to compare, and segments of merged ones.
 
 namespace gnomon::detail {
 
@@ -10611,6 +10617,20 @@ namespace gnomon::detail {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
+}
+
+/// The segments of n points that consist of these members, vectors of their indices, numbered as
+/// usual. (As a template, it costs only those who use it the compilation of a sort.)
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+    union_find sets(n);
+    std::vector<bool> is_member(n, false);
+    for (const auto& members : groups) {
+        for (const point_index i : members) {
+            sets.unite(members.front(), i);
+            is_member[i] = true;
+        }
+    }
+    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
 }
 
 }  // namespace gnomon::detail

@@ -17,8 +17,8 @@ namespace {
 
 using gnomon::claim_strays, gnomon::segments, gnomon::unlabeled;
 
-constexpr double sigma = 0.01;
-constexpr gnomon::stray_claiming options{.sigma = sigma};
+constexpr double noise_of_sheets = 0.01;
+constexpr gnomon::stray_claiming claiming{.sigma = noise_of_sheets};
 
 /// Points with noise across the planes they are of, and a label for each.
 struct cloud {
@@ -31,14 +31,14 @@ struct cloud {
                    std::int32_t label) {
         for (std::size_t i = 0; i < columns; ++i) {
             for (std::size_t j = 0; j < rows; ++j) {
-                const double z = height + sigma * random.gaussian();
+                const double z = height + noise_of_sheets * random.gaussian();
                 points.emplace_back(x + 0.01 * static_cast<double>(i),
                                     y + 0.01 * static_cast<double>(j), z);
                 labels.push_back(label);
             }
         }
     }
-    [[nodiscard]] segments claimed(const gnomon::stray_claiming& o = options) const {
+    [[nodiscard]] segments claimed(const gnomon::stray_claiming& o = claiming) const {
         return claim_strays(points, segments(labels), o);
     }
     /// The share of the points from `first` on that have a label.
@@ -66,18 +66,18 @@ TEST(claim_strays, leaves_what_only_seems_to_be_of_the_plane) {
     cloud c;
     c.add_sheet(0.0, 0.0, 60, 60, 0.0, 0);
     const std::size_t first = c.points.size();
-    c.add_sheet(0.6, 0.0, 20, 60, -1.5 * sigma, unlabeled);
+    c.add_sheet(0.6, 0.0, 20, 60, -1.5 * noise_of_sheets, unlabeled);
     EXPECT_LE(cloud::share(c.claimed().labels(), first, c.points.size(), 0), 0.05);
 }
 
 TEST(claim_strays, gives_each_to_the_nearest_plane) {
     cloud c;
     c.add_sheet(0.0, 0.0, 50, 60, 0.0, 0);
-    c.add_sheet(1.0, 0.0, 50, 60, 2.0 * sigma, 1);
+    c.add_sheet(1.0, 0.0, 50, 60, 2.0 * noise_of_sheets, 1);
     const std::size_t first = c.points.size();
     c.add_sheet(0.5, 0.0, 20, 60, 0.0, unlabeled);
     const std::size_t second = c.points.size();
-    c.add_sheet(0.8, 0.0, 20, 60, 2.0 * sigma, unlabeled);
+    c.add_sheet(0.8, 0.0, 20, 60, 2.0 * noise_of_sheets, unlabeled);
     const segments found = c.claimed();
     EXPECT_GE(cloud::share(found.labels(), first, second, found.labels().front()), 0.8);
     EXPECT_GE(cloud::share(found.labels(), second, c.points.size(), found.labels()[3000]), 0.8);
@@ -100,16 +100,16 @@ TEST(claim_strays, takes_nothing_from_a_segment) {
 TEST(claim_strays, thick_segments_and_far_ones_claim_nothing) {
     cloud c;
     c.add_sheet(0.0, 0.0, 40, 20, 0.0, 0);
-    c.add_sheet(0.0, 0.2, 40, 20, 10.0 * sigma, 0);  // no plane
+    c.add_sheet(0.0, 0.2, 40, 20, 10.0 * noise_of_sheets, 0);  // no plane
     c.add_sheet(2.0, 0.0, 40, 40, 0.0, 1);
     c.add_sheet(0.4, 0.0, 40, 40, 0.0, unlabeled);  // 1.2 m from it
-    EXPECT_EQ(c.claimed(), claim_strays(c.points, c.claimed(), options));
+    EXPECT_EQ(c.claimed(), claim_strays(c.points, c.claimed(), claiming));
     EXPECT_EQ(cloud::share(c.claimed().labels(), 3200, 4800, unlabeled), 1.0);
     c.add_sheet(2.8, 0.1, 3, 3, 0.0, unlabeled);  // so few that points 0.4 m away are next to them
     EXPECT_EQ(cloud::share(c.claimed().labels(), 4800, 4809, unlabeled), 1.0);
-    EXPECT_EQ(
-        cloud::share(c.claimed({.sigma = sigma, .max_distance = 0.5}).labels(), 4800, 4809, 0),
-        1.0);
+    EXPECT_EQ(cloud::share(c.claimed({.sigma = noise_of_sheets, .max_distance = 0.5}).labels(),
+                           4800, 4809, 0),
+              1.0);
 }
 
 /// The order of points and their place change nothing, nor the number of threads.
@@ -117,23 +117,27 @@ TEST(claim_strays, depends_on_no_order_place_or_thread) {
     cloud c;
     c.add_sheet(0.0, 0.0, 30, 60, 0.0, 0);
     c.add_sheet(0.3, 0.0, 30, 60, 0.0, unlabeled);
-    c.add_sheet(0.6, 0.0, 20, 60, 1.5 * sigma, unlabeled);
-    c.add_sheet(0.8, 0.0, 20, 60, 1.5 * sigma, 1);
+    c.add_sheet(0.6, 0.0, 20, 60, 1.5 * noise_of_sheets, unlabeled);
+    c.add_sheet(0.8, 0.0, 20, 60, 1.5 * noise_of_sheets, 1);
     const auto expected = c.claimed().labels();
     for (const unsigned n : {2u, 4u}) {
-        EXPECT_EQ(claim_strays(c.points, segments(c.labels), options, gnomon::threads{n}).labels(),
+        EXPECT_EQ(claim_strays(c.points, segments(c.labels), claiming, gnomon::threads{n}).labels(),
                   expected);
     }
-    cloud turned = c;
-    std::reverse(turned.points.begin(), turned.points.end());
-    std::reverse(turned.labels.begin(), turned.labels.end());
-    for (Eigen::Vector3d& p : turned.points)
-        p = Eigen::Vector3d(-p.y() + 512.0, p.x() - 256.0, p.z() + 1024.0);
-    auto labels = turned.claimed().labels();
+    cloud reversed = c;
+    std::reverse(reversed.points.begin(), reversed.points.end());
+    std::reverse(reversed.labels.begin(), reversed.labels.end());
+    auto labels = reversed.claimed().labels();
     std::reverse(labels.begin(), labels.end());
+    EXPECT_EQ(labels, expected);
+
+    // But for what is nearly as likely as not: strays are summed up in cubes that do not turn.
+    for (Eigen::Vector3d& p : c.points)
+        p = Eigen::Vector3d(-p.y() + 512.0, p.x() - 256.0, p.z() + 1024.0);
+    const auto turned = c.claimed().labels();
     std::size_t differ = 0;
-    for (std::size_t i = 0; i < labels.size(); ++i) differ += labels[i] != expected[i] ? 1 : 0;
-    EXPECT_LE(differ, 2u);
+    for (std::size_t i = 0; i < turned.size(); ++i) differ += turned[i] != expected[i] ? 1 : 0;
+    EXPECT_LE(differ, turned.size() / 500);
 }
 
 TEST(claim_strays, survives_what_is_no_surface) {
@@ -158,7 +162,7 @@ TEST(claim_strays, a_long_thin_tail_takes_no_long_time) {
         c.points.emplace_back(0.3 + 0.01 * i, 0.15, 0.0);
         c.labels.push_back(unlabeled);
     }
-    const auto found = c.claimed({.sigma = sigma, .k = 2});
+    const auto found = c.claimed({.sigma = noise_of_sheets, .k = 2});
     EXPECT_EQ(cloud::share(found.labels(), 900, c.points.size(), 0), 1.0);
 }
 

@@ -17,7 +17,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <iterator>
@@ -26,6 +25,7 @@
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -14,6 +13,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
