@@ -24,9 +24,8 @@
 
 namespace {
 
-using surfel = gnomon::surfel<gnomon::plane_fit>;
 using json = nlohmann::ordered_json;
-
+using surfel = gnomon::surfel<gnomon::plane_fit>;
 using result = gnomon::perceived<gnomon::plane_fit>;
 
 /// What there is to segment if the user has no scan: a kitchen, as a UTM-30LX that rolls about its

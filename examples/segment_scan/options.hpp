@@ -18,8 +18,9 @@
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]
 
-Segments SCAN (PLY, PCD, VTK or text) into smooth surfaces, and merges those that are
-one behind something; without SCAN, a simulated kitchen. Writes normals.ply, segments.ply, segments.png and segments.json into DIR.
+Segments SCAN (PLY, PCD, VTK or text) into smooth surfaces, and merges those that
+are one behind something; without SCAN, a simulated kitchen. Writes normals.ply,
+segments.ply, segments.png and segments.json into DIR.
 
   --k N               neighbors per point (50)
   --max-angle DEG     largest angle between normals of neighbors (5)

@@ -92,7 +92,8 @@ struct perception {
     std::optional<stray_claiming> strays = stray_claiming{};
 
     /// Perceives n points: any point range; their view points as everywhere.
-    /// @throws std::invalid_argument  what the steps throw, for parameters out of range
+    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
+    ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps; normals are the dearest.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -1280,8 +1280,8 @@ class subset_view {
 /// was told of, none if GNOMON_PORTABLE_LANES is defined. Where it was told of none beyond those of
 /// every x86-64, some loops are compiled for AVX2 too, and the processor is asked when they run,
 /// unless GNOMON_COMPILED_LANES is defined. What depends on all that stands in the inline namespace
-/// GNOMON_LANES, which keeps translation units compiled for different machines from sharing
-/// functions.
+/// GNOMON_LANES, so that translation units for which it differs do not share it. (The rest they
+/// share, as they share all inline functions: code for an older machine has its own program.)
 
 #if defined(GNOMON_PORTABLE_LANES)
 #define GNOMON_LANES portable
@@ -11073,7 +11073,8 @@ struct perception {
     std::optional<stray_claiming> strays = stray_claiming{};
 
     /// Perceives n points: any point range; their view points as everywhere.
-    /// @throws std::invalid_argument  what the steps throw, for parameters out of range
+    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
+    ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps; normals are the dearest.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -4,8 +4,8 @@
 /// was told of, none if GNOMON_PORTABLE_LANES is defined. Where it was told of none beyond those of
 /// every x86-64, some loops are compiled for AVX2 too, and the processor is asked when they run,
 /// unless GNOMON_COMPILED_LANES is defined. What depends on all that stands in the inline namespace
-/// GNOMON_LANES, which keeps translation units compiled for different machines from sharing
-/// functions.
+/// GNOMON_LANES, so that translation units for which it differs do not share it. (The rest they
+/// share, as they share all inline functions: code for an older machine has its own program.)
 #pragma once
 
 #if defined(GNOMON_PORTABLE_LANES)
