@@ -12,12 +12,13 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
-#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include <nlohmann/json.hpp>
+
+#include <gnomon/io/output_file.hpp>
 
 using json = nlohmann::ordered_json;
 
@@ -36,7 +37,8 @@ inline json context_of(const effort& much) {
     std::ifstream info("/proc/cpuinfo");
     for (std::string line; std::getline(info, line);) {
         if (!line.starts_with("model name")) continue;
-        processor = line.substr(line.find(':') + 2);
+        const auto start = line.find_first_not_of(" \t:", line.find(':'));
+        if (start != std::string::npos) processor = line.substr(start);
         break;
     }
     return {{"quick", much.quick},
@@ -80,9 +82,8 @@ int run_program(int argc, char** argv, auto&& measure) {
     try {
         std::filesystem::create_directories(much.out);
         const json tables = measure(much);
-        std::ofstream file(much.out / (name + ".json"));
-        file << json{{"context", context_of(much)}, {"tables", tables}}.dump(1) << '\n';
-        if (!file.flush()) throw std::runtime_error("cannot write " + name + ".json");
+        const json all{{"context", context_of(much)}, {"tables", tables}};
+        gnomon::io::replace_file((much.out / (name + ".json")).string(), all.dump(1) + "\n");
     } catch (const std::exception& problem) {
         std::fprintf(stderr, "%s: %s\n", name.c_str(), problem.what());
         return 1;
