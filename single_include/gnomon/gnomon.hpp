@@ -10255,6 +10255,12 @@ class range_image {
             highest = std::max(highest, pixels[i].elevation);
         }
         first_row_ = lowest;
+        const auto sine_of_row = [this](double row) {
+            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
+            return std::sin(turn * std::numbers::pi);
+        };
+        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
+        highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
@@ -10292,6 +10298,13 @@ class range_image {
     /// The distance of a point from the view point [m].
     [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
         return std::sqrt(squared_distance(p, viewpoint_));
+    }
+
+    /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
+    [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        const double up = detail::dot(z_, d), distance = detail::length(d);
+        return up >= lowest_sine_ * distance && up <= highest_sine_ * distance;
     }
 
   private:
@@ -10355,6 +10368,7 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     Eigen::Vector3d x_, y_, z_;  // axes of the image; z is the pole
     std::size_t first_row_ = 0;
+    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
     std::vector<view> seen_;  // row by row, from the first in which something is seen
 };
 
@@ -10445,25 +10459,27 @@ class lines_of_sight {
         const range_image_format format{2 * height, height, options.pole};
 
         const position_view<R, Proj> p(points, projection);
-        std::vector<point_index> order;
-        for (std::size_t i = 0; i < p.size(); ++i)
-            if (is_finite(p[i]) && is_finite(viewpoints_[i]))
-                order.push_back(static_cast<point_index>(i));
-        const auto key = [&](point_index i) {
-            const Eigen::Vector3d v = viewpoints_[i];
+        const auto key_of = [](const Eigen::Vector3d& v) {
             return std::array<double, 3>{v[0], v[1], v[2]};
         };
-        if (viewpoints_.positions().size() > 1)
-            std::stable_sort(order.begin(), order.end(),
-                             [&](point_index a, point_index b) { return key(a) < key(b); });
-        for (auto first = order.begin(); first != order.end();) {
-            auto last = order.end();
-            if (viewpoints_.positions().size() > 1)
-                last = std::find_if(first, order.end(),
-                                    [&](point_index i) { return key(i) != key(*first); });
-            const subset_view seen(points, std::span<const point_index>(first, last), projection);
-            images_.emplace_back(seen, viewpoints_[*first], format);
-            first = last;
+        std::vector<std::array<double, 3>> places;
+        for (const Eigen::Vector3d& v : viewpoints_.positions())
+            if (is_finite(v)) places.push_back(key_of(v));
+        if (viewpoints_.empty()) places.push_back({0.0, 0.0, 0.0});
+        std::sort(places.begin(), places.end());
+        places.erase(std::unique(places.begin(), places.end()), places.end());
+
+        std::vector<std::vector<Eigen::Vector3d>> seen(places.size());
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Eigen::Vector3d v = viewpoints_[i];
+            if (!is_finite(p[i]) || !is_finite(v)) continue;
+            const auto place = std::lower_bound(places.begin(), places.end(), key_of(v));
+            seen[static_cast<std::size_t>(place - places.begin())].push_back(p[i]);
+        }
+        for (std::size_t v = 0; v < places.size(); ++v) {
+            if (seen[v].empty()) continue;
+            const auto& [x, y, z] = places[v];
+            images_.emplace_back(seen[v], Eigen::Vector3d(x, y, z), format);
         }
     }
 
@@ -10515,7 +10531,7 @@ class lines_of_sight {
     /// What one view point has seen there.
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
         const double expected = image.distance_to(place);
-        if (!std::isfinite(expected)) return sighting::unseen;
+        if (!std::isfinite(expected) || !image.may_show(place)) return sighting::unseen;
         const double margin = 3.0 * sigma_ + expected * pixel_;
         const auto told_by = [&](const range_image::pixel& at) {
             const double range = image.range(at);

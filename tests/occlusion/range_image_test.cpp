@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <optional>
@@ -201,6 +202,32 @@ TEST(range_image, refuses_what_is_no_format_or_view_point) {
     EXPECT_THROW(make({.pole = Eigen::Vector3d(clouds::infinity, 0, 1)}, origin),
                  std::invalid_argument);
     EXPECT_NO_THROW(make({}, origin));
+}
+
+/// What the quick look denies, no pixel about the place shows.
+TEST(range_image, a_quick_look_overlooks_nothing) {
+    gnomon::random_stream random(5);
+    const auto any = [&](double low, double high) {
+        return Eigen::Vector3d(random.uniform(-3, 3), random.uniform(-3, 3),
+                               random.uniform(low, high));
+    };
+    std::size_t denied = 0;
+    for (int trial = 0; trial < 20; ++trial) {
+        std::vector<Eigen::Vector3d> line;
+        for (int i = 0; i < 100; ++i) line.push_back(any(0.0, 0.05));
+        const gnomon::range_image image(line, Eigen::Vector3d(0, 0, 0),
+                                        {72, 36, Eigen::Vector3d(0, 0, 1)});
+        for (int i = 0; i < 200; ++i) {
+            const Eigen::Vector3d place = any(-3.0, 3.0);
+            if (image.may_show(place)) continue;
+            ++denied;
+            const auto at = image.pixel_of(place);
+            for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
+                 e <= std::min<std::size_t>(at.elevation + 1, 35); ++e)
+                for (std::size_t a = 0; a < 72; ++a) EXPECT_FALSE(image.index({a, e}));
+        }
+    }
+    EXPECT_GT(denied, 1000u);
 }
 
 }  // namespace

@@ -70,6 +70,12 @@ class range_image {
             highest = std::max(highest, pixels[i].elevation);
         }
         first_row_ = lowest;
+        const auto sine_of_row = [this](double row) {
+            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
+            return std::sin(turn * std::numbers::pi);
+        };
+        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
+        highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
@@ -107,6 +113,13 @@ class range_image {
     /// The distance of a point from the view point [m].
     [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
         return std::sqrt(squared_distance(p, viewpoint_));
+    }
+
+    /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
+    [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        const double up = detail::dot(z_, d), distance = detail::length(d);
+        return up >= lowest_sine_ * distance && up <= highest_sine_ * distance;
     }
 
   private:
@@ -170,6 +183,7 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     Eigen::Vector3d x_, y_, z_;  // axes of the image; z is the pole
     std::size_t first_row_ = 0;
+    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
     std::vector<view> seen_;  // row by row, from the first in which something is seen
 };
 
