@@ -6,12 +6,12 @@
 /// each of them gave and how long it took (Klasing 2010, Fig. 4.2, Table 4.1).
 #pragma once
 
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <numeric>
 #include <optional>
+#include <thread>  // has the clocks of <chrono> without its calendars, which take long to read
 #include <type_traits>
 #include <utility>
 #include <vector>
