@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
 
 int main() {

@@ -20,6 +20,7 @@
 #include "picture/of_perception.hpp"
 #include "segment_scan/options.hpp"
 #include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace {

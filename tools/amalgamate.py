@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, gnomon/simulation.hpp and all that
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, perception, the simulator and all that
 they include.
 
     amalgamate.py                  writes the file in the repository
@@ -78,7 +78,7 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    for umbrella in ("gnomon/gnomon.hpp", "gnomon/simulation.hpp"):
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/perception.hpp", "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()
 

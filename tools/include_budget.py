@@ -16,7 +16,7 @@ import sys
 import tempfile
 
 LIMIT = 2.0
-RUNS = 8
+RUNS = 20
 SOURCES = {
     "Eigen and nanoflann":
         "#include <Eigen/Core>\n#include <Eigen/Geometry>\n#include <nanoflann.hpp>\n",

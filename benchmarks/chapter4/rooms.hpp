@@ -15,6 +15,7 @@
 
 #include "record.hpp"
 #include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
 
 /// A scan of the table.

@@ -14,6 +14,7 @@
 
 #include "common/command_line.hpp"
 #include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
 
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]

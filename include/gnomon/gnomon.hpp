@@ -2,7 +2,8 @@
 /// @file
 /// gnomon: range scans into meaning. The table of contents, floor by floor: each header sees its
 /// own floor and those above it in this list, except that io stands beside the tower and sees core
-/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>.
+/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>. The roof, all
+/// floors in one call, is included by name: <gnomon/perception.hpp>.
 #pragma once
 
 #include <gnomon/version.hpp>
@@ -15,7 +16,6 @@
 #include <gnomon/features.hpp>
 #include <gnomon/segmentation.hpp>
 #include <gnomon/occlusion.hpp>
-#include <gnomon/perception.hpp>
 
 #include <gnomon/io.hpp>
 // clang-format on

@@ -10448,165 +10448,6 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
 /// Which surfaces are one behind something: what was seen from where, the policies of merging, and
 /// the merging itself.
 
-// -------- gnomon/perception.hpp ------------------------------------------------------------------
-
-/// @file
-/// The whole way from a scan to its surfaces in one object: what is left out first, who a point's
-/// neighbors are, how a normal is estimated, what a smooth surface is and what becomes of surfaces
-/// torn by something in front. Each step is a policy of its own floor, and the result tells what
-/// each of them gave and how long it took (Klasing 2010, Fig. 4.2, Table 4.1).
-
-namespace gnomon {
-
-/// Stands for a merge policy where torn surfaces are to stay torn.
-struct unmerged {};
-
-/// What to leave out before all else: floor and ceiling, where there are any.
-struct floor_and_ceiling {
-    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
-    floor_search floor{};
-    ceiling_search ceiling{};
-    height_bands bands{};
-};
-
-/// How long the steps took [s].
-struct perception_seconds {
-    double preprocessing = 0.0;  ///< finding floor and ceiling
-    double normals = 0.0;        ///< and their repair and orientation
-    double segmentation = 0.0;
-    double merging = 0.0;   ///< and range images
-    double claiming = 0.0;  ///< of strays
-};
-
-/// What was perceived in n points.
-template <class Estimate>
-struct perceived {
-    std::optional<plane> floor;             ///< as it was found, if it was looked for
-    std::optional<double> ceiling;          ///< its height above the floor [m]
-    std::vector<point_index> kept;          ///< the points that were not left out, ascending
-    std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
-    segments fragments;                     ///< of the n points, before merging
-    segments surfaces;                      ///< after merging and claiming strays
-    std::vector<considered_gap> gaps;       ///< what merging looked into
-    perception_seconds seconds;
-};
-
-/// The chain, ready to be called on one scan after the other.
-///
-/// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
-/// `merge_policy`, or `unmerged{}`. Name these three, and the types follow; by members, name the
-/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}`.
-template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
-struct perception {
-    Neighborhood neighborhood{};
-    Estimator estimate{};
-    Merge merge{};
-    surface_segmentation segmentation{};
-    occlusion_merging merging{};
-    sight_options sights{};
-    std::optional<floor_and_ceiling> leave_out = std::nullopt;
-    /// Needles among the neighborhoods are widened (Eq. 3.19), where policy and estimator can.
-    anisotropy_repair repair{};
-    /// Points without a segment go to flat ones that they are of.
-    std::optional<stray_claiming> strays = stray_claiming{};
-
-    /// Perceives n points: any point range; their view points as everywhere.
-    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
-    ///                                view point of a point with a normal is not finite
-    /// Complexity: that of the steps; normals are the dearest.
-    template <class R, execution X = sequential, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
-        -> perceived<estimate_t<Estimator>> {
-        perceived<estimate_t<Estimator>> result;
-        const std::size_t n = position_view<R, Proj>(points, projection).size();
-        result.seconds.preprocessing = seconds_of([&] { keep(points, projection, n, result); });
-        const subset_view<R, Proj> kept(points, result.kept, projection);
-        std::vector<surfel<estimate_t<Estimator>>> surface;
-        result.seconds.normals = seconds_of([&] { surface = surface_of(kept, run); });
-        result.seconds.segmentation = seconds_of([&] {
-            const segments parts = segment_surfaces(kept, surface, segmentation, run);
-            result.fragments = segments(of_all(parts.labels(), result.kept, n));
-        });
-        result.surface.resize(n);
-        for (std::size_t i = 0; i < kept.size(); ++i) result.surface[result.kept[i]] = surface[i];
-        result.surfaces = result.fragments;
-        if constexpr (merge_policy<Merge>) {
-            result.seconds.merging = seconds_of([&] {
-                // What was left out hides and shows as much as the rest.
-                const lines_of_sight seen(points, sights, projection);
-                merged_segments merged =
-                    merge_occluded(points, result.fragments, seen, merge, merging, projection);
-                result.surfaces = std::move(merged.segments);
-                result.gaps = std::move(merged.gaps);
-            });
-        }
-        if (strays) {
-            result.seconds.claiming = seconds_of([&] {
-                std::vector<std::int32_t> labels(kept.size());
-                for (std::size_t i = 0; i < kept.size(); ++i)
-                    labels[i] = result.surfaces.labels()[result.kept[i]];
-                const segments claimed =
-                    claim_strays(kept, segments(std::move(labels)), *strays, run);
-                result.surfaces = segments(of_all(claimed.labels(), result.kept, n));
-            });
-        }
-        return result;
-    }
-
-  private:
-    /// Labels of n points from those of the kept ones.
-    static std::vector<std::int32_t> of_all(const std::vector<std::int32_t>& of_kept,
-                                            const std::vector<point_index>& kept, std::size_t n) {
-        std::vector<std::int32_t> labels(n, unlabeled);
-        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept[i];
-        return labels;
-    }
-
-    static double seconds_of(auto&& step) {
-        const auto start = std::chrono::steady_clock::now();
-        step();
-        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-    }
-
-    template <class R, class Proj>
-    void keep(const R& points, const Proj& projection, std::size_t n,
-              perceived<estimate_t<Estimator>>& result) const {
-        if (leave_out) {
-            const auto guess = guess_floor(points, leave_out->up, projection);
-            if (guess) result.floor = find_floor(points, *guess, leave_out->floor, projection);
-        }
-        if (result.floor) {
-            result.ceiling = find_ceiling(points, *result.floor, leave_out->ceiling, projection);
-            result.kept =
-                between_bands(points, *result.floor, result.ceiling, leave_out->bands, projection);
-        } else {
-            result.kept.resize(n);
-            std::iota(result.kept.begin(), result.kept.end(), point_index{0});
-        }
-    }
-
-    template <class Points, execution X>
-    auto surface_of(const Points& points, const X& run) const {
-        auto surface = estimate_normals(points, neighborhood, estimate, run);
-        if constexpr (requires {
-                          repair_anisotropic(points, surface, neighborhood, estimate, repair, run);
-                      })
-            repair_anisotropic(points, surface, neighborhood, estimate, repair, run);
-        orient_normals(points, surface);
-        return surface;
-    }
-};
-
-/// For clang, which does not deduce the parameters of an aggregate by itself.
-template <class Neighborhood, class Estimator, class Merge>
-perception(Neighborhood, Estimator, Merge, surface_segmentation = {}, occlusion_merging = {},
-           sight_options = {}, std::optional<floor_and_ceiling> = std::nullopt,
-           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{})
-    -> perception<Neighborhood, Estimator, Merge>;
-
-}  // namespace gnomon
-
 // -------- gnomon/io/detail/os_error.hpp ----------------------------------------------------------
 
 /// @file
@@ -12196,12 +12037,172 @@ void write_ply(const std::string& path, const R& points, const properties& colum
 /// @file
 /// gnomon: range scans into meaning. The table of contents, floor by floor: each header sees its
 /// own floor and those above it in this list, except that io stands beside the tower and sees core
-/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>.
+/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>. The roof, all
+/// floors in one call, is included by name: <gnomon/perception.hpp>.
 
 // The order is that of the floors.
 // clang-format off
 
 // clang-format on
+
+// -------- gnomon/perception.hpp ------------------------------------------------------------------
+
+/// @file
+/// The whole way from a scan to its surfaces in one object: what is left out first, who a point's
+/// neighbors are, how a normal is estimated, what a smooth surface is and what becomes of surfaces
+/// torn by something in front. Each step is a policy of its own floor, and the result tells what
+/// each of them gave and how long it took (Klasing 2010, Fig. 4.2, Table 4.1).
+
+namespace gnomon {
+
+/// Stands for a merge policy where torn surfaces are to stay torn.
+struct unmerged {};
+
+/// What to leave out before all else: floor and ceiling, where there are any.
+struct floor_and_ceiling {
+    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
+    floor_search floor{};
+    ceiling_search ceiling{};
+    height_bands bands{};
+};
+
+/// How long the steps took [s].
+struct perception_seconds {
+    double preprocessing = 0.0;  ///< finding floor and ceiling
+    double normals = 0.0;        ///< and their repair and orientation
+    double segmentation = 0.0;
+    double merging = 0.0;   ///< and range images
+    double claiming = 0.0;  ///< of strays
+};
+
+/// What was perceived in n points.
+template <class Estimate>
+struct perceived {
+    std::optional<plane> floor;             ///< as it was found, if it was looked for
+    std::optional<double> ceiling;          ///< its height above the floor [m]
+    std::vector<point_index> kept;          ///< the points that were not left out, ascending
+    std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
+    segments fragments;                     ///< of the n points, before merging
+    segments surfaces;                      ///< after merging and claiming strays
+    std::vector<considered_gap> gaps;       ///< what merging looked into
+    perception_seconds seconds;
+};
+
+/// The chain, ready to be called on one scan after the other.
+///
+/// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
+/// `merge_policy`, or `unmerged{}`. Name these three, and the types follow; by members, name the
+/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}`.
+template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
+struct perception {
+    Neighborhood neighborhood{};
+    Estimator estimate{};
+    Merge merge{};
+    surface_segmentation segmentation{};
+    occlusion_merging merging{};
+    sight_options sights{};
+    std::optional<floor_and_ceiling> leave_out = std::nullopt;
+    /// Needles among the neighborhoods are widened (Eq. 3.19), where policy and estimator can.
+    anisotropy_repair repair{};
+    /// Points without a segment go to flat ones that they are of.
+    std::optional<stray_claiming> strays = stray_claiming{};
+
+    /// Perceives n points: any point range; their view points as everywhere.
+    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
+    ///                                view point of a point with a normal is not finite
+    /// Complexity: that of the steps; normals are the dearest.
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
+        -> perceived<estimate_t<Estimator>> {
+        perceived<estimate_t<Estimator>> result;
+        const std::size_t n = position_view<R, Proj>(points, projection).size();
+        result.seconds.preprocessing = seconds_of([&] { keep(points, projection, n, result); });
+        const subset_view<R, Proj> kept(points, result.kept, projection);
+        std::vector<surfel<estimate_t<Estimator>>> surface;
+        result.seconds.normals = seconds_of([&] { surface = surface_of(kept, run); });
+        result.seconds.segmentation = seconds_of([&] {
+            const segments parts = segment_surfaces(kept, surface, segmentation, run);
+            result.fragments = segments(of_all(parts.labels(), result.kept, n));
+        });
+        result.surface.resize(n);
+        for (std::size_t i = 0; i < kept.size(); ++i) result.surface[result.kept[i]] = surface[i];
+        result.surfaces = result.fragments;
+        if constexpr (merge_policy<Merge>) {
+            result.seconds.merging = seconds_of([&] {
+                // What was left out hides and shows as much as the rest.
+                const lines_of_sight seen(points, sights, projection);
+                merged_segments merged =
+                    merge_occluded(points, result.fragments, seen, merge, merging, projection);
+                result.surfaces = std::move(merged.segments);
+                result.gaps = std::move(merged.gaps);
+            });
+        }
+        if (strays) {
+            result.seconds.claiming = seconds_of([&] {
+                std::vector<std::int32_t> labels(kept.size());
+                for (std::size_t i = 0; i < kept.size(); ++i)
+                    labels[i] = result.surfaces.labels()[result.kept[i]];
+                const segments claimed =
+                    claim_strays(kept, segments(std::move(labels)), *strays, run);
+                result.surfaces = segments(of_all(claimed.labels(), result.kept, n));
+            });
+        }
+        return result;
+    }
+
+  private:
+    /// Labels of n points from those of the kept ones.
+    static std::vector<std::int32_t> of_all(const std::vector<std::int32_t>& of_kept,
+                                            const std::vector<point_index>& kept, std::size_t n) {
+        std::vector<std::int32_t> labels(n, unlabeled);
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept[i];
+        return labels;
+    }
+
+    static double seconds_of(auto&& step) {
+        const auto start = std::chrono::steady_clock::now();
+        step();
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+
+    template <class R, class Proj>
+    void keep(const R& points, const Proj& projection, std::size_t n,
+              perceived<estimate_t<Estimator>>& result) const {
+        if (leave_out) {
+            const auto guess = guess_floor(points, leave_out->up, projection);
+            if (guess) result.floor = find_floor(points, *guess, leave_out->floor, projection);
+        }
+        if (result.floor) {
+            result.ceiling = find_ceiling(points, *result.floor, leave_out->ceiling, projection);
+            result.kept =
+                between_bands(points, *result.floor, result.ceiling, leave_out->bands, projection);
+        } else {
+            result.kept.resize(n);
+            std::iota(result.kept.begin(), result.kept.end(), point_index{0});
+        }
+    }
+
+    template <class Points, execution X>
+    auto surface_of(const Points& points, const X& run) const {
+        auto surface = estimate_normals(points, neighborhood, estimate, run);
+        if constexpr (requires {
+                          repair_anisotropic(points, surface, neighborhood, estimate, repair, run);
+                      })
+            repair_anisotropic(points, surface, neighborhood, estimate, repair, run);
+        orient_normals(points, surface);
+        return surface;
+    }
+};
+
+/// For clang, which does not deduce the parameters of an aggregate by itself.
+template <class Neighborhood, class Estimator, class Merge>
+perception(Neighborhood, Estimator, Merge, surface_segmentation = {}, occlusion_merging = {},
+           sight_options = {}, std::optional<floor_and_ceiling> = std::nullopt,
+           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{})
+    -> perception<Neighborhood, Estimator, Merge>;
+
+}  // namespace gnomon
 
 // -------- gnomon/simulation/beam.hpp -------------------------------------------------------------
 
