@@ -32,15 +32,15 @@ TEST(touched_vector, holds_n_default_values) {
 
 /// As standard libraries do that tell AddressSanitizer how much of its memory a vector uses.
 TEST(touched_vector, touches_memory_that_nobody_may_use_yet) {
-#if defined(__SANITIZE_ADDRESS__)
     std::vector<std::byte> memory(10'000, std::byte{1});
+#if defined(__SANITIZE_ADDRESS__)
     __asan_poison_memory_region(memory.data(), memory.size());
-    gnomon::detail::touch(memory.data(), memory.data() + memory.size());
-    __asan_unpoison_memory_region(memory.data(), memory.size());
-    EXPECT_EQ(std::count(memory.begin(), memory.end(), std::byte{}), 3);
-#else
-    GTEST_SKIP() << "needs AddressSanitizer";
 #endif
+    gnomon::detail::touch(memory.data(), memory.data() + memory.size());
+#if defined(__SANITIZE_ADDRESS__)
+    __asan_unpoison_memory_region(memory.data(), memory.size());
+#endif
+    EXPECT_EQ(std::count(memory.begin(), memory.end(), std::byte{}), 3);
 }
 
 }  // namespace
