@@ -2,25 +2,10 @@
 #include "measure.hpp"
 
 #include <algorithm>
-#include <ctime>
 #include <numeric>
-#include <stdexcept>
 #include <utility>
 
 #include <gnomon/gnomon.hpp>
-
-double seconds_of(const std::function<void()>& work) {
-    const std::clock_t begin = std::clock();
-    work();
-    return static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC;
-}
-
-quartiles quartiles_of(std::vector<double> values) {
-    if (values.empty()) throw std::invalid_argument("quartiles of nothing");
-    std::sort(values.begin(), values.end());
-    const std::size_t last = values.size() - 1;
-    return {values[last / 4], values[last / 2], values[last - last / 4]};
-}
 
 graph_condition knn_graph(std::size_t k) {
     return {"graph:knn/k:" + std::to_string(k),
@@ -175,14 +160,4 @@ void enter(const std::string& figure, const cloud_condition& cloud, const graph_
             ->Iterations(passes)
             ->Unit(benchmark::kMillisecond);
     }
-}
-
-void count_seeds(benchmark::State& state, const std::string& name,
-                 const std::vector<double>& of_seeds) {
-    double sum = 0.0;
-    for (std::size_t i = 0; i < of_seeds.size(); ++i) {
-        sum += of_seeds[i];
-        state.counters[name + "_" + std::to_string(i + 1)] = of_seeds[i];
-    }
-    state.counters[name] = sum / static_cast<double>(of_seeds.size());
 }

@@ -11,59 +11,16 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include <benchmark/benchmark.h>
 
 #include "clouds.hpp"
+#include "figure.hpp"
 #include "methods.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
-
-/// How much is measured.
-struct effort {
-    bool quick = false;
-
-    [[nodiscard]] std::uint64_t seeds() const { return quick ? 2 : 5; }
-    [[nodiscard]] int passes() const { return quick ? 2 : 15; }
-    /// All values of a parameter, or the few that must do.
-    template <class T>
-    [[nodiscard]] std::vector<T> of(std::vector<T> all, std::vector<T> few) const {
-        return quick ? few : all;
-    }
-};
-
-/// Each program says what it measures.
-void enter_benchmarks(const effort& much);
-
-/// Seconds of processor time that a call takes.
-double seconds_of(const std::function<void()>& work);
-
-struct quartiles {
-    double low, median, high;
-};
-/// @throws std::invalid_argument  if there are none
-quartiles quartiles_of(std::vector<double> values);
-
-/// The value made last, and for what.
-template <class T>
-class latest {
-  public:
-    const T& operator()(const std::string& name, const auto& make) {
-        if (!value_ || name_ != name) {
-            value_.reset();
-            value_.emplace(make());
-            name_ = name;
-        }
-        return *value_;
-    }
-
-  private:
-    std::string name_;
-    std::optional<T> value_;
-};
 
 /// A kind of cloud. Names are made of "key:value" parts.
 struct cloud_condition {
@@ -91,7 +48,3 @@ graph_condition delaunay_graph();
 /// @param passes  that are timed
 void enter(const std::string& figure, const cloud_condition& cloud, const graph_condition& graph,
            const std::vector<method>& how, int passes);
-
-/// A counter of a mean over seeds, and one of each seed: NAME, NAME_1, NAME_2, ...
-void count_seeds(benchmark::State& state, const std::string& name,
-                 const std::vector<double>& of_seeds);
