@@ -68,6 +68,27 @@ TEST(lines_of_sight, tell_what_was_seen_towards_a_place) {
 }
 
 /// Three sigma and what a surface may turn away within a pixel are no difference.
+/// Between two rays, where none is: what both tell, or what they have in common.
+TEST(lines_of_sight, tell_what_the_rays_about_a_place_tell) {
+    const auto place = [](double degrees, double range) -> Eigen::Vector3d {
+        const gnomon::angle azimuth = gnomon::degrees(degrees);
+        return range * Eigen::Vector3d(cos(azimuth), sin(azimuth), 0.0);
+    };
+    const auto between = [&](double right, double left) {
+        const clouds::cloud rays{place(-0.5, right), place(1.5, left)};
+        const gnomon::lines_of_sight sights(
+            rays, {.pixel = gnomon::degrees(1), .pole = Eigen::Vector3d::UnitZ()});
+        return sights.towards(place(0.5, 3.0));
+    };
+    EXPECT_EQ(between(1.5, 1.5), sighting::closer);
+    EXPECT_EQ(between(3.0, 3.0), sighting::level);
+    EXPECT_EQ(between(5.0, 5.0), sighting::farther);
+    EXPECT_EQ(between(1.5, 3.0), sighting::level) << "the edge of something before a surface";
+    EXPECT_EQ(between(3.0, 1.5), sighting::level);
+    EXPECT_EQ(between(1.5, 5.0), sighting::unseen);
+    EXPECT_EQ(between(5.0, 3.0), sighting::unseen);
+}
+
 TEST(lines_of_sight, leave_a_margin_for_noise) {
     gnomon::scene world;
     looks::add_wall(world, -2.0, 2.0);

@@ -191,6 +191,8 @@ class lines_of_sight {
         const sighting here = told_by(at);
         if (here != sighting::unseen) return here;
         // Rays are not spaced as evenly as pixels: what all pixels about it tell holds here, too.
+        // At an edge of what is in front of a surface some tell of that, and some of the surface:
+        // the place is not empty, nor certainly hidden.
         sighting about = sighting::unseen;
         for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
              e <= std::min(at.elevation + 1, image.height() - 1); ++e) {
@@ -198,8 +200,13 @@ class lines_of_sight {
                  a <= at.azimuth + image.width() + 1; ++a) {
                 const sighting s = told_by({a % image.width(), e});
                 if (s == sighting::unseen) continue;
-                if (about != sighting::unseen && s != about) return sighting::unseen;
-                about = s;
+                if (about == sighting::unseen || s == about) {
+                    about = s;
+                } else if (s == sighting::farther || about == sighting::farther) {
+                    return sighting::unseen;
+                } else {
+                    about = sighting::level;
+                }
             }
         }
         return about;

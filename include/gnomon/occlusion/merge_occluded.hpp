@@ -6,13 +6,14 @@
 /// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
 /// judges all pairs of segments as they are and merges those that are accepted, until none is. A
 /// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
-/// is (specification of it, A15 to A19). merge_occluded_literally is the algorithm to the letter.
+/// is (specification of it, A15 to A19); and whether two segments are in one plane is asked of
+/// their ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the
+/// letter.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -20,7 +21,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -29,10 +29,10 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
+#include <gnomon/occlusion/detail/seen_plane.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/lines_of_sight.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
-#include <gnomon/occlusion/segment_distances.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
@@ -67,13 +67,14 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against, and hardly
-/// any is seen through, be there ever so much in front of the others. Where the surface itself is
-/// seen, nothing speaks against it; a line without a place says what nothing says.
+/// Whether a policy accepts a line: more of its places speak for merging than against, and none is
+/// seen through, be there ever so much in front of the others; but for one of ten, which may be the
+/// edge of something. Where the surface itself is seen, nothing speaks against it; a line without a
+/// place says what nothing says.
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
     if (seen.total() == 0) return policy(sighting::unseen);
-    if (10 * seen[sighting::farther] > seen.total()) return false;
+    if (seen[sighting::farther] > 1 || 10 * seen[sighting::farther] > seen.total()) return false;
     std::size_t in_favor = 0, against = 0;
     for (const sighting s :
          {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
@@ -101,6 +102,7 @@ class occlusion_merger {
         for (std::size_t s = 0; s < parts.size(); ++s) {
             members_.emplace_back(parts[s].begin(), parts[s].end());
             frames_.push_back(frame_of(members_.back()));
+            planes_.push_back(plane_of(members_.back()));
             changed_.push_back(true);
         }
     }
@@ -137,50 +139,21 @@ class occlusion_merger {
         return principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
     }
 
+    [[nodiscard]] plane_sample plane_of(std::span<const point_index> members) const {
+        return plane_sample_of(points_, members, viewpoints_, options_.sigma);
+    }
+
     /// A segment no thicker than twice the noise is flat, whatever its variation.
     [[nodiscard]] bool is_flat(const principal_frame& a) const {
         return a.spectrum.surface_variation() <= options_.max_variation ||
-               a.spectrum.lambda[2] <= 4.0 * variance();
+               a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    /// Whether two segments lie in one plane, that of the wider one, as far as noise lets them
-    /// tell. The normal of one that is hardly wider than noise tells nothing; then its points do.
     [[nodiscard]] bool coplanar(std::size_t i, std::size_t j) const {
         const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
         const std::size_t wide = first ? i : j, slim = first ? j : i;
-        const principal_frame &a = frames_[wide], &b = frames_[slim];
-        const double offset =
-            std::abs(detail::dot(a.normal(), detail::difference(b.centroid, a.centroid)));
-        const double by_noise = offset_of_noise(slim, wide);
-        if (by_noise >= options_.max_offset || offset >= by_noise) return false;
-        if (angular_distance(a, b) <= options_.max_angle.radians()) return true;
-        const double wider_than_noise = 9.0 * variance();
-        return a.spectrum.lambda[1] > wider_than_noise &&
-               b.spectrum.lambda[1] <= wider_than_noise &&
-               variance_along(a.normal(), b) <= 2.25 * variance();
-    }
-
-    /// How far the centroid of one segment may be from the plane of another by noise [m]: 2.5
-    /// standard deviations of both, and a quarter of one of a point for what is no noise.
-    [[nodiscard]] double offset_of_noise(std::size_t of, std::size_t from) const {
-        const double distance2 = squared_distance(frames_[of].centroid, frames_[from].centroid);
-        const double leverage = distance2 / std::max(frames_[from].spectrum.lambda[1], variance());
-        const double of_centroid = 1.0 / static_cast<double>(members_[of].size());
-        const double of_plane = (1.0 + leverage) / static_cast<double>(members_[from].size());
-        return (2.5 * std::sqrt(of_centroid + of_plane) + 0.25) * options_.sigma;
-    }
-
-    [[nodiscard]] double variance() const { return options_.sigma * options_.sigma; }
-
-    /// Of the points of a segment [m^2].
-    [[nodiscard]] static double variance_along(const Eigen::Vector3d& direction,
-                                               const principal_frame& a) {
-        double sum = 0.0;
-        for (int i = 0; i < 3; ++i) {
-            const double c = detail::dot(direction, detail::column(a.axes, i));
-            sum += a.spectrum.lambda[i] * c * c;
-        }
-        return sum;
+        return in_one_plane(planes_[wide], planes_[slim], options_.sigma, options_.max_angle,
+                            options_.max_offset);
     }
 
     /// Whether the lines across a gap are accepted: most of them by the policy, or, where it is
@@ -215,16 +188,19 @@ class occlusion_merger {
             if (changed_[s]) {
                 std::sort(members_[s].begin(), members_[s].end());
                 frames_[s] = frame_of(members_[s]);
+                planes_[s] = plane_of(members_[s]);
             }
             if (kept != s) {
                 members_[kept] = std::move(members_[s]);
                 frames_[kept] = frames_[s];
+                planes_[kept] = planes_[s];
                 changed_[kept] = changed_[s];
             }
             ++kept;
         }
         members_.resize(kept);
         frames_.resize(kept);
+        planes_.resize(kept);
         changed_.resize(kept);
     }
 
@@ -237,6 +213,7 @@ class occlusion_merger {
     const occlusion_merging& options_;
     std::vector<std::vector<point_index>> members_;
     std::vector<principal_frame> frames_;
+    std::vector<plane_sample> planes_;
     std::vector<bool> changed_;  // since the round before
     std::vector<considered_gap> gaps_;
 };

@@ -1,0 +1,211 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What is true of the segments of a simulated scan: of which true surface each is a fragment, and
+/// which of them belong together because something before them has torn them apart.
+///
+/// A true surface is what no view can tell apart: all faces of one object that lie in one plane
+/// and look the same way, such as the slats of a back or the fronts of two legs; or a curved face.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <map>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
+
+/// Where the ray of a point met the scene, without noise [m].
+inline Eigen::Vector3d true_place(const gnomon::true_scan& truth, std::size_t i) {
+    return truth.scan.viewpoints[i] + truth.ranges[i] * truth.directions[i];
+}
+
+/// The true surfaces that a scan has seen.
+class true_surfaces {
+  public:
+    explicit true_surfaces(const gnomon::true_scan& truth) {
+        for (std::size_t i = 0; i < truth.scan.size(); ++i) {
+            if (truth.surfaces[i] == gnomon::nothing) continue;
+            const auto [known, is_new] = faces_.try_emplace(
+                truth.surfaces[i], face{truth.objects[i], truth.normals[i], true_place(truth, i)});
+            face& f = known->second;
+            f.flat = f.flat && f.normal.dot(truth.normals[i]) > parallel;
+        }
+        for (auto& [surface, f] : faces_) {
+            f.number = surface;
+            for (const auto& [other, g] : faces_) {
+                if (other == surface) break;
+                if (f.object != g.object || !(distance(f, g) < 0.005)) continue;
+                f.number = g.number;
+                break;
+            }
+        }
+    }
+
+    /// The true surface that a surface of the scene is of, or `nothing`.
+    [[nodiscard]] std::int32_t of(std::int32_t surface) const {
+        return surface == gnomon::nothing ? surface : faces_.at(surface).number;
+    }
+    [[nodiscard]] bool is_flat(std::int32_t number) const { return faces_.at(number).flat; }
+    [[nodiscard]] bool same_object(std::int32_t a, std::int32_t b) const {
+        return faces_.at(a).object == faces_.at(b).object;
+    }
+    /// Between the planes of two surfaces [m]; infinite if they are none, or not parallel.
+    [[nodiscard]] double distance(std::int32_t a, std::int32_t b) const {
+        return distance(faces_.at(a), faces_.at(b));
+    }
+
+  private:
+    static constexpr double parallel = 1.0 - 1e-5;  // the cosine of a quarter of a degree
+
+    struct face {
+        std::int32_t object;
+        Eigen::Vector3d normal, place;
+        bool flat = true;
+        std::int32_t number = gnomon::nothing;
+    };
+
+    static double distance(const face& f, const face& g) {
+        if (!f.flat || !g.flat || f.normal.dot(g.normal) <= parallel)
+            return std::numeric_limits<double>::infinity();
+        return std::abs(f.normal.dot(f.place - g.place));
+    }
+
+    std::map<std::int32_t, face> faces_;
+};
+
+/// Pairs of fragments that a merging has put together, or should have.
+struct merge_tally {
+    double wanted = 0.0;    ///< torn apart by something before them
+    double right = 0.0;     ///< merged, and wanted
+    double wrong = 0.0;     ///< merged, and of two surfaces
+    double coplanar = 0.0;  ///< of these, of two objects in one plane
+    double in_noise = 0.0;  ///< of these, of planes less than 15 mm apart, and not that
+
+    merge_tally& operator+=(const merge_tally& t) {
+        wanted += t.wanted;
+        right += t.right;
+        wrong += t.wrong;
+        coplanar += t.coplanar;
+        in_noise += t.in_noise;
+        return *this;
+    }
+    [[nodiscard]] double precision() const {
+        return right + wrong > 0.0 ? right / (right + wrong) : 1.0;
+    }
+    [[nodiscard]] double recall() const { return wanted > 0.0 ? right / wanted : 1.0; }
+};
+
+/// The segments of a scan. Of a segment of which more than a fifth is of other surfaces nothing is
+/// true, and nothing counted.
+class fragments {
+  public:
+    /// @param caster  of the scene; needed only here
+    /// @param parts   segments of the scan; refers to it
+    fragments(const gnomon::bvh_caster& caster, const gnomon::true_scan& truth,
+              const gnomon::segments& parts)
+        : surfaces_(truth), parts_(parts) {
+        std::vector<Eigen::Vector3d> places;
+        for (std::size_t i = 0; i < truth.scan.size(); ++i)
+            places.push_back(true_place(truth, i));
+        std::vector<Eigen::Vector3d> centroids;
+        for (std::size_t s = 0; s < parts.size(); ++s) {
+            std::map<std::int32_t, std::size_t> count;
+            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+            for (const auto i : parts[s]) {
+                ++count[surfaces_.of(truth.surfaces[i])];
+                sum += places[i];
+            }
+            const auto most =
+                std::max_element(count.begin(), count.end(),
+                                 [](const auto& a, const auto& b) { return a.second < b.second; });
+            const bool is_mixed = 5 * most->second <= 4 * parts[s].size();
+            surface_.push_back(is_mixed ? gnomon::nothing : most->first);
+            centroids.push_back(sum / static_cast<double>(parts[s].size()));
+        }
+        gnomon::union_find together(parts.size());
+        for (std::size_t i = 0; i < parts.size(); ++i) {
+            for (std::size_t j = i + 1; j < parts.size(); ++j) {
+                if (!of_one_plane(i, j)) continue;
+                const auto lines =
+                    gnomon::boundary_pairs(places, parts[i], parts[j], {centroids[i], centroids[j]});
+                if (is_shadow_between(lines, places, truth.scan.viewpoints, caster))
+                    together.unite(static_cast<gnomon::point_index>(i),
+                                   static_cast<gnomon::point_index>(j));
+            }
+        }
+        for (std::size_t i = 0; i < parts.size(); ++i)
+            whole_.push_back(together.find(static_cast<gnomon::point_index>(i)));
+    }
+
+    /// The true surface of a fragment, or `nothing`.
+    [[nodiscard]] std::int32_t surface(std::size_t fragment) const { return surface_[fragment]; }
+
+    /// What a merging has done: pairs count as one, or as the points of both. Of fragments of one
+    /// surface that nothing has torn apart, it is right to merge them and right not to.
+    [[nodiscard]] merge_tally tally(const gnomon::segments& merged, bool by_points) const {
+        merge_tally t;
+        for (std::size_t i = 0; i < parts_.size(); ++i) {
+            for (std::size_t j = i + 1; j < parts_.size(); ++j) {
+                const std::int32_t a = surface_[i], b = surface_[j];
+                if (a == gnomon::nothing || b == gnomon::nothing) continue;
+                const double weight =
+                    by_points ? static_cast<double>(parts_[i].size() + parts_[j].size()) : 1.0;
+                const bool is_merged =
+                    merged.labels()[parts_[i].front()] == merged.labels()[parts_[j].front()];
+                if (whole_[i] == whole_[j]) {
+                    t.wanted += weight;
+                    if (is_merged) t.right += weight;
+                } else if (is_merged && a != b) {
+                    t.wrong += weight;
+                    const double apart = surfaces_.distance(a, b);
+                    if (apart < 0.005 && !surfaces_.same_object(a, b))
+                        t.coplanar += weight;
+                    else if (apart < 0.015)
+                        t.in_noise += weight;
+                }
+            }
+        }
+        return t;
+    }
+
+  private:
+    [[nodiscard]] bool of_one_plane(std::size_t i, std::size_t j) const {
+        return surface_[i] == surface_[j] && surface_[i] != gnomon::nothing &&
+               surfaces_.is_flat(surface_[i]);
+    }
+
+    /// Whether rays to most places of most lines across a gap meet something before them.
+    static bool is_shadow_between(const std::vector<gnomon::boundary_pair>& lines,
+                                  const std::vector<Eigen::Vector3d>& places,
+                                  const auto& viewpoints, const gnomon::bvh_caster& caster) {
+        constexpr int steps = 39;
+        const auto is_hidden = [&](const gnomon::boundary_pair& line) {
+            const Eigen::Vector3d p = places[line.first], q = places[line.second];
+            const Eigen::Vector3d from = 0.5 * (viewpoints[line.first] + viewpoints[line.second]);
+            int hidden = 0;
+            for (int s = 1; s <= steps; ++s) {
+                const Eigen::Vector3d way = p + (q - p) * s / (steps + 1.0) - from;
+                const double range = way.norm();
+                const auto hit = caster(gnomon::ray{from, way / range});
+                hidden += hit && hit->range < range - 0.03 ? 1 : 0;
+            }
+            return 2 * hidden > steps;
+        };
+        return 2 * std::count_if(lines.begin(), lines.end(), is_hidden) >
+               static_cast<std::ptrdiff_t>(lines.size());
+    }
+
+    true_surfaces surfaces_;
+    const gnomon::segments& parts_;
+    // Of the fragments: their true surface, and the whole that a chain of shadows has torn apart.
+    std::vector<std::int32_t> surface_;
+    std::vector<gnomon::point_index> whole_;
+};

@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: BSL-1.0
+// Alg. 4.3 in random furnished rooms: how many of the surfaces that something before them has torn
+// apart are mended, and what else is merged, by policy and by the way the sensor moves. To the
+// letter the algorithm looks at one image with an upright pole, as the thesis does; of a sensor that
+// moves, at one for each view point.
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "fragments.hpp"
+#include "rooms.hpp"
+
+namespace {
+
+constexpr std::array policies{"none", "conservative", "liberal", "conservative, to the letter",
+                              "liberal, to the letter"};
+constexpr std::array trajectories{"horizontal", "vertical", "rotational", "moving"};
+
+/// @param trajectory  moving is horizontal on an arm of 15 cm that turns, so that each scan line
+///                    has a view point of its own
+gnomon::true_scan scan_of(const gnomon::scene& world, const gnomon::bvh_caster& caster,
+                          const std::string& trajectory, std::uint64_t seed) {
+    const gnomon::pose mount = world.sensor;
+    const auto along = [&](const auto& way) {
+        return gnomon::simulate(world, caster, way, {}, {.sigma = 0.015, .seed = seed});
+    };
+    if (trajectory == "horizontal") return along(gnomon::horizontal{.mount = mount});
+    if (trajectory == "vertical") return along(gnomon::vertical{.mount = mount});
+    if (trajectory == "rotational") return along(gnomon::rotational{.mount = mount});
+    return along(gnomon::along(4.0, [&](double seconds) {
+        return mount * gnomon::yaw(gnomon::degrees(180.0 * (seconds / 4.0 - 0.5))) *
+               gnomon::at(0.15, 0.0, 0.0) * gnomon::roll(gnomon::degrees(90));
+    }));
+}
+
+/// How all policies do in one scan, or in many.
+struct outcome {
+    struct of_policy {
+        merge_tally pairs, by_points;
+    };
+    std::array<of_policy, policies.size()> tallies{};
+    std::size_t fragments = 0, mixed = 0;
+
+    outcome& operator+=(const outcome& o) {
+        for (std::size_t p = 0; p < policies.size(); ++p) {
+            tallies[p].pairs += o.tallies[p].pairs;
+            tallies[p].by_points += o.tallies[p].by_points;
+        }
+        fragments += o.fragments;
+        mixed += o.mixed;
+        return *this;
+    }
+};
+
+outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uint64_t seed) {
+    const gnomon::scene world = gnomon::scenes::furnished_room(
+        {.pieces = static_cast<int>(4 + 2 * (number % 5)), .seed = number});
+    const gnomon::bvh_caster caster(world);
+    const gnomon::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::unmerged> chain{
+        .leave_out = gnomon::floor_and_ceiling{}, .strays = std::nullopt};
+    const gnomon::segments parts = chain(truth.scan).fragments;
+    const fragments known(caster, truth, parts);
+
+    outcome result;
+    result.fragments = parts.size();
+    for (std::size_t s = 0; s < parts.size(); ++s)
+        result.mixed += known.surface(s) == gnomon::nothing ? 1 : 0;
+    const gnomon::lines_of_sight sights(truth.scan);
+    const gnomon::lines_of_sight upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
+    const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
+        result.tallies[policy] = {known.tally(merged, false), known.tally(merged, true)};
+    };
+    const auto mend = [&](const auto& policy) {
+        return gnomon::merge_occluded(truth.scan, parts, sights, policy).segments;
+    };
+    const auto mend_literally = [&](const auto& policy) {
+        return gnomon::merge_occluded_literally(truth.scan, parts, upright, policy);
+    };
+    tally(0, parts);
+    tally(1, mend(gnomon::conservative{}));
+    tally(2, mend(gnomon::liberal{}));
+    tally(3, mend_literally(gnomon::conservative{}));
+    tally(4, mend_literally(gnomon::liberal{}));
+    return result;
+}
+
+/// In rooms 1 to `rooms`; on all cores, as nothing is timed.
+outcome outcome_of(std::uint64_t rooms, const std::string& trajectory, std::uint64_t seed) {
+    std::vector<outcome> of_room(rooms);
+    std::atomic<std::uint64_t> next{0};
+    const auto work = [&] {
+        for (std::uint64_t r = next++; r < rooms; r = next++)
+            of_room[r] = outcome_in(r + 1, trajectory, seed);
+    };
+    {
+        std::vector<std::jthread> others(std::max(1U, std::thread::hardware_concurrency()) - 1);
+        for (std::jthread& t : others) t = std::jthread(work);
+        work();
+    }
+    outcome total;
+    for (const outcome& o : of_room) total += o;
+    return total;
+}
+
+json measure(const effort& much) {
+    const std::uint64_t rooms = much.quick ? 4 : 100;
+    json scores = json::array(), scans = json::array(), errors = json::array();
+    for (const std::string trajectory : trajectories) {
+        std::printf("merge_policies, %s\n", trajectory.c_str());
+        std::fflush(stdout);
+        std::vector<outcome> seeds;
+        for (unsigned seed = 1; seed <= much.seeds(); ++seed)
+            seeds.push_back(outcome_of(rooms, trajectory, seed));
+        const auto mean = [&](const auto& value_of) {
+            double sum = 0.0;
+            for (const outcome& o : seeds) sum += static_cast<double>(value_of(o));
+            return sum / static_cast<double>(seeds.size());
+        };
+        const auto least = [&](const auto& value_of) {
+            double value = value_of(seeds.front());
+            for (const outcome& o : seeds) value = std::min(value, value_of(o));
+            return rounded(value, 3);
+        };
+        for (std::size_t p = 0; p < policies.size(); ++p) {
+            const auto precision = [p](const outcome& o) { return o.tallies[p].pairs.precision(); };
+            const auto recall = [p](const outcome& o) { return o.tallies[p].pairs.recall(); };
+            const auto precision_by_points = [p](const outcome& o) {
+                return o.tallies[p].by_points.precision();
+            };
+            const auto recall_by_points = [p](const outcome& o) {
+                return o.tallies[p].by_points.recall();
+            };
+            const auto pairs = [&](double merge_tally::* count) {
+                return rounded(mean([=](const outcome& o) { return o.tallies[p].pairs.*count; }), 1);
+            };
+            scores.push_back({{"trajectory", trajectory},
+                              {"policy", policies[p]},
+                              {"precision", rounded(mean(precision), 3)},
+                              {"least precision", least(precision)},
+                              {"recall", rounded(mean(recall), 3)},
+                              {"least recall", least(recall)},
+                              {"precision by points", rounded(mean(precision_by_points), 3)},
+                              {"recall by points", rounded(mean(recall_by_points), 3)}});
+            errors.push_back({{"trajectory", trajectory},
+                              {"policy", policies[p]},
+                              {"pairs torn apart", pairs(&merge_tally::wanted)},
+                              {"mended", pairs(&merge_tally::right)},
+                              {"wrongly merged", pairs(&merge_tally::wrong)},
+                              {"of two objects in one plane", pairs(&merge_tally::coplanar)},
+                              {"of planes less than 15 mm apart", pairs(&merge_tally::in_noise)}});
+        }
+        scans.push_back(
+            {{"trajectory", trajectory},
+             {"scans", rooms * seeds.size()},
+             {"fragments of a scan",
+              rounded(mean([](const outcome& o) { return o.fragments; }) / double(rooms), 1)},
+             {"of them of no one surface [%]",
+              rounded(100.0 * mean([](const outcome& o) { return o.mixed; }) /
+                          mean([](const outcome& o) { return o.fragments; }),
+                      1)}});
+    }
+    return {{"precision and recall", scores}, {"pairs, per seed", errors}, {"scans", scans}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_program(argc, argv, measure); }

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The plane of a segment, as ranges tell of it, and whether two segments have the same. Noise lies
+/// along the rays, not across the surface: so planes are found by regression of the depth along a
+/// ray on the place across it, and compared as two regressions are (Chow 1960). Of what is narrower
+/// than noise, or seen at a grazing angle, the direction of least spread is that of nothing; the
+/// regression still knows how little it knows.
+///
+/// The rays to one segment count as parallel: those of a segment too wide for that tell so much
+/// that it does not matter.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/moments.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/viewpoints.hpp>
+
+namespace gnomon::detail {
+
+/// A direction of sight and two axes across it, all of unit length.
+struct sight_axes {
+    Eigen::Vector3d along, x, y;
+
+    /// Towards d, of any length but zero.
+    explicit sight_axes(const Eigen::Vector3d& d)
+        : along(direction_of(d)), x(orthogonal(along)), y(cross(along, x)) {}
+};
+
+/// Two coordinates across a sight.
+using place_across = std::array<double, 2>;
+
+/// A symmetric matrix over them.
+struct matrix_across {
+    double xx, xy, yy;
+
+    [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
+    /// The inverse, times v.
+    [[nodiscard]] place_across solved(const place_across& v) const {
+        return {(yy * v[0] - xy * v[1]) / determinant(), (xx * v[1] - xy * v[0]) / determinant()};
+    }
+    [[nodiscard]] place_across operator*(const place_across& v) const {
+        return {xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]};
+    }
+    [[nodiscard]] double largest_eigenvalue() const {
+        return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
+    }
+    [[nodiscard]] matrix_across inverse() const {
+        return {yy / determinant(), -xy / determinant(), xx / determinant()};
+    }
+    friend matrix_across operator+(const matrix_across& a, const matrix_across& b) {
+        return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
+    }
+    friend matrix_across operator*(double s, const matrix_across& a) {
+        return {s * a.xx, s * a.xy, s * a.yy};
+    }
+};
+
+[[nodiscard]] inline double dot(const place_across& a, const place_across& b) {
+    return a[0] * b[0] + a[1] * b[1];
+}
+
+/// Points of one plane.
+struct plane_sample {
+    std::size_t count = 0;
+    Eigen::Vector3d mean{0.0, 0.0, 0.0};                   ///< [m]
+    Eigen::Matrix3d covariance = diagonal(0.0, 0.0, 0.0);  ///< [m^2]
+    Eigen::Vector3d viewpoint{0.0, 0.0, 0.0};              ///< the mean of theirs [m]
+};
+
+/// The sight of a sample; of one about its own view point, that across its plane.
+[[nodiscard]] inline sight_axes axes_towards(const plane_sample& sample) {
+    const Eigen::Vector3d d = difference(sample.mean, sample.viewpoint);
+    const double size = length(d);
+    return sight_axes(size > 0.0 && std::isfinite(size)
+                          ? d
+                          : column(symmetric_eigen(sample.covariance).vectors, 2));
+}
+
+/// depth = slope . place + constant, through the mean of a sample.
+struct depth_regression {
+    place_across slope;
+    matrix_across spread;  ///< covariance of the places [m^2]
+
+    depth_regression(const plane_sample& sample, const sight_axes& axes) {
+        const Eigen::Vector3d x = product(sample.covariance, axes.x);
+        const Eigen::Vector3d y = product(sample.covariance, axes.y);
+        // No place is known better than this: that of a single ray, or row of rays, neither.
+        constexpr double exact = 1e-9;  // [m^2]
+        spread = {dot(axes.x, x) + exact, dot(axes.x, y), dot(axes.y, y) + exact};
+        slope = spread.solved({dot(axes.along, x), dot(axes.along, y)});
+    }
+
+    /// Times a way from the mean, how much deeper than the plane that ends. Not of unit length.
+    [[nodiscard]] Eigen::Vector3d normal(const sight_axes& axes) const {
+        return combined(1.0, axes.along, -slope[0], axes.x, -slope[1], axes.y);
+    }
+};
+
+/// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
+/// at the edges: what is off the plane by more than 2.5 standard deviations of a range is left out,
+/// unless that is most. Of none if no point is finite.
+/// @param points   a position_view of the cloud
+/// @param members  indices of the points of the segment
+/// Complexity: O(n).
+[[nodiscard]] plane_sample plane_sample_of(const auto& points, std::span<const point_index> members,
+                                           const viewpoint_table& viewpoints, double sigma) {
+    plane_sample sample;
+    moments seen_from;
+    for (const point_index i : members) seen_from.add(viewpoints[i]);
+    sample.viewpoint = scaled(1.0 / static_cast<double>(members.size()), seen_from.sum);
+    const auto first = std::find_if(members.begin(), members.end(),
+                                    [&](point_index i) { return is_finite(points[i]); });
+    if (first == members.end()) return sample;
+    const Eigen::Vector3d origin = points[*first];
+    const auto take = [&](auto&& belongs) {
+        moments m;
+        for (const point_index i : members) {
+            const Eigen::Vector3d d = difference(points[i], origin);
+            if (all_finite(d) && belongs(d)) m.add(d);
+        }
+        if (2 * m.count < sample.count) return;
+        sample.count = m.count;
+        sample.mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
+        sample.covariance = m.covariance_of_neighbors();
+    };
+    take([](const Eigen::Vector3d&) { return true; });
+    for (int pass = 0; pass < 4; ++pass) {
+        const sight_axes axes = axes_towards(sample);
+        const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
+        const Eigen::Vector3d middle = difference(sample.mean, origin);
+        take([&](const Eigen::Vector3d& d) {
+            return std::abs(dot(off, difference(d, middle))) <= 2.5 * sigma;
+        });
+    }
+    return sample;
+}
+
+/// Whether two samples are of one plane, as far as noise lets them tell.
+///
+/// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and of
+/// what is no noise, such as round edges, a tenth of a standard deviation more; an angle that is
+/// well known may be up to max_angle. Nothing is told if noise would hide an offset of max_offset
+/// more often than one time in six.
+/// @param wide  that of the wider segment
+[[nodiscard]] inline bool in_one_plane(const plane_sample& wide, const plane_sample& slim,
+                                       double sigma, angle max_angle, double max_offset) {
+    constexpr double deviations = 3.0;               // 99.7 % of a normal distribution
+    constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
+    constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
+    constexpr double no_noise = 0.1;                 // in standard deviations
+    if (wide.count == 0 || slim.count == 0) return false;
+    // The slim one depends more on how the rays go.
+    const sight_axes axes = axes_towards(slim);
+    const depth_regression a(wide, axes), b(slim, axes);
+    const double m = static_cast<double>(wide.count), n = static_cast<double>(slim.count);
+    const double variance = sigma * sigma;
+    const matrix_across known_a = (m / variance) * a.spread, known_b = (n / variance) * b.spread;
+
+    const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
+    const matrix_across by_noise = (1.0 + no_noise * no_noise * m) * known_a.inverse() +
+                                   (1.0 + no_noise * no_noise * n) * known_b.inverse();
+    const bool parallel = dot(turn, by_noise.solved(turn)) <= square_of_two;
+    if (!parallel) {
+        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
+        const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
+        const double doubt = deviations * std::sqrt(by_noise.largest_eigenvalue());
+        if (!(turned <= max_angle.radians() && std::atan(doubt) <= max_angle.radians()))
+            return false;
+    }
+
+    // The slope of parallel planes is that of both, as each knows it; else the wide one knows more.
+    const matrix_across known = parallel ? known_a + known_b : known_a;
+    const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
+    const place_across slope =
+        parallel ? known.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
+    const Eigen::Vector3d between = difference(slim.mean, wide.mean);
+    const place_across way{dot(axes.x, between), dot(axes.y, between)};
+    const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // from depths to distances
+    const double offset = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
+    const double deviation =
+        cosine * std::sqrt(variance / m + variance / n + dot(way, known.solved(way)));
+    return not_hidden * deviation + no_noise * sigma < max_offset &&
+           offset <= deviations * deviation + no_noise * sigma;
+}
+
+}  // namespace gnomon::detail

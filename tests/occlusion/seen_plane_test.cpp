@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <numeric>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/occlusion/detail/seen_plane.hpp>
+
+namespace {
+
+using gnomon::detail::plane_sample;
+
+constexpr double sigma = 0.015;
+
+/// A rectangle that rays from the origin meet, with noise along them.
+struct seen_rectangle {
+    Eigen::Vector3d center, side, other_side;
+    int rays = 10;         ///< in each direction
+    double noise = sigma;  ///< standard deviation of ranges [m]
+
+    [[nodiscard]] clouds::cloud points(std::uint64_t seed) const {
+        gnomon::random_stream random(seed);
+        clouds::cloud result;
+        for (int i = 0; i < rays; ++i) {
+            for (int j = 0; j < rays; ++j) {
+                const double a = (i + 0.5) / rays - 0.5, b = (j + 0.5) / rays - 0.5;
+                const Eigen::Vector3d p = center + a * side + b * other_side;
+                result.push_back(p * (1.0 + noise * random.gaussian() / p.norm()));
+            }
+        }
+        return result;
+    }
+};
+
+plane_sample sample_of(const clouds::cloud& points) {
+    std::vector<gnomon::point_index> all(points.size());
+    std::iota(all.begin(), all.end(), gnomon::point_index{0});
+    return gnomon::detail::plane_sample_of(points, all, {}, sigma);
+}
+
+/// How many of 100 scans of two rectangles show them in one plane.
+int found_in_one_plane(const seen_rectangle& wide, const seen_rectangle& slim) {
+    int found = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const auto a = sample_of(wide.points(2 * seed)), b = sample_of(slim.points(2 * seed + 1));
+        found += gnomon::detail::in_one_plane(a, b, sigma, gnomon::degrees(15), 0.05) ? 1 : 0;
+    }
+    return found;
+}
+
+/// A seat 1.5 m away and 80 cm below the eye, and what may be part of it or not.
+const seen_rectangle seat{{1.5, 0.0, -0.8}, {0.4, 0, 0}, {0, 0.4, 0}};
+
+TEST(in_one_plane, knows_another_part_of_a_surface) {
+    EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.6, -0.8}, {0.4, 0, 0}, {0, 0.3, 0}}), 97);
+    // No wider than noise.
+    EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}), 97);
+}
+
+TEST(in_one_plane, tells_an_offset_from_noise) {
+    EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.83}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
+    EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.77}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
+}
+
+/// The front of a seat, no higher than noise: the direction of its least spread is that of nothing.
+TEST(in_one_plane, tells_an_edge_from_the_surface_it_bounds) {
+    const seen_rectangle front{{1.3, 0.0, -0.82}, {0, 0.4, 0}, {0, 0, 0.04}};
+    EXPECT_LE(found_in_one_plane(seat, front), 3);
+}
+
+TEST(in_one_plane, takes_an_angle_up_to_the_largest) {
+    const auto wall = [](double degrees) {
+        const gnomon::angle turned = gnomon::degrees(degrees);
+        return seen_rectangle{
+            {3.0, 0.5, 0.0}, {-0.4 * sin(turned), 0.4 * cos(turned), 0}, {0, 0, 0.4}, 30};
+    };
+    const seen_rectangle wide{{3.0, -0.5, 0.0}, {0, 1.0, 0}, {0, 0, 1.0}, 50};
+    EXPECT_GE(found_in_one_plane(wide, wall(0.0)), 97);
+    EXPECT_GE(found_in_one_plane(wide, wall(10.0)), 97);
+    EXPECT_EQ(found_in_one_plane(wide, wall(20.0)), 0);
+}
+
+/// Where noise would hide an offset, nothing is told.
+TEST(in_one_plane, does_not_reach_farther_than_it_knows) {
+    const seen_rectangle tile{{3.0, 0.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6};
+    EXPECT_GE(found_in_one_plane(tile, {{3.0, 0.12, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 97);
+    EXPECT_EQ(found_in_one_plane(tile, {{3.0, 1.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 0);
+}
+
+TEST(in_one_plane, of_no_points_is_nothing) {
+    const plane_sample none = sample_of({}), some = sample_of(seat.points(1));
+    EXPECT_EQ(none.count, 0u);
+    EXPECT_FALSE(gnomon::detail::in_one_plane(some, none, sigma, gnomon::degrees(15), 0.05));
+    EXPECT_FALSE(gnomon::detail::in_one_plane(none, some, sigma, gnomon::degrees(15), 0.05));
+    EXPECT_EQ(sample_of({{clouds::nan, 0, 0}}).count, 0u);
+}
+
+/// At the far edge something stands up from the surface: its points do not count.
+TEST(plane_sample, leaves_out_what_adjoins) {
+    auto points = seat.points(1);
+    const auto clean = sample_of(points);
+    for (int i = 0; i < 10; ++i) points.push_back({1.7, 0.04 * (i - 4.5), -0.7});
+    const auto all = sample_of(points);
+    EXPECT_EQ(all.count, clean.count);
+    EXPECT_NEAR((all.mean - clean.mean).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((all.covariance - clean.covariance).norm(), 0.0, 1e-12);
+}
+
+}  // namespace
