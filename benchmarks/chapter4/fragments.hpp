@@ -113,8 +113,7 @@ class fragments {
               const gnomon::segments& parts)
         : surfaces_(truth), parts_(parts) {
         std::vector<Eigen::Vector3d> places;
-        for (std::size_t i = 0; i < truth.scan.size(); ++i)
-            places.push_back(true_place(truth, i));
+        for (std::size_t i = 0; i < truth.scan.size(); ++i) places.push_back(true_place(truth, i));
         std::vector<Eigen::Vector3d> centroids;
         for (std::size_t s = 0; s < parts.size(); ++s) {
             std::map<std::int32_t, std::size_t> count;
@@ -134,8 +133,8 @@ class fragments {
         for (std::size_t i = 0; i < parts.size(); ++i) {
             for (std::size_t j = i + 1; j < parts.size(); ++j) {
                 if (!of_one_plane(i, j)) continue;
-                const auto lines =
-                    gnomon::boundary_pairs(places, parts[i], parts[j], {centroids[i], centroids[j]});
+                const auto lines = gnomon::boundary_pairs(places, parts[i], parts[j],
+                                                          {centroids[i], centroids[j]});
                 if (is_shadow_between(lines, places, truth.scan.viewpoints, caster))
                     together.unite(static_cast<gnomon::point_index>(i),
                                    static_cast<gnomon::point_index>(j));
@@ -147,6 +146,9 @@ class fragments {
 
     /// The true surface of a fragment, or `nothing`.
     [[nodiscard]] std::int32_t surface(std::size_t fragment) const { return surface_[fragment]; }
+
+    /// Whether two fragments are one surface that something before it has torn apart.
+    [[nodiscard]] bool wanted(std::size_t a, std::size_t b) const { return whole_[a] == whole_[b]; }
 
     /// What a merging has done: pairs count as one, or as the points of both. Of fragments of one
     /// surface that nothing has torn apart, it is right to merge them and right not to.
@@ -160,7 +162,7 @@ class fragments {
                     by_points ? static_cast<double>(parts_[i].size() + parts_[j].size()) : 1.0;
                 const bool is_merged =
                     merged.labels()[parts_[i].front()] == merged.labels()[parts_[j].front()];
-                if (whole_[i] == whole_[j]) {
+                if (wanted(i, j)) {
                     t.wanted += weight;
                     if (is_merged) t.right += weight;
                 } else if (is_merged && a != b) {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Alg. 4.3 in random furnished rooms: how many of the surfaces that something before them has torn
 // apart are mended, and what else is merged, by policy and by the way the sensor moves. To the
-// letter the algorithm looks at one image with an upright pole, as the thesis does; of a sensor that
-// moves, at one for each view point.
+// letter the algorithm looks at one image with an upright pole, as the thesis does; of a sensor
+// that moves, at one for each view point.
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -136,8 +136,9 @@ json measure(const effort& much) {
             const auto recall_by_points = [p](const outcome& o) {
                 return o.tallies[p].by_points.recall();
             };
-            const auto pairs = [&](double merge_tally::* count) {
-                return rounded(mean([=](const outcome& o) { return o.tallies[p].pairs.*count; }), 1);
+            const auto pairs = [&](double merge_tally::*count) {
+                return rounded(mean([=](const outcome& o) { return o.tallies[p].pairs.*count; }),
+                               1);
             };
             scores.push_back({{"trajectory", trajectory},
                               {"policy", policies[p]},

@@ -5,7 +5,9 @@
 
 #include <gnomon/segmentation/claim_strays.hpp>
 #include <gnomon/segmentation/oriented_point_segmentation.hpp>
+#include <gnomon/segmentation/plane_segmentation.hpp>
 #include <gnomon/segmentation/point_segmentation.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
+#include <gnomon/segmentation/segment_extension.hpp>
 #include <gnomon/segmentation/segments.hpp>
 #include <gnomon/segmentation/surface_segmentation.hpp>

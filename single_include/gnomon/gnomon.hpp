@@ -32,6 +32,7 @@
 #include <string_view>
 #include <system_error>
 #include <thread>
+#include <tuple>
 #include <type_traits>
 #include <utility>
 #include <variant>
@@ -811,17 +812,36 @@ concept has_viewpoints = requires(const R& r) {
     { r.viewpoints } -> std::convertible_to<const viewpoint_table&>;
 };
 
+namespace detail {
+
+/// f(table), where the table is that of a range, not a copy of it; the empty one (the origin) for a
+/// range that knows none.
+template <indexed_range R>
+[[nodiscard]] auto with_table_of(const R& points, auto&& f) {
+    if constexpr (has_viewpoints<R>) {
+        const viewpoint_table& table = points.viewpoints;
+        require(table.covers(std::ranges::size(points)),
+                "the view points are for another number of points");
+        return f(table);
+    } else {
+        return f(viewpoint_table());
+    }
+}
+
+}  // namespace detail
+
 /// The view points of a range; the empty table (the origin) for a range that knows none.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
 template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
-    if constexpr (has_viewpoints<R>) {
-        detail::require(points.viewpoints.covers(std::ranges::size(points)),
-                        "the view points are for another number of points");
-        return points.viewpoints;
-    } else {
-        return {};
-    }
+    return detail::with_table_of(points, [](const viewpoint_table& table) { return table; });
+}
+
+/// Those of some of its points; see `viewpoint_table::subset`.
+template <indexed_range R>
+[[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
+    return detail::with_table_of(
+        points, [indices](const viewpoint_table& table) { return table.subset(indices); });
 }
 
 /// A bare range of points with view points beside it; refers to the range.
@@ -1249,7 +1269,7 @@ class subset_view {
         : points_(points, std::move(projection)), indices_(indices) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index of no point");
-        viewpoints = viewpoints_of(points).subset(indices);
+        viewpoints = viewpoints_of(points, indices);
     }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
@@ -8470,36 +8490,51 @@ struct stray_claiming {
 
 namespace detail {
 
-/// One run over a cloud.
+/// One run over a cloud. The strays are numbered cube by cube of sigma, and judged so: thousands at
+/// one place cost hardly more than a few.
 template <class Points>
 class stray_claimer {
   public:
-    stray_claimer(const Points& points, const segments& parts, const stray_claiming& options)
-        : points_(points), options_(options), labels_(parts.labels()) {}
+    /// @param graph  the neighbors of each point, nearest first
+    stray_claimer(const Points& points, const adjacency& graph, const segments& parts,
+                  const stray_claiming& options)
+        : points_(points), graph_(graph), options_(options), labels_(parts.labels()) {
+        number_strays();
+        for (cube& c : cubes_) cube_means_.push_back(c.mean);
+        list_followers();
+    }
 
-    /// Makes it known that a segment is flat, and in which plane.
+    /// Makes it known that a segment is flat, and in which plane; without a normal, that it is not.
     void add_plane(const plane& of) { planes_.push_back(of); }
 
-    /// Segments grow by one layer of strays after the other, until no stray is claimed. The tree is
-    /// of the points.
+    /// Segments grow by one layer of strays after the other, until no stray is claimed.
     template <execution X>
-    [[nodiscard]] segments operator()(const kd_tree& tree, const X& run) {
-        find_strays(tree, run);
+    [[nodiscard]] segments operator()(const X& run) {
+        const kd_tree cubes(cube_means_);
         std::vector<std::size_t> layer(strays_.size());
         std::iota(layer.begin(), layer.end(), std::size_t{0});
         std::vector<std::int32_t> claims;
+        std::vector<std::size_t> begin;  // of what the layer has of a cube
         while (!layer.empty()) {
+            begin.clear();
+            for (std::size_t l = 0; l < layer.size(); ++l)
+                if (l == 0 || strays_[layer[l]].cube != strays_[layer[l - 1]].cube)
+                    begin.push_back(l);
+            begin.push_back(layer.size());
             claims.resize(layer.size());
-            for_each_chunk(run, layer.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t l = begin; l < end; ++l) claims[l] = claim_to(layer[l]);
+            for_each_chunk(run, begin.size() - 1, [&](std::size_t first, std::size_t last) {
+                for (std::size_t l = begin[first]; l < begin[last]; ++l)
+                    claims[l] = claim_to(strays_[layer[l]], cubes);
             });
             std::vector<std::size_t> next;  // who has got a neighbor in a segment
             for (std::size_t l = 0; l < layer.size(); ++l) {
                 if (claims[l] == unlabeled) continue;
-                labels_[strays_[layer[l]]] = claims[l];
-                next.insert(next.end(), listed_by_[layer[l]].begin(), listed_by_[layer[l]].end());
+                const std::size_t s = layer[l];
+                labels_[strays_[s].point] = claims[l];
+                for (std::size_t f = first_follower_[s]; f < first_follower_[s + 1]; ++f)
+                    next.push_back(followers_[f]);
             }
-            std::erase_if(next, [&](std::size_t s) { return labels_[strays_[s]] != unlabeled; });
+            std::erase_if(next, [&](auto s) { return labels_[strays_[s].point] != unlabeled; });
             std::sort(next.begin(), next.end());
             next.erase(std::unique(next.begin(), next.end()), next.end());
             layer.swap(next);
@@ -8508,119 +8543,134 @@ class stray_claimer {
     }
 
   private:
-    /// A segment that was looked at for a stray, and how far this is from its plane; infinitely far
-    /// if it is none of its points [m].
+    struct stray {
+        point_index point;
+        std::size_t cube;
+    };
+    /// Whether the strays about a cube are of the plane of a segment.
     struct judgement {
         std::int32_t segment;
-        double distance;
+        bool is_of_plane;
+    };
+    struct cube {
+        Eigen::Vector3d mean;  ///< of its strays [m]
+        double count;          ///< of them
+        double squared_reach;  ///< of the neighbors of any [m^2]
+        std::vector<judgement> judged = {};
     };
 
-    template <execution X>
-    void find_strays(const kd_tree& tree, const X& run) {
+    /// Sums up the strays cube by cube: what a plane asks of them, the sum of distances from it,
+    /// needs no more than their mean.
+    void number_strays() {
+        struct placed {
+            std::array<double, 3> cube;
+            point_index point;
+            auto operator<=>(const placed&) const = default;
+        };
+        std::vector<placed> all;
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (labels_[i] == unlabeled && is_finite(points_[i])) {
-                strays_.push_back(static_cast<point_index>(i));
-                positions_.push_back(points_[i]);
-            }
+            const Eigen::Vector3d p = points_[i];
+            if (labels_[i] != unlabeled || !is_finite(p)) continue;
+            const auto cell = [&](int a) { return std::floor(p[a] / options_.sigma); };
+            all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
         }
-        around_.resize(strays_.size());
-        judgements_.resize(strays_.size());
-        listed_by_.resize(strays_.size());
-        for_each_chunk(run, strays_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s)
-                tree.nearest(positions_[s], options_.k, strays_[s], around_[s]);
-        });
-        sum_up_cells();
-        for (std::size_t s = 0; s < strays_.size(); ++s) {
-            for (const neighbor& q : around_[s]) {
-                const auto other = std::lower_bound(strays_.begin(), strays_.end(), q.index);
-                if (other != strays_.end() && *other == q.index)
-                    listed_by_[static_cast<std::size_t>(other - strays_.begin())].push_back(s);
+        std::sort(all.begin(), all.end());
+        for (auto first = all.begin(); first != all.end();) {
+            const Eigen::Vector3d origin = points_[first->point];
+            moments m;
+            double squared_reach = 0.0;
+            auto last = first;
+            for (; last != all.end() && last->cube == first->cube; ++last) {
+                const Eigen::Vector3d p = points_[last->point];
+                m.add(difference(p, origin));
+                if (const auto ring = graph_[last->point]; !ring.empty())
+                    squared_reach =
+                        std::max(squared_reach, squared_distance(points_[ring.back()], p));
+                strays_.push_back({last->point, cubes_.size()});
             }
+            const auto n = static_cast<double>(m.count);
+            cubes_.push_back({combined(1.0, origin, 1.0 / n, m.sum), n, squared_reach});
+            first = last;
         }
     }
 
-    /// Sums up the strays in cubes of sigma, so that thousands at one place cost no more than a
-    /// few: what a plane asks of them, the sum of distances from it, needs no more than their mean.
-    void sum_up_cells() {
-        std::vector<std::pair<std::array<double, 3>, std::size_t>> by_cell;
-        for (std::size_t s = 0; s < positions_.size(); ++s) {
-            const auto cell = [&](int a) { return std::floor(positions_[s][a] / options_.sigma); };
-            by_cell.push_back({{cell(0), cell(1), cell(2)}, s});
-        }
-        std::sort(by_cell.begin(), by_cell.end());
-        for (auto first = by_cell.begin(); first != by_cell.end();) {
-            const Eigen::Vector3d& origin = positions_[first->second];
-            moments m;
-            auto last = first;
-            for (; last != by_cell.end() && last->first == first->first; ++last)
-                m.add(difference(positions_[last->second], origin));
-            const auto n = static_cast<double>(m.count);
-            cell_means_.push_back(combined(1.0, origin, 1.0 / n, m.sum));
-            cell_counts_.push_back(n);
-            first = last;
-        }
-        cells_.emplace(cell_means_);
+    /// The followers of a stray are those that it is a neighbor of.
+    void list_followers() {
+        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+        std::vector<std::size_t> number(points_.size(), none);
+        for (std::size_t s = 0; s < strays_.size(); ++s) number[strays_[s].point] = s;
+        const auto for_each_link = [&](auto&& visit) {
+            for (std::size_t s = 0; s < strays_.size(); ++s) {
+                for (const point_index j : graph_[strays_[s].point])
+                    if (number[j] != none) visit(s, number[j]);
+            }
+        };
+        first_follower_.assign(strays_.size() + 1, 0);
+        for_each_link([&](std::size_t, std::size_t to) { ++first_follower_[to + 1]; });
+        std::partial_sum(first_follower_.begin(), first_follower_.end(), first_follower_.begin());
+        followers_.resize(first_follower_.back());
+        std::vector<std::size_t> place(first_follower_.begin(), first_follower_.end() - 1);
+        for_each_link([&](std::size_t s, std::size_t to) { followers_[place[to]++] = s; });
     }
 
     /// The segment to which a stray goes in this round: of those about it whose plane is its own,
     /// the one with the nearest plane.
-    std::int32_t claim_to(std::size_t s) {
-        judgement best{unlabeled, std::numeric_limits<double>::infinity()};
-        for (const neighbor& q : around_[s]) {
-            if (q.squared_distance > options_.max_distance * options_.max_distance) break;
-            const std::int32_t segment = labels_[q.index];
-            if (segment == unlabeled) continue;
-            auto& known = judgements_[s];
-            auto j = std::find_if(known.begin(), known.end(),
-                                  [segment](const judgement& k) { return k.segment == segment; });
-            if (j == known.end())
-                j = known.insert(
-                    j, {segment, distance_if_of(s, planes_[static_cast<std::size_t>(segment)])});
-            if (j->distance < best.distance) best = *j;
+    std::int32_t claim_to(const stray& s, const kd_tree& cubes) {
+        const Eigen::Vector3d p = points_[s.point];
+        std::int32_t best = unlabeled;
+        double least = thickness();
+        for (const point_index j : graph_[s.point]) {
+            if (squared_distance(points_[j], p) > options_.max_distance * options_.max_distance)
+                break;
+            const std::int32_t segment = labels_[j];
+            if (segment == unlabeled || segment == best) continue;
+            const plane& of = planes_[static_cast<std::size_t>(segment)];
+            const double distance = std::abs(of.signed_distance(p));
+            const bool is_nearer = best == unlabeled ? distance <= least : distance < least;
+            if (is_missing(of.normal) || !is_nearer || !are_of(segment, cubes_[s.cube], cubes))
+                continue;
+            best = segment;
+            least = distance;
         }
-        return best.segment;
+        return best;
     }
 
-    /// How far a stray is from a plane [m]; infinity if it, or the strays about it, are too far to
-    /// be of the plane.
-    double distance_if_of(std::size_t s, const plane& of) const {
-        constexpr double no = std::numeric_limits<double>::infinity(), deviations = 3.0;
-        const double thickness = deviations * options_.sigma;
-        const Eigen::Vector3d& p = positions_[s];
-        if (is_missing(of.normal)) return no;
-        const double distance = of.signed_distance(p);
-        if (!(std::abs(distance) <= thickness)) return no;
-        // About it in the slab, and so wide that noise does not decide who is near.
-        const double farthest =
-            around_[s].empty() ? 0.0 : std::sqrt(around_[s].back().squared_distance);
-        const double width = std::max(thickness, farthest);
+    /// Whether the strays in the slab about the plane of a segment, near a cube, are of the plane.
+    bool are_of(std::int32_t segment, cube& near, const kd_tree& cubes) {
+        const auto known =
+            std::find_if(near.judged.begin(), near.judged.end(),
+                         [segment](const judgement& j) { return j.segment == segment; });
+        if (known != near.judged.end()) return known->is_of_plane;
+        const plane& of = planes_[static_cast<std::size_t>(segment)];
+        // So wide that noise does not decide who is near.
+        const double width2 = std::max(thickness() * thickness(), near.squared_reach);
         double sum = 0.0, n = 0.0;
-        cells_->for_each_within(
-            combined(1.0, p, -distance, of.normal), std::hypot(width, thickness),
-            [&](const neighbor& q) {
-                const double off = of.signed_distance(cell_means_[q.index]);
-                if (std::abs(off) > thickness || q.squared_distance - off * off > width * width)
-                    return;
-                sum += cell_counts_[q.index] * off;
-                n += cell_counts_[q.index];
+        cubes.for_each_within(
+            combined(1.0, near.mean, -of.signed_distance(near.mean), of.normal),
+            std::sqrt(width2 + thickness() * thickness()), [&](const neighbor& q) {
+                const double off = of.signed_distance(cubes_[q.index].mean);
+                if (std::abs(off) > thickness() || q.squared_distance - off * off > width2) return;
+                sum += cubes_[q.index].count * off;
+                n += cubes_[q.index].count;
             });
         const bool is_of_plane = std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
-        return is_of_plane ? std::abs(distance) : no;
+        near.judged.push_back({segment, is_of_plane});
+        return is_of_plane;
     }
 
+    static constexpr double deviations = 3.0;
+    /// Of the slab about a plane, to each side [m].
+    double thickness() const { return deviations * options_.sigma; }
+
     const Points& points_;
+    const adjacency& graph_;
     stray_claiming options_;
     std::vector<std::int32_t> labels_;
-    std::vector<plane> planes_;        // of the segments; those that are not flat have no normal
-    std::vector<point_index> strays_;  // ascending
-    std::vector<Eigen::Vector3d> positions_;           // of the strays [m]
-    std::vector<Eigen::Vector3d> cell_means_;          // of the strays in a cube [m]
-    std::vector<double> cell_counts_;                  // how many these are
-    std::optional<kd_tree> cells_;                     // of the means
-    std::vector<std::vector<neighbor>> around_;        // each stray, in the cloud
-    std::vector<std::vector<std::size_t>> listed_by_;  // the strays that it is a neighbor of
-    std::vector<std::vector<judgement>> judgements_;   // about it, once for all
+    std::vector<plane> planes_;  // of the segments; those that are not flat have no normal
+    std::vector<stray> strays_;  // cube by cube
+    std::vector<cube> cubes_;
+    std::vector<Eigen::Vector3d> cube_means_;              // the same as theirs
+    std::vector<std::size_t> first_follower_, followers_;  // of the strays
 };
 
 }  // namespace detail
@@ -8633,7 +8683,7 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n log n), and for s strays O(s (k + cubes of sigma in the slab about each)).
+/// Complexity: O(n (log n + k)), and for c cubes of side sigma with strays O(c) slabs of cubes.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,
@@ -8646,7 +8696,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.k > 0, "claim_strays: k must be at least 1");
     detail::require(options.max_distance >= 0.0,
                     "claim_strays: max_distance must not be negative or NaN");
-    detail::stray_claimer claimer(p, parts, options);
+    const adjacency graph = knn{options.k}(points, run, projection);
+    detail::stray_claimer claimer(p, graph, parts, options);
     for (std::size_t s = 0; s < parts.size(); ++s) {
         const auto frame = principal_frame_of(subset_view<R, Proj>(points, parts[s], projection));
         const bool is_flat =
@@ -8654,7 +8705,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
         const Eigen::Vector3d normal = is_flat ? frame.normal() : Eigen::Vector3d(0.0, 0.0, 0.0);
         claimer.add_plane({normal, detail::dot(normal, frame.centroid)});
     }
-    return claimer(kd_tree(points, std::move(projection)), run);
+    return claimer(run);
 }
 
 }  // namespace gnomon
@@ -8836,6 +8887,523 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
         linker.link_all(radius_of, similar, run);
     }
     return linker.result(options.min_points);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/plane_of_sums.hpp -------------------------------------------
+
+/// @file
+/// Planes of whole regions from sums over their points about one origin: that of two regions
+/// together follows without looking at a point again.
+
+namespace gnomon::detail {
+
+/// The least squares plane of points.
+struct fitted_plane {
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};  ///< no normal if not determined
+    double variance = 0.0;                                     ///< of the points across it [m^2]
+};
+
+/// Adds the moments about the same point.
+inline void add(moments& to, const moments& more) {
+    to.count += more.count;
+    for (int j = 0; j < 3; ++j) {
+        to.sum[j] += more.sum[j];
+        for (int i = j; i < 3; ++i) to.outer(i, j) += more.outer(i, j);
+    }
+}
+
+/// The plane of points with these moments about `origin`.
+[[nodiscard]] inline fitted_plane fitted(const moments& m, const Eigen::Vector3d& origin) {
+    fitted_plane f;
+    if (m.count < 3) return f;
+    const plane_fit fit = plane_of_least_spread(m.covariance_of_neighbors(), 0.0);
+    if (!usable(fit.trust)) return f;
+    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
+    f.plane = {fit.normal, dot(fit.normal, mean)};
+    f.variance = fit.spectrum.lambda[2];
+    return f;
+}
+
+/// The mean squared distance [m^2] of points with these moments about `origin` from a plane.
+[[nodiscard]] inline double mean_square(const moments& m, const Eigen::Vector3d& origin,
+                                        const plane& to) {
+    const Eigen::Matrix3d c = m.covariance_of_neighbors();
+    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
+    const double off = to.signed_distance(mean);
+    return dot(to.normal, product(c, to.normal)) + off * off;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
+
+/// @file
+/// How segment_planes grows a region: from a seed to neighbors that lie on its plane, which is
+/// fitted again each time that it has doubled.
+
+namespace gnomon::detail {
+
+/// What regions have to keep to.
+struct plane_rules {
+    double noise;       ///< sigma, across the surface [m]
+    double deviations;  ///< of a point from its plane, in sigma
+    double min_cosine;  ///< between a point's normal and its plane's
+    std::size_t min_points;
+};
+
+/// Regions of the points of a position_view, one after the other.
+template <class Points, neighborhood_graph Graph, normal_range Surface>
+class plane_growth {
+  public:
+    plane_growth(const Points& points, const Graph& graph, const Surface& surface,
+                 const plane_rules& rules)
+        : points_(points),
+          graph_(graph),
+          surface_(surface),
+          rules_(rules),
+          labels_(points.size(), unlabeled),
+          visit_(points.size(), 0) {}
+
+    /// From one seed after the other, those in the flattest surroundings first.
+    /// @return the labels of the points
+    template <execution X>
+    [[nodiscard]] std::vector<std::int32_t> operator()(const X& run) {
+        std::int32_t label = 0;
+        for (const point_index seed : seeds(run)) {
+            if (labels_[seed] != unlabeled) continue;
+            grow(seed);
+            if (members_.size() < rules_.min_points) continue;
+            for (const point_index i : members_) labels_[i] = label;
+            ++label;
+        }
+        return std::move(labels_);
+    }
+
+  private:
+    /// The points with a normal, by the mean square of their neighbors' distances from their
+    /// tangent planes.
+    template <execution X>
+    std::vector<point_index> seeds(const X& run) const {
+        std::vector<double> roughness(points_.size(), 0.0);
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (!may_grow(i)) continue;
+                std::size_t count = 0;
+                for (const point_index j : graph_[i]) {
+                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
+                    roughness[i] += d * d;
+                    ++count;
+                }
+                if (count > 0) roughness[i] /= static_cast<double>(count);
+            }
+        });
+        std::vector<point_index> order;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
+        }
+        std::stable_sort(order.begin(), order.end(),
+                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
+        return order;
+    }
+
+    bool may_grow(std::size_t i) const {
+        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
+    }
+
+    /// Sets members_ to the region of a seed: grown while its plane becomes surer, then twice more
+    /// with the whole plane, for what an early plane refused or should not have taken.
+    void grow(point_index seed) {
+        gnomon::plane along{surface_[seed].normal, 0.0};
+        double reach = rules_.deviations * rules_.noise;
+        along.offset = dot(along.normal, mean_around(seed, along.normal));
+        members_.clear();
+        if (!fits(seed, along, reach)) return;
+        members_.push_back(seed);
+        constexpr int passes = 3;
+        for (int pass = 0; pass < passes; ++pass) {
+            ++stamp_;
+            if (pass > 0)
+                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
+            for (const point_index i : members_) visit_[i] = stamp_;
+            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
+            for (std::size_t next = 0; next < members_.size(); ++next) {
+                for (const point_index j : graph_[members_[next]]) {
+                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
+                    visit_[j] = stamp_;
+                    members_.push_back(j);
+                }
+                if (members_.size() < refit_at) continue;
+                if (const auto f = plane_of_members(points_[seed]); !is_missing(f.plane.normal))
+                    along = f.plane;
+                refit_at *= 2;
+            }
+            const fitted_plane f = plane_of_members(points_[seed]);
+            if (is_missing(f.plane.normal)) {
+                members_.clear();
+                return;
+            }
+            along = f.plane;
+            // Where there is more noise than elsewhere, up to twice as much.
+            reach = rules_.deviations *
+                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
+        }
+    }
+
+    /// Whether a free point may join a plane.
+    bool fits(point_index i, const gnomon::plane& to, double reach) const {
+        return labels_[i] == unlabeled && may_grow(i) &&
+               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
+               std::abs(to.signed_distance(points_[i])) <= reach;
+    }
+
+    /// The mean of the seed and those of its neighbors whose normals agree [m].
+    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
+        moments m;
+        for (const point_index j : graph_[seed]) {
+            if (labels_[j] == unlabeled && may_grow(j) &&
+                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
+                m.add(difference(points_[j], points_[seed]));
+        }
+        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
+    }
+
+    /// The plane of the members.
+    fitted_plane plane_of_members(const Eigen::Vector3d& origin) const {
+        moments m;
+        for (const point_index i : members_) m.add(difference(points_[i], origin));
+        return fitted(m, origin);
+    }
+
+    const Points& points_;
+    const Graph& graph_;
+    const Surface& surface_;
+    plane_rules rules_;
+    std::vector<std::int32_t> labels_;
+    std::vector<std::size_t> visit_;  // by which pass of which seed
+    std::size_t stamp_ = 0;
+    std::vector<point_index> members_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
+
+/// @file
+/// The regions of segment_planes once they are grown: those that are one plane merge, and all
+/// compete for the points.
+
+namespace gnomon::detail {
+
+/// Regions of the points of a position_view.
+template <class Points, neighborhood_graph Graph>
+class plane_regions {
+  public:
+    plane_regions(const Points& points, const Graph& graph, const plane_rules& rules,
+                  std::vector<std::int32_t> labels)
+        : points_(points), graph_(graph), rules_(rules), labels_(std::move(labels)) {
+        std::size_t first = 0;
+        while (first < points.size() && !is_finite(points[first])) ++first;
+        if (first < points.size()) origin_ = points[first];
+        std::int32_t last = unlabeled;
+        for (const std::int32_t label : labels_) last = std::max(last, label);
+        regions_.resize(static_cast<std::size_t>(last + 1));
+        refit();
+    }
+
+    /// Neighboring regions that are one plane become one, the most alike first.
+    void merge() {
+        meet();
+        std::vector<candidate> heap;
+        for (std::int32_t a = 0; a < count(); ++a) {
+            for (const std::int32_t b : at(a).beside) {
+                if (a < b) push(heap, a, b);
+            }
+        }
+        union_find whole(regions_.size());
+        while (!heap.empty()) {
+            std::pop_heap(heap.begin(), heap.end(), later);
+            const candidate c = heap.back();
+            heap.pop_back();
+            // Of regions that have changed since, there is a newer candidate, or they are gone.
+            if (at(c.a).age != c.age_of_a || at(c.b).age != c.age_of_b) continue;
+            whole.unite(static_cast<point_index>(c.a), static_cast<point_index>(c.b));
+            take_in(c.a, c.b);
+            for (const std::int32_t other : at(c.a).beside)
+                push(heap, std::min(c.a, other), std::max(c.a, other));
+        }
+        for (std::int32_t& label : labels_) {
+            if (label != unlabeled)
+                label = static_cast<std::int32_t>(whole.find(static_cast<point_index>(label)));
+        }
+    }
+
+    /// Each point goes to the region among its neighbors that suits it best, or to none.
+    /// @return whether any changed
+    template <execution X>
+    [[nodiscard]] bool compete(const X& run) {
+        std::vector<std::int32_t> next(labels_.size(), unlabeled);
+        for_each_chunk(run, labels_.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<std::int32_t> around;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (is_finite(points_[i])) next[i] = best_region(i, around);
+            }
+        });
+        const bool changed = next != labels_;
+        labels_ = std::move(next);
+        refit();
+        return changed;
+    }
+
+    /// The labels of the points, and the planes by label; some labels have no points.
+    [[nodiscard]] const std::vector<std::int32_t>& labels() const { return labels_; }
+    [[nodiscard]] const gnomon::plane& plane_of(std::size_t label) const {
+        return regions_[label].fit.plane;
+    }
+
+  private:
+    struct region {
+        moments sums{};  ///< of its points, about origin_
+        fitted_plane fit{};
+        std::vector<std::int32_t> beside = {};  ///< those that it touches, ascending
+        std::uint32_t age = 0;                  ///< how often it has changed while merging
+    };
+
+    region& at(std::int32_t label) { return regions_[static_cast<std::size_t>(label)]; }
+    const region& at(std::int32_t label) const { return regions_[static_cast<std::size_t>(label)]; }
+    std::int32_t count() const { return static_cast<std::int32_t>(regions_.size()); }
+
+    /// The variance across a region's plane, at least that of the noise [m^2].
+    double variance_of(std::int32_t r) const {
+        return std::max(at(r).fit.variance, rules_.noise * rules_.noise);
+    }
+
+    /// At most 1 if two regions may be one plane: it is then no farther from the points of either,
+    /// in the root mean square, than one and a half times what these scatter about their own.
+    double unlikeness(std::int32_t a, std::int32_t b) const {
+        constexpr double no = 2.0;
+        const moments &one = at(a).sums, &other = at(b).sums;
+        const double cosine = dot(at(a).fit.plane.normal, at(b).fit.plane.normal);
+        if (!(std::abs(cosine) >= rules_.min_cosine)) return no;
+        moments both = one;
+        add(both, other);
+        const fitted_plane f = fitted(both, origin_);
+        if (is_missing(f.plane.normal)) return no;
+        constexpr double more = 1.5 * 1.5;
+        return std::max(mean_square(one, origin_, f.plane), mean_square(other, origin_, f.plane)) /
+               (more * std::max(variance_of(a), variance_of(b)));
+    }
+
+    /// Makes known to each region which others it touches.
+    void meet() {
+        for (region& r : regions_) {
+            r.beside.clear();
+            r.age = 0;
+        }
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            if (labels_[i] == unlabeled) continue;
+            for (const point_index j : graph_[i]) {
+                if (labels_[j] == unlabeled || labels_[j] == labels_[i]) continue;
+                at(labels_[i]).beside.push_back(labels_[j]);
+                at(labels_[j]).beside.push_back(labels_[i]);
+            }
+        }
+        constexpr std::ptrdiff_t min_links = 5;  // fewer are a touch by chance
+        for (region& r : regions_) {
+            std::sort(r.beside.begin(), r.beside.end());
+            auto kept = r.beside.begin();
+            for (auto first = r.beside.begin(); first != r.beside.end();) {
+                const auto last = std::upper_bound(first, r.beside.end(), *first);
+                if (last - first >= min_links) *kept++ = *first;
+                first = last;
+            }
+            r.beside.erase(kept, r.beside.end());
+        }
+    }
+
+    /// Two regions that may become one.
+    struct candidate {
+        double unlikeness;
+        std::int32_t a, b;
+        std::uint32_t age_of_a, age_of_b;
+    };
+    static bool later(const candidate& x, const candidate& y) {
+        return std::tie(x.unlikeness, x.a, x.b) > std::tie(y.unlikeness, y.a, y.b);
+    }
+    void push(auto& heap, std::int32_t a, std::int32_t b) {
+        const double apart = unlikeness(a, b);
+        if (!(apart <= 1.0)) return;
+        heap.push_back({apart, a, b, at(a).age, at(b).age});
+        std::push_heap(heap.begin(), heap.end(), later);
+    }
+
+    /// Makes one region of two.
+    void take_in(std::int32_t kept, std::int32_t gone) {
+        region &k = at(kept), &g = at(gone);
+        add(k.sums, g.sums);
+        k.fit = fitted(k.sums, origin_);
+        ++k.age;
+        ++g.age;
+        for (const std::int32_t other : g.beside) {
+            if (other == kept) continue;
+            auto& names = at(other).beside;
+            std::erase(names, gone);
+            if (!std::binary_search(names.begin(), names.end(), kept)) {
+                names.insert(std::upper_bound(names.begin(), names.end(), kept), kept);
+                k.beside.push_back(other);
+            }
+        }
+        std::erase(k.beside, gone);
+        std::sort(k.beside.begin(), k.beside.end());
+        g.beside.clear();
+    }
+
+    /// The region among those of the neighbors that costs point i least: its squared distance in
+    /// variances, as a likelihood, and so much for each neighbor of another region, as of Potts.
+    std::int32_t best_region(std::size_t i, std::vector<std::int32_t>& around) const {
+        constexpr double all_others = 4.0;
+        around.clear();
+        std::size_t count = 0;
+        for (const point_index j : graph_[i]) {
+            ++count;
+            if (labels_[j] != unlabeled) around.push_back(labels_[j]);
+        }
+        if (labels_[i] != unlabeled) around.push_back(labels_[i]);  // may stay, alone
+        std::sort(around.begin(), around.end());
+        std::int32_t best = unlabeled;
+        double least = 0.0;
+        for (auto first = around.begin(); first != around.end();) {
+            const auto last = std::upper_bound(first, around.end(), *first);
+            const double d = at(*first).fit.plane.signed_distance(points_[i]);
+            const double deviation = d * d / variance_of(*first);
+            const double agreeing = static_cast<double>(last - first) - (*first == labels_[i]);
+            const double cost =
+                0.5 * deviation + all_others * (1.0 - agreeing / static_cast<double>(count));
+            if (deviation <= rules_.deviations * rules_.deviations &&
+                (best == unlabeled || cost < least)) {
+                best = *first;
+                least = cost;
+            }
+            first = last;
+        }
+        return best;
+    }
+
+    /// Sums and planes anew; regions that became too small are given up.
+    void refit() {
+        for (region& r : regions_) r.sums = {};
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            if (labels_[i] != unlabeled) at(labels_[i]).sums.add(difference(points_[i], origin_));
+        }
+        for (region& r : regions_) r.fit = fitted(r.sums, origin_);
+        for (std::int32_t& label : labels_) {
+            if (label == unlabeled) continue;
+            const region& r = at(label);
+            if (r.sums.count < rules_.min_points || is_missing(r.fit.plane.normal))
+                label = unlabeled;
+        }
+    }
+
+    const Points& points_;
+    const Graph& graph_;
+    plane_rules rules_;
+    std::vector<std::int32_t> labels_;
+    Eigen::Vector3d origin_{0.0, 0.0, 0.0};
+    std::vector<region> regions_;  // by label
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/plane_segmentation.hpp ---------------------------------------------
+
+/// @file
+/// Flat surfaces, with their planes. Smooth surfaces (surface_segmentation.hpp) end where normals
+/// are blended, some points before an edge, and leak where the blend is gentle; a plane knows by
+/// distance, to the noise, which points are its own:
+///
+///  1. grow     From the flattest places on, points whose normals roughly agree join while they lie
+///              within a few deviations of the region's plane, which is fitted again as it grows.
+///  2. merge    Neighbors that one plane fits as well as two are one.
+///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
+///              explains it best, and planes are fitted again: edges come out sharp.
+///
+/// Region growing as of Poppinga et al. 2008, merging as of agglomerative clustering (Feng et al.
+/// 2014), and the competition for points as of variational shape approximation (Cohen-Steiner et
+/// al. 2004) with the Potts model of Isack and Boykov 2012. All lengths follow the noise of the
+/// cloud, so that there is no distance to be set.
+
+namespace gnomon {
+
+struct plane_segmentation {
+    std::optional<double> noise =
+        {};                         ///< sigma across the surface [m]; else what `noise_level` finds
+    double max_deviations = 4.0;    ///< of a point from its plane, in sigma
+    angle max_angle = degrees(25);  ///< between a point's normal and its plane's, to grow
+    std::size_t min_points = 30;    ///< n_min, smaller segments are noise
+    int rounds = 6;                 ///< of the competition, at most
+};
+
+/// Segments, and the plane of each.
+struct planar_segments {
+    gnomon::segments segments;  ///< largest first
+    std::vector<plane> planes;  ///< by label; the normal's sign is arbitrary
+};
+
+/// The planes of a cloud.
+///
+/// @param points   any point range of n points [m]
+/// @param graph    the neighbors of each: few, as edges are found to their width (`knn{12}`)
+/// @param surface  a normal for each point, from as few; where it is missing, no plane grows, but a
+///                 point may be taken by one
+/// @return the segments of at least `min_points` points and their planes
+/// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists a
+///                                neighbor of no point; unless noise and max_deviations are finite
+///                                and not negative, and max_angle is from 0 to 90 degrees
+/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(s^2) for s segments. Growing
+/// runs on one thread. The same bytes for every execution.
+template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] planar_segments segment_planes(const R& points, const G& graph,
+                                             const Surface& surface,
+                                             const plane_segmentation& options = {},
+                                             const X& run = {}, Proj projection = {}) {
+    const auto is_length = [](double x) { return x >= 0.0 && std::isfinite(x); };
+    const position_view<R, Proj> p(points, projection);
+    detail::require(graph.size() == p.size(), "segment_planes: the graph is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "segment_planes: the surface is of other points");
+    detail::require(!options.noise || is_length(*options.noise),
+                    "segment_planes: the noise must be finite and not negative");
+    detail::require(is_length(options.max_deviations),
+                    "segment_planes: max_deviations must be finite and not negative");
+    double farthest = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        for (const point_index j : graph[i])
+            detail::require(j < p.size(), "segment_planes: the graph lists a neighbor of no point");
+        if (is_finite(p[i])) farthest = std::max(farthest, p[i].cwiseAbs().maxCoeff());
+    }
+    // Of a clean cloud, rounding is the noise.
+    const double rounding = 1e-12 * farthest;
+    const double noise = options.noise ? *options.noise : noise_level(points, projection);
+
+    const detail::plane_rules rules{.noise = std::max(noise, rounding),
+                                    .deviations = options.max_deviations,
+                                    .min_cosine = detail::min_cosine(options.max_angle),
+                                    .min_points = std::max<std::size_t>(options.min_points, 3)};
+    detail::plane_growth grow(p, graph, surface, rules);
+    detail::plane_regions regions(p, graph, rules, grow(run));
+    regions.merge();
+    for (int round = 0; round < options.rounds; ++round) {
+        if (!regions.compete(run)) break;
+        regions.merge();
+    }
+
+    auto [found, label_of] = detail::largest_first(segments(regions.labels()));
+    planar_segments result{std::move(found), {}};
+    for (const std::size_t label : label_of) result.planes.push_back(regions.plane_of(label));
+    return result;
 }
 
 }  // namespace gnomon
@@ -9394,6 +9962,107 @@ template <class R, class Proj = std::identity>
 
 }  // namespace gnomon
 
+// -------- gnomon/segmentation/segment_extension.hpp ----------------------------------------------
+
+/// @file
+/// Gives segments back what they lost: smooth surfaces end where normals are blended, a few points
+/// before an edge, and have holes where normals are noisy. Those points are no segment, or too
+/// small ones; they go to the segment beside them that they lie on, ring by ring. What segments
+/// have is not touched, so that surfaces that were told apart stay apart.
+///
+/// The last step of region growing in two thresholds (hysteresis): strict where surfaces are found,
+/// lenient where they are only extended.
+
+namespace gnomon {
+
+struct segment_extension {
+    angle max_angle = degrees(20);  ///< between the normals of a point and of who takes it in
+    int rings = 10;                 ///< how many neighbors deep, at most
+};
+
+namespace detail {
+
+/// The segment, among those of the neighbors whose normals agree, on whose tangent planes point i
+/// lies best in the mean; unlabeled if there is none. Of equals, the smaller label.
+template <class Points, neighborhood_graph G, normal_range Surface>
+[[nodiscard]] std::int32_t nearest_segment(const Points& p, const G& graph, const Surface& surface,
+                                           const std::vector<std::int32_t>& labels, std::size_t i,
+                                           double min_cosine,
+                                           std::vector<std::pair<std::int32_t, double>>& votes) {
+    votes.clear();
+    for (const point_index j : graph[i]) {
+        const Eigen::Vector3d& n_j = surface[j].normal;
+        if (labels[j] != unlabeled && std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
+            votes.emplace_back(labels[j], std::abs(dot(n_j, difference(p[i], p[j]))));
+    }
+    std::sort(votes.begin(), votes.end());
+    std::int32_t best = unlabeled;
+    double least = 0.0;
+    for (auto first = votes.begin(); first != votes.end();) {
+        auto last = first;
+        double sum = 0.0;
+        for (; last != votes.end() && last->first == first->first; ++last) sum += last->second;
+        const double mean = sum / static_cast<double>(last - first);
+        if (best == unlabeled || mean < least) {
+            best = first->first;
+            least = mean;
+        }
+        first = last;
+    }
+    return best;
+}
+
+}  // namespace detail
+
+/// The segments with the points beside them that are theirs.
+///
+/// @param points   any point range of n points
+/// @param graph    the neighbors of each: few, as each ring reaches one neighbor farther
+/// @param surface  a normal for each; points without one are left as they are
+/// @param found    segments of the n points
+/// @return the same segments, extended, largest first
+/// @throws std::invalid_argument  if points, graph, surface and segments differ in size, the graph
+///                                lists a neighbor of no point, or max_angle is outside [0, 90]
+///                                degrees
+/// Complexity: O(n k) for each ring. The same bytes for every execution.
+template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments extend_segments(const R& points, const G& graph, const Surface& surface,
+                                       const segments& found, const segment_extension& options = {},
+                                       const X& run = {}, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(graph.size() == p.size(), "extend_segments: the graph is of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "extend_segments: the surface is of other points");
+    detail::require(found.labels().size() == p.size(),
+                    "extend_segments: the segments are of other points");
+    const double cosine = detail::min_cosine(options.max_angle);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        for (const point_index j : graph[i])
+            detail::require(j < p.size(),
+                            "extend_segments: the graph lists a neighbor of no point");
+    }
+
+    std::vector<std::int32_t> labels = found.labels();
+    for (int ring = 0; ring < options.rings; ++ring) {
+        std::vector<std::int32_t> next = labels;
+        for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<std::pair<std::int32_t, double>> votes;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (labels[i] != unlabeled || !is_finite(p[i]) || is_missing(surface[i].normal))
+                    continue;
+                next[i] = detail::nearest_segment(p, graph, surface, labels, i, cosine, votes);
+            }
+        });
+        if (next == labels) break;
+        labels = std::move(next);
+    }
+    return detail::largest_first(segments(std::move(labels))).first;
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/segmentation/surface_segmentation.hpp -------------------------------------------
 
 /// @file
@@ -9668,13 +10337,19 @@ class range_image {
         const position_view<R, Proj> p(points, std::move(projection));
         turn(format.pole ? *format.pole : least_seen(p));
         // Only rows in which something is seen are kept, for scan lines a single one.
-        std::vector<pixel> pixels(p.size());
+        struct sight {
+            pixel at;
+            view what;
+        };
+        std::vector<sight> sights;
+        sights.reserve(p.size());
         std::size_t lowest = height_, highest = 0;
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
-            pixels[i] = pixel_of(p[i]);
-            lowest = std::min(lowest, pixels[i].elevation);
-            highest = std::max(highest, pixels[i].elevation);
+            const pixel at = pixel_of(p[i]);
+            sights.push_back({at, {distance_to(p[i]), static_cast<point_index>(i)}});
+            lowest = std::min(lowest, at.elevation);
+            highest = std::max(highest, at.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -9684,11 +10359,9 @@ class range_image {
         lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            view& v = seen_[place_of(pixels[i])];
-            const double range = distance_to(p[i]);
-            if (v.range < 0.0 || range < v.range) v = {range, static_cast<point_index>(i)};
+        for (const auto& [at, what] : sights) {
+            view& v = seen_[place_of(at)];
+            if (v.range < 0.0 || what.range < v.range) v = what;
         }
     }
 
@@ -9763,10 +10436,12 @@ class range_image {
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
             const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
-            const double squared = detail::dot(d, d);
+            const double weight = 1.0 / detail::dot(d, d);
             for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c) sum(r, c) += d[r] * d[c] / squared;
+                for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
         }
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
         // Where z is as good as any, it is z.
         sum(2, 2) *= 1.0 - 1e-9;
         return detail::column(symmetric_eigen(sum).vectors, 2);
@@ -9826,34 +10501,72 @@ struct sighting_count {
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
 };
 
+namespace detail {
+
+/// See ray_spacing.
+/// @param p  a position_view
+[[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
+    constexpr std::size_t seeds = 24, neighbors = 16;
+    constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    std::vector<Eigen::Vector3d> directions;
+    directions.reserve(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i]) || !is_finite(viewpoints[i])) continue;
+        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
+        const double range = length(d);
+        if (range > 0.0 && std::isfinite(range))
+            directions.emplace_back(d[0] / range, d[1] / range, d[2] / range);
+    }
+    if (directions.size() <= neighbors) return radians(most);
+
+    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
+    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
+    constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
+    static_assert(reach2 < size * size);
+    constexpr std::size_t cubes = 13;  // along a side, with one more at both ends
+    std::vector<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
+    const auto cube_of = [](const Eigen::Vector3d& d) {
+        const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
+        return (place(0) * cubes + place(1)) * cubes + place(2);
+    };
+    const auto seed = [&](std::size_t s) {
+        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
+    };
+    for (std::size_t s = 0; s < seeds; ++s) {
+        for (std::size_t c = 0; c < 27; ++c) {
+            const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
+            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
+        }
+    }
+    std::array<std::vector<double>, seeds> near;
+    for (const Eigen::Vector3d& d : directions) {
+        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
+            const auto s = static_cast<std::size_t>(std::countr_zero(left));
+            const double squared = squared_distance(seed(s), d);
+            if (squared < reach2) near[s].push_back(squared);
+        }
+    }
+    std::array<double, seeds> squared;
+    for (std::size_t s = 0; s < seeds; ++s) {
+        squared[s] = reach2;
+        if (near[s].size() <= neighbors) continue;
+        std::nth_element(near[s].begin(), near[s].begin() + neighbors, near[s].end());
+        squared[s] = near[s][neighbors];
+    }
+    std::nth_element(squared.begin(), squared.begin() + seeds * 3 / 4, squared.end());
+    const double side = std::sqrt(squared[seeds * 3 / 4] * std::numbers::pi / neighbors);
+    return radians(std::clamp(side, least, most));
+}
+
+}  // namespace detail
+
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
 /// 16 nearest rays has for itself, for three of four rays at least that. From 24 rays; O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    const viewpoint_table viewpoints = viewpoints_of(points);
-    std::vector<Eigen::Vector3d> directions;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i]) || !is_finite(viewpoints[i])) continue;
-        const Eigen::Vector3d d = detail::difference(p[i], viewpoints[i]);
-        const double length = std::sqrt(detail::dot(d, d));
-        if (length > 0.0) directions.emplace_back(d[0] / length, d[1] / length, d[2] / length);
-    }
-    constexpr std::size_t rays = 24, neighbors = 16;
-    const double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    if (directions.size() <= neighbors) return radians(most);
-    std::vector<point_index> all(directions.size());
-    std::iota(all.begin(), all.end(), point_index{0});
-    std::vector<double> squared;
-    for (std::size_t r = 0; r < rays; ++r) {
-        const std::size_t seed = (2 * r + 1) * directions.size() / (2 * rays);
-        const auto nearest = detail::nearest_of(directions, all, directions[seed], neighbors + 1);
-        squared.push_back(nearest.back().squared_distance);
-    }
-    std::nth_element(squared.begin(), squared.begin() + rays * 3 / 4, squared.end());
-    const double side = std::sqrt(squared[rays * 3 / 4] * std::numbers::pi / neighbors);
-    return radians(std::clamp(side, least, most));
+    return detail::spacing_of_rays(position_view<R, Proj>(points, std::move(projection)),
+                                   viewpoints_of(points));
 }
 
 /// Knows what was seen towards any place.
@@ -9868,40 +10581,44 @@ class lines_of_sight {
         requires point_range<R, Proj>
     explicit lines_of_sight(const R& points, const sight_options& options = {},
                             Proj projection = {})
-        : sigma_(options.sigma), viewpoints_(viewpoints_of(points)) {
+        : sigma_(options.sigma) {
         detail::require(options.sigma >= 0.0, "lines_of_sight: sigma must not be negative or NaN");
         detail::require(
             options.pixel.radians() >= 0.0 && options.pixel.radians() <= 0.5 * std::numbers::pi,
             "lines_of_sight: a pixel has between 0 and 90 degrees");
+        const viewpoint_table viewpoints = viewpoints_of(points);
+        const position_view<R, Proj> p(points, projection);
         const angle pixel =
-            options.pixel.radians() > 0.0 ? options.pixel : ray_spacing(points, projection);
+            options.pixel.radians() > 0.0 ? options.pixel : detail::spacing_of_rays(p, viewpoints);
         const auto height =
             static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
         pixel_ = std::numbers::pi / static_cast<double>(height);
         const range_image_format format{2 * height, height, options.pole};
 
-        const position_view<R, Proj> p(points, projection);
-        const auto key_of = [](const Eigen::Vector3d& v) {
-            return std::array<double, 3>{v[0], v[1], v[2]};
-        };
-        std::vector<std::array<double, 3>> places;
-        for (const Eigen::Vector3d& v : viewpoints_.positions())
-            if (is_finite(v)) places.push_back(key_of(v));
-        if (viewpoints_.empty()) places.push_back({0.0, 0.0, 0.0});
+        // Points by view point. Those of a scan line follow one another, so that there is hardly
+        // anything to sort or to look up.
+        std::vector<sort_key> places;
+        for (const Eigen::Vector3d& v : viewpoints.positions())
+            if (is_finite(v) && (places.empty() || places.back() != key_of(v)))
+                places.push_back(key_of(v));
+        if (viewpoints.empty()) places.push_back({0.0, 0.0, 0.0});
         std::sort(places.begin(), places.end());
         places.erase(std::unique(places.begin(), places.end()), places.end());
-
-        std::vector<std::vector<Eigen::Vector3d>> seen(places.size());
+        std::vector<std::vector<point_index>> seen(places.size());
+        std::size_t latest = 0;
         for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d v = viewpoints_[i];
+            const Eigen::Vector3d v = viewpoints[i];
             if (!is_finite(p[i]) || !is_finite(v)) continue;
-            const auto place = std::lower_bound(places.begin(), places.end(), key_of(v));
-            seen[static_cast<std::size_t>(place - places.begin())].push_back(p[i]);
+            if (places[latest] != key_of(v))
+                latest = static_cast<std::size_t>(
+                    std::lower_bound(places.begin(), places.end(), key_of(v)) - places.begin());
+            seen[latest].push_back(static_cast<point_index>(i));
         }
         for (std::size_t v = 0; v < places.size(); ++v) {
             if (seen[v].empty()) continue;
             const auto& [x, y, z] = places[v];
-            images_.emplace_back(seen[v], Eigen::Vector3d(x, y, z), format);
+            images_.emplace_back(subset_view<R, Proj>(points, seen[v], projection),
+                                 Eigen::Vector3d(x, y, z), format);
         }
     }
 
@@ -9950,6 +10667,10 @@ class lines_of_sight {
     }
 
   private:
+    /// A view point, to sort by.
+    using sort_key = std::array<double, 3>;
+    static sort_key key_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
+
     /// What one view point has seen there.
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
         const double expected = image.distance_to(place);
@@ -9988,7 +10709,6 @@ class lines_of_sight {
 
     double sigma_;
     double pixel_ = 0.0;  // [rad]
-    viewpoint_table viewpoints_;
     std::vector<range_image> images_;
 };
 
@@ -10212,53 +10932,91 @@ struct depth_regression {
     return sample;
 }
 
-/// Whether two samples are of one plane, as far as noise lets them tell.
-///
-/// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and of
-/// what is no noise, such as round edges, a tenth of a standard deviation more; an angle that is
-/// well known may be up to max_angle. Nothing is told if noise would hide an offset of max_offset
-/// more often than one time in six.
-/// @param wide  that of the wider segment
-[[nodiscard]] inline bool in_one_plane(const plane_sample& wide, const plane_sample& slim,
-                                       double sigma, angle max_angle, double max_offset) {
-    constexpr double deviations = 3.0;               // 99.7 % of a normal distribution
-    constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-    constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
-    constexpr double no_noise = 0.1;                 // in standard deviations
-    if (wide.count == 0 || slim.count == 0) return false;
-    // The slim one depends more on how the rays go.
-    const sight_axes axes = axes_towards(slim);
-    const depth_regression a(wide, axes), b(slim, axes);
-    const double m = static_cast<double>(wide.count), n = static_cast<double>(slim.count);
-    const double variance = sigma * sigma;
-    const matrix_across known_a = (m / variance) * a.spread, known_b = (n / variance) * b.spread;
+/// Two samples, and what noise lets them tell of whether they are of one plane.
+class plane_comparison {
+  public:
+    /// @param wide  that of the wider segment
+    plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
+        : wide_(wide),
+          slim_(slim),
+          sigma_(sigma),
+          axes_(axes_towards(slim)),  // the slim one depends more on how the rays go
+          a_(wide, axes_),
+          b_(slim, axes_) {}
 
-    const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
-    const matrix_across by_noise = (1.0 + no_noise * no_noise * m) * known_a.inverse() +
-                                   (1.0 + no_noise * no_noise * n) * known_b.inverse();
-    const bool parallel = dot(turn, by_noise.solved(turn)) <= square_of_two;
-    if (!parallel) {
-        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
-        const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
-        const double doubt = deviations * std::sqrt(by_noise.largest_eigenvalue());
-        if (!(turned <= max_angle.radians() && std::atan(doubt) <= max_angle.radians()))
-            return false;
+    /// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and
+    /// of what is no noise, such as round edges, a tenth of a standard deviation more; an angle
+    /// that is well known may be up to max_angle. Nothing is told if noise would hide an offset of
+    /// max_offset more often than one time in six.
+    [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
+        constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
+        constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
+        if (wide_.count == 0 || slim_.count == 0) return false;
+        const place_across turn{a_.slope[0] - b_.slope[0], a_.slope[1] - b_.slope[1]};
+        const bool parallel = dot(turn, spread_of_turn().solved(turn)) <= square_of_two;
+        if (!parallel) {
+            const Eigen::Vector3d normal = a_.normal(axes_), other = b_.normal(axes_);
+            const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
+            if (!(turned <= max_angle.radians() && turns_less(spread_of_turn(), max_angle)))
+                return false;
+        }
+
+        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
+        // more.
+        const matrix_across known_a = known(wide_, a_), known_b = known(slim_, b_);
+        const matrix_across sum = parallel ? known_a + known_b : known_a;
+        const place_across in_a = known_a * a_.slope, in_b = known_b * b_.slope;
+        const place_across slope =
+            parallel ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a_.slope;
+        const Eigen::Vector3d between = difference(slim_.mean, wide_.mean);
+        const place_across way{dot(axes_.x, between), dot(axes_.y, between)};
+        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
+        const double offset = cosine * std::abs(dot(axes_.along, between) - dot(slope, way));
+        const double variance = sigma_ * sigma_;
+        const double deviation = cosine * std::sqrt(variance / static_cast<double>(wide_.count) +
+                                                    variance / static_cast<double>(slim_.count) +
+                                                    dot(way, sum.solved(way)));
+        // What is hardly wider than noise became a segment by chance, and its points are no fair
+        // sample of the noise.
+        constexpr double chosen = 1.0;  // in standard deviations
+        const bool is_speck = b_.spread.largest_eigenvalue() < 9.0 * variance;
+        return not_hidden * deviation + no_noise * sigma_ < max_offset &&
+               offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 
-    // The slope of parallel planes is that of both, as each knows it; else the wide one knows more.
-    const matrix_across known = parallel ? known_a + known_b : known_a;
-    const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
-    const place_across slope =
-        parallel ? known.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
-    const Eigen::Vector3d between = difference(slim.mean, wide.mean);
-    const place_across way{dot(axes.x, between), dot(axes.y, between)};
-    const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // from depths to distances
-    const double offset = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
-    const double deviation =
-        cosine * std::sqrt(variance / m + variance / n + dot(way, known.solved(way)));
-    return not_hidden * deviation + no_noise * sigma < max_offset &&
-           offset <= deviations * deviation + no_noise * sigma;
-}
+    /// Whether noise turns at least one of them by no more than an angle, in 997 of 1,000 cases.
+    [[nodiscard]] bool is_sure_of_one(angle at_most) const {
+        return turns_less(spread_of_slope(wide_, a_), at_most) ||
+               turns_less(spread_of_slope(slim_, b_), at_most);
+    }
+
+  private:
+    static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+    static constexpr double no_noise = 0.1;    // in standard deviations
+
+    /// How well a slope is known: the inverse of its covariance.
+    [[nodiscard]] matrix_across known(const plane_sample& sample, const depth_regression& r) const {
+        return (static_cast<double>(sample.count) / (sigma_ * sigma_)) * r.spread;
+    }
+
+    /// The covariance of a slope.
+    [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
+                                                const depth_regression& r) const {
+        const double more = no_noise * no_noise * static_cast<double>(sample.count);
+        return (1.0 + more) * known(sample, r).inverse();
+    }
+    [[nodiscard]] matrix_across spread_of_turn() const {
+        return spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
+    }
+    [[nodiscard]] static bool turns_less(const matrix_across& spread, angle at_most) {
+        return std::atan(deviations * std::sqrt(spread.largest_eigenvalue())) <= at_most.radians();
+    }
+
+    const plane_sample &wide_, &slim_;
+    double sigma_;
+    sight_axes axes_;
+    depth_regression a_, b_;  // of wide and slim
+};
 
 }  // namespace gnomon::detail
 
@@ -10307,14 +11065,12 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against, and none is
-/// seen through, be there ever so much in front of the others; but for one of ten, which may be the
-/// edge of something. Where the surface itself is seen, nothing speaks against it; a line without a
-/// place says what nothing says.
+/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
+/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
+/// says.
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
     if (seen.total() == 0) return policy(sighting::unseen);
-    if (seen[sighting::farther] > 1 || 10 * seen[sighting::farther] > seen.total()) return false;
     std::size_t in_favor = 0, against = 0;
     for (const sighting s :
          {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
@@ -10361,12 +11117,15 @@ class occlusion_merger {
         bool any = false;
         for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
                                                    [this](const auto& f) { return is_flat(f); })) {
-            if (!(changed_[i] || changed_[j]) || !coplanar(i, j)) continue;
+            if (!(changed_[i] || changed_[j])) continue;
+            const plane_comparison planes = compared(i, j);
+            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
                 boundary_pairs(points_, members_[i], members_[j],
                                {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
                 false};
-            gap.merged = spans(gap.lines);
+            gap.merged = spans(gap.lines,
+                               planes.is_sure_of_one(radians(0.5 * options_.max_angle.radians())));
             if (gap.merged) sets.unite(i, j);
             any = any || gap.merged;
             gaps_.push_back(std::move(gap));
@@ -10389,27 +11148,32 @@ class occlusion_merger {
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool coplanar(std::size_t i, std::size_t j) const {
+    [[nodiscard]] plane_comparison compared(std::size_t i, std::size_t j) const {
         const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
         const std::size_t wide = first ? i : j, slim = first ? j : i;
-        return in_one_plane(planes_[wide], planes_[slim], options_.sigma, options_.max_angle,
-                            options_.max_offset);
+        return {planes_[wide], planes_[slim], options_.sigma};
     }
 
-    /// Whether the lines across a gap are accepted: most of them by the policy, or, where it is
-    /// narrow, by whoever merges unless something farther is seen.
-    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
-        std::size_t accepted = 0, passable = 0;
+    /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
+    /// by whoever merges unless something farther is seen. If then nothing is in front either, the
+    /// planes must be known to agree, not only not to differ. A gap that is seen through at one
+    /// place is one, be there ever so much in front of the others.
+    [[nodiscard]] bool spans(std::span<const boundary_pair> lines, bool is_sure_of_planes) const {
+        std::size_t accepted = 0, passable = 0, partly_hidden = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
             const sighting_count seen =
                 sights_.between(points_[line.first], points_[line.second], v);
+            if (seen[sighting::farther] > 0 && !policy_(sighting::farther)) return false;
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
+            partly_hidden += seen[sighting::closer] > 0 ? 1 : 0;
         }
-        return 2 * accepted > lines.size() ||
-               (coplanar_distance(lines) < options_.max_gap && 2 * passable > lines.size());
+        const auto are_most = [&](std::size_t count) { return 2 * count > lines.size(); };
+        return are_most(accepted) ||
+               (coplanar_distance(lines) < options_.max_gap && are_most(passable) &&
+                (is_sure_of_planes || are_most(partly_hidden)));
     }
 
     /// Makes one segment of each set.

@@ -14,7 +14,7 @@
 
 namespace {
 
-using gnomon::detail::plane_sample;
+using gnomon::detail::plane_comparison, gnomon::detail::plane_sample;
 
 constexpr double sigma = 0.015;
 
@@ -44,12 +44,16 @@ plane_sample sample_of(const clouds::cloud& points) {
     return gnomon::detail::plane_sample_of(points, all, {}, sigma);
 }
 
+bool are_of_one(const plane_sample& wide, const plane_sample& slim) {
+    return plane_comparison(wide, slim, sigma).is_of_one(gnomon::degrees(15), 0.05);
+}
+
 /// How many of 100 scans of two rectangles show them in one plane.
 int found_in_one_plane(const seen_rectangle& wide, const seen_rectangle& slim) {
     int found = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         const auto a = sample_of(wide.points(2 * seed)), b = sample_of(slim.points(2 * seed + 1));
-        found += gnomon::detail::in_one_plane(a, b, sigma, gnomon::degrees(15), 0.05) ? 1 : 0;
+        found += are_of_one(a, b) ? 1 : 0;
     }
     return found;
 }
@@ -57,24 +61,24 @@ int found_in_one_plane(const seen_rectangle& wide, const seen_rectangle& slim) {
 /// A seat 1.5 m away and 80 cm below the eye, and what may be part of it or not.
 const seen_rectangle seat{{1.5, 0.0, -0.8}, {0.4, 0, 0}, {0, 0.4, 0}};
 
-TEST(in_one_plane, knows_another_part_of_a_surface) {
+TEST(plane_comparison, knows_another_part_of_a_surface) {
     EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.6, -0.8}, {0.4, 0, 0}, {0, 0.3, 0}}), 97);
     // No wider than noise.
     EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}), 97);
 }
 
-TEST(in_one_plane, tells_an_offset_from_noise) {
+TEST(plane_comparison, tells_an_offset_from_noise) {
     EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.83}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
     EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.77}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
 }
 
 /// The front of a seat, no higher than noise: the direction of its least spread is that of nothing.
-TEST(in_one_plane, tells_an_edge_from_the_surface_it_bounds) {
+TEST(plane_comparison, tells_an_edge_from_the_surface_it_bounds) {
     const seen_rectangle front{{1.3, 0.0, -0.82}, {0, 0.4, 0}, {0, 0, 0.04}};
     EXPECT_LE(found_in_one_plane(seat, front), 3);
 }
 
-TEST(in_one_plane, takes_an_angle_up_to_the_largest) {
+TEST(plane_comparison, takes_an_angle_up_to_the_largest) {
     const auto wall = [](double degrees) {
         const gnomon::angle turned = gnomon::degrees(degrees);
         return seen_rectangle{
@@ -87,17 +91,31 @@ TEST(in_one_plane, takes_an_angle_up_to_the_largest) {
 }
 
 /// Where noise would hide an offset, nothing is told.
-TEST(in_one_plane, does_not_reach_farther_than_it_knows) {
+TEST(plane_comparison, does_not_reach_farther_than_it_knows) {
     const seen_rectangle tile{{3.0, 0.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6};
     EXPECT_GE(found_in_one_plane(tile, {{3.0, 0.12, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 97);
     EXPECT_EQ(found_in_one_plane(tile, {{3.0, 1.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 0);
 }
 
-TEST(in_one_plane, of_no_points_is_nothing) {
+/// Two slats say nothing about each other's direction, but a slat and a seat agree.
+TEST(plane_comparison, knows_whether_it_is_sure) {
+    const auto slat =
+        sample_of(seen_rectangle{{1.5, 0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}.points(1));
+    const auto other =
+        sample_of(seen_rectangle{{1.5, -0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}.points(2));
+    const auto is_sure = [](const plane_sample& a, const plane_sample& b) {
+        return plane_comparison(a, b, sigma).is_sure_of_one(gnomon::degrees(7.5));
+    };
+    EXPECT_FALSE(is_sure(slat, other));
+    EXPECT_TRUE(is_sure(sample_of(seat.points(3)), slat));
+    EXPECT_TRUE(is_sure(slat, sample_of(seat.points(3))));
+}
+
+TEST(plane_comparison, of_no_points_is_nothing) {
     const plane_sample none = sample_of({}), some = sample_of(seat.points(1));
     EXPECT_EQ(none.count, 0u);
-    EXPECT_FALSE(gnomon::detail::in_one_plane(some, none, sigma, gnomon::degrees(15), 0.05));
-    EXPECT_FALSE(gnomon::detail::in_one_plane(none, some, sigma, gnomon::degrees(15), 0.05));
+    EXPECT_FALSE(are_of_one(some, none));
+    EXPECT_FALSE(are_of_one(none, some));
     EXPECT_EQ(sample_of({{clouds::nan, 0, 0}}).count, 0u);
 }
 

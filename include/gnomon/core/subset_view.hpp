@@ -34,7 +34,7 @@ class subset_view {
         : points_(points, std::move(projection)), indices_(indices) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index of no point");
-        viewpoints = viewpoints_of(points).subset(indices);
+        viewpoints = viewpoints_of(points, indices);
     }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;

@@ -96,17 +96,36 @@ concept has_viewpoints = requires(const R& r) {
     { r.viewpoints } -> std::convertible_to<const viewpoint_table&>;
 };
 
+namespace detail {
+
+/// f(table), where the table is that of a range, not a copy of it; the empty one (the origin) for a
+/// range that knows none.
+template <indexed_range R>
+[[nodiscard]] auto with_table_of(const R& points, auto&& f) {
+    if constexpr (has_viewpoints<R>) {
+        const viewpoint_table& table = points.viewpoints;
+        require(table.covers(std::ranges::size(points)),
+                "the view points are for another number of points");
+        return f(table);
+    } else {
+        return f(viewpoint_table());
+    }
+}
+
+}  // namespace detail
+
 /// The view points of a range; the empty table (the origin) for a range that knows none.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
 template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
-    if constexpr (has_viewpoints<R>) {
-        detail::require(points.viewpoints.covers(std::ranges::size(points)),
-                        "the view points are for another number of points");
-        return points.viewpoints;
-    } else {
-        return {};
-    }
+    return detail::with_table_of(points, [](const viewpoint_table& table) { return table; });
+}
+
+/// Those of some of its points; see `viewpoint_table::subset`.
+template <indexed_range R>
+[[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
+    return detail::with_table_of(
+        points, [indices](const viewpoint_table& table) { return table.subset(indices); });
 }
 
 /// A bare range of points with view points beside it; refers to the range.

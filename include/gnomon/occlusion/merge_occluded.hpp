@@ -67,14 +67,12 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against, and none is
-/// seen through, be there ever so much in front of the others; but for one of ten, which may be the
-/// edge of something. Where the surface itself is seen, nothing speaks against it; a line without a
-/// place says what nothing says.
+/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
+/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
+/// says.
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
     if (seen.total() == 0) return policy(sighting::unseen);
-    if (seen[sighting::farther] > 1 || 10 * seen[sighting::farther] > seen.total()) return false;
     std::size_t in_favor = 0, against = 0;
     for (const sighting s :
          {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
@@ -121,12 +119,15 @@ class occlusion_merger {
         bool any = false;
         for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
                                                    [this](const auto& f) { return is_flat(f); })) {
-            if (!(changed_[i] || changed_[j]) || !coplanar(i, j)) continue;
+            if (!(changed_[i] || changed_[j])) continue;
+            const plane_comparison planes = compared(i, j);
+            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
                 boundary_pairs(points_, members_[i], members_[j],
                                {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
                 false};
-            gap.merged = spans(gap.lines);
+            gap.merged = spans(gap.lines,
+                               planes.is_sure_of_one(radians(0.5 * options_.max_angle.radians())));
             if (gap.merged) sets.unite(i, j);
             any = any || gap.merged;
             gaps_.push_back(std::move(gap));
@@ -149,27 +150,32 @@ class occlusion_merger {
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool coplanar(std::size_t i, std::size_t j) const {
+    [[nodiscard]] plane_comparison compared(std::size_t i, std::size_t j) const {
         const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
         const std::size_t wide = first ? i : j, slim = first ? j : i;
-        return in_one_plane(planes_[wide], planes_[slim], options_.sigma, options_.max_angle,
-                            options_.max_offset);
+        return {planes_[wide], planes_[slim], options_.sigma};
     }
 
-    /// Whether the lines across a gap are accepted: most of them by the policy, or, where it is
-    /// narrow, by whoever merges unless something farther is seen.
-    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
-        std::size_t accepted = 0, passable = 0;
+    /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
+    /// by whoever merges unless something farther is seen. If then nothing is in front either, the
+    /// planes must be known to agree, not only not to differ. A gap that is seen through at one
+    /// place is one, be there ever so much in front of the others.
+    [[nodiscard]] bool spans(std::span<const boundary_pair> lines, bool is_sure_of_planes) const {
+        std::size_t accepted = 0, passable = 0, partly_hidden = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
             const sighting_count seen =
                 sights_.between(points_[line.first], points_[line.second], v);
+            if (seen[sighting::farther] > 0 && !policy_(sighting::farther)) return false;
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
+            partly_hidden += seen[sighting::closer] > 0 ? 1 : 0;
         }
-        return 2 * accepted > lines.size() ||
-               (coplanar_distance(lines) < options_.max_gap && 2 * passable > lines.size());
+        const auto are_most = [&](std::size_t count) { return 2 * count > lines.size(); };
+        return are_most(accepted) ||
+               (coplanar_distance(lines) < options_.max_gap && are_most(passable) &&
+                (is_sure_of_planes || are_most(partly_hidden)));
     }
 
     /// Makes one segment of each set.

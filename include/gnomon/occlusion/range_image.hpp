@@ -61,13 +61,19 @@ class range_image {
         const position_view<R, Proj> p(points, std::move(projection));
         turn(format.pole ? *format.pole : least_seen(p));
         // Only rows in which something is seen are kept, for scan lines a single one.
-        std::vector<pixel> pixels(p.size());
+        struct sight {
+            pixel at;
+            view what;
+        };
+        std::vector<sight> sights;
+        sights.reserve(p.size());
         std::size_t lowest = height_, highest = 0;
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
-            pixels[i] = pixel_of(p[i]);
-            lowest = std::min(lowest, pixels[i].elevation);
-            highest = std::max(highest, pixels[i].elevation);
+            const pixel at = pixel_of(p[i]);
+            sights.push_back({at, {distance_to(p[i]), static_cast<point_index>(i)}});
+            lowest = std::min(lowest, at.elevation);
+            highest = std::max(highest, at.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -77,11 +83,9 @@ class range_image {
         lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            view& v = seen_[place_of(pixels[i])];
-            const double range = distance_to(p[i]);
-            if (v.range < 0.0 || range < v.range) v = {range, static_cast<point_index>(i)};
+        for (const auto& [at, what] : sights) {
+            view& v = seen_[place_of(at)];
+            if (v.range < 0.0 || what.range < v.range) v = what;
         }
     }
 
@@ -156,10 +160,12 @@ class range_image {
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_visible(p[i])) continue;
             const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
-            const double squared = detail::dot(d, d);
+            const double weight = 1.0 / detail::dot(d, d);
             for (int r = 0; r < 3; ++r)
-                for (int c = 0; c < 3; ++c) sum(r, c) += d[r] * d[c] / squared;
+                for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
         }
+        for (int r = 0; r < 3; ++r)
+            for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
         // Where z is as good as any, it is z.
         sum(2, 2) *= 1.0 - 1e-9;
         return detail::column(symmetric_eigen(sum).vectors, 2);

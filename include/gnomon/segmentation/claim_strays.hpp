@@ -12,12 +12,12 @@
 
 #include <algorithm>
 #include <array>
+#include <compare>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <numeric>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -34,7 +34,9 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/features/principal_frame.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -49,36 +51,51 @@ struct stray_claiming {
 
 namespace detail {
 
-/// One run over a cloud.
+/// One run over a cloud. The strays are numbered cube by cube of sigma, and judged so: thousands at
+/// one place cost hardly more than a few.
 template <class Points>
 class stray_claimer {
   public:
-    stray_claimer(const Points& points, const segments& parts, const stray_claiming& options)
-        : points_(points), options_(options), labels_(parts.labels()) {}
+    /// @param graph  the neighbors of each point, nearest first
+    stray_claimer(const Points& points, const adjacency& graph, const segments& parts,
+                  const stray_claiming& options)
+        : points_(points), graph_(graph), options_(options), labels_(parts.labels()) {
+        number_strays();
+        for (cube& c : cubes_) cube_means_.push_back(c.mean);
+        list_followers();
+    }
 
-    /// Makes it known that a segment is flat, and in which plane.
+    /// Makes it known that a segment is flat, and in which plane; without a normal, that it is not.
     void add_plane(const plane& of) { planes_.push_back(of); }
 
-    /// Segments grow by one layer of strays after the other, until no stray is claimed. The tree is
-    /// of the points.
+    /// Segments grow by one layer of strays after the other, until no stray is claimed.
     template <execution X>
-    [[nodiscard]] segments operator()(const kd_tree& tree, const X& run) {
-        find_strays(tree, run);
+    [[nodiscard]] segments operator()(const X& run) {
+        const kd_tree cubes(cube_means_);
         std::vector<std::size_t> layer(strays_.size());
         std::iota(layer.begin(), layer.end(), std::size_t{0});
         std::vector<std::int32_t> claims;
+        std::vector<std::size_t> begin;  // of what the layer has of a cube
         while (!layer.empty()) {
+            begin.clear();
+            for (std::size_t l = 0; l < layer.size(); ++l)
+                if (l == 0 || strays_[layer[l]].cube != strays_[layer[l - 1]].cube)
+                    begin.push_back(l);
+            begin.push_back(layer.size());
             claims.resize(layer.size());
-            for_each_chunk(run, layer.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t l = begin; l < end; ++l) claims[l] = claim_to(layer[l]);
+            for_each_chunk(run, begin.size() - 1, [&](std::size_t first, std::size_t last) {
+                for (std::size_t l = begin[first]; l < begin[last]; ++l)
+                    claims[l] = claim_to(strays_[layer[l]], cubes);
             });
             std::vector<std::size_t> next;  // who has got a neighbor in a segment
             for (std::size_t l = 0; l < layer.size(); ++l) {
                 if (claims[l] == unlabeled) continue;
-                labels_[strays_[layer[l]]] = claims[l];
-                next.insert(next.end(), listed_by_[layer[l]].begin(), listed_by_[layer[l]].end());
+                const std::size_t s = layer[l];
+                labels_[strays_[s].point] = claims[l];
+                for (std::size_t f = first_follower_[s]; f < first_follower_[s + 1]; ++f)
+                    next.push_back(followers_[f]);
             }
-            std::erase_if(next, [&](std::size_t s) { return labels_[strays_[s]] != unlabeled; });
+            std::erase_if(next, [&](auto s) { return labels_[strays_[s].point] != unlabeled; });
             std::sort(next.begin(), next.end());
             next.erase(std::unique(next.begin(), next.end()), next.end());
             layer.swap(next);
@@ -87,119 +104,134 @@ class stray_claimer {
     }
 
   private:
-    /// A segment that was looked at for a stray, and how far this is from its plane; infinitely far
-    /// if it is none of its points [m].
+    struct stray {
+        point_index point;
+        std::size_t cube;
+    };
+    /// Whether the strays about a cube are of the plane of a segment.
     struct judgement {
         std::int32_t segment;
-        double distance;
+        bool is_of_plane;
+    };
+    struct cube {
+        Eigen::Vector3d mean;  ///< of its strays [m]
+        double count;          ///< of them
+        double squared_reach;  ///< of the neighbors of any [m^2]
+        std::vector<judgement> judged = {};
     };
 
-    template <execution X>
-    void find_strays(const kd_tree& tree, const X& run) {
+    /// Sums up the strays cube by cube: what a plane asks of them, the sum of distances from it,
+    /// needs no more than their mean.
+    void number_strays() {
+        struct placed {
+            std::array<double, 3> cube;
+            point_index point;
+            auto operator<=>(const placed&) const = default;
+        };
+        std::vector<placed> all;
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (labels_[i] == unlabeled && is_finite(points_[i])) {
-                strays_.push_back(static_cast<point_index>(i));
-                positions_.push_back(points_[i]);
-            }
+            const Eigen::Vector3d p = points_[i];
+            if (labels_[i] != unlabeled || !is_finite(p)) continue;
+            const auto cell = [&](int a) { return std::floor(p[a] / options_.sigma); };
+            all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
         }
-        around_.resize(strays_.size());
-        judgements_.resize(strays_.size());
-        listed_by_.resize(strays_.size());
-        for_each_chunk(run, strays_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t s = begin; s < end; ++s)
-                tree.nearest(positions_[s], options_.k, strays_[s], around_[s]);
-        });
-        sum_up_cells();
-        for (std::size_t s = 0; s < strays_.size(); ++s) {
-            for (const neighbor& q : around_[s]) {
-                const auto other = std::lower_bound(strays_.begin(), strays_.end(), q.index);
-                if (other != strays_.end() && *other == q.index)
-                    listed_by_[static_cast<std::size_t>(other - strays_.begin())].push_back(s);
+        std::sort(all.begin(), all.end());
+        for (auto first = all.begin(); first != all.end();) {
+            const Eigen::Vector3d origin = points_[first->point];
+            moments m;
+            double squared_reach = 0.0;
+            auto last = first;
+            for (; last != all.end() && last->cube == first->cube; ++last) {
+                const Eigen::Vector3d p = points_[last->point];
+                m.add(difference(p, origin));
+                if (const auto ring = graph_[last->point]; !ring.empty())
+                    squared_reach =
+                        std::max(squared_reach, squared_distance(points_[ring.back()], p));
+                strays_.push_back({last->point, cubes_.size()});
             }
+            const auto n = static_cast<double>(m.count);
+            cubes_.push_back({combined(1.0, origin, 1.0 / n, m.sum), n, squared_reach});
+            first = last;
         }
     }
 
-    /// Sums up the strays in cubes of sigma, so that thousands at one place cost no more than a
-    /// few: what a plane asks of them, the sum of distances from it, needs no more than their mean.
-    void sum_up_cells() {
-        std::vector<std::pair<std::array<double, 3>, std::size_t>> by_cell;
-        for (std::size_t s = 0; s < positions_.size(); ++s) {
-            const auto cell = [&](int a) { return std::floor(positions_[s][a] / options_.sigma); };
-            by_cell.push_back({{cell(0), cell(1), cell(2)}, s});
-        }
-        std::sort(by_cell.begin(), by_cell.end());
-        for (auto first = by_cell.begin(); first != by_cell.end();) {
-            const Eigen::Vector3d& origin = positions_[first->second];
-            moments m;
-            auto last = first;
-            for (; last != by_cell.end() && last->first == first->first; ++last)
-                m.add(difference(positions_[last->second], origin));
-            const auto n = static_cast<double>(m.count);
-            cell_means_.push_back(combined(1.0, origin, 1.0 / n, m.sum));
-            cell_counts_.push_back(n);
-            first = last;
-        }
-        cells_.emplace(cell_means_);
+    /// The followers of a stray are those that it is a neighbor of.
+    void list_followers() {
+        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+        std::vector<std::size_t> number(points_.size(), none);
+        for (std::size_t s = 0; s < strays_.size(); ++s) number[strays_[s].point] = s;
+        const auto for_each_link = [&](auto&& visit) {
+            for (std::size_t s = 0; s < strays_.size(); ++s) {
+                for (const point_index j : graph_[strays_[s].point])
+                    if (number[j] != none) visit(s, number[j]);
+            }
+        };
+        first_follower_.assign(strays_.size() + 1, 0);
+        for_each_link([&](std::size_t, std::size_t to) { ++first_follower_[to + 1]; });
+        std::partial_sum(first_follower_.begin(), first_follower_.end(), first_follower_.begin());
+        followers_.resize(first_follower_.back());
+        std::vector<std::size_t> place(first_follower_.begin(), first_follower_.end() - 1);
+        for_each_link([&](std::size_t s, std::size_t to) { followers_[place[to]++] = s; });
     }
 
     /// The segment to which a stray goes in this round: of those about it whose plane is its own,
     /// the one with the nearest plane.
-    std::int32_t claim_to(std::size_t s) {
-        judgement best{unlabeled, std::numeric_limits<double>::infinity()};
-        for (const neighbor& q : around_[s]) {
-            if (q.squared_distance > options_.max_distance * options_.max_distance) break;
-            const std::int32_t segment = labels_[q.index];
-            if (segment == unlabeled) continue;
-            auto& known = judgements_[s];
-            auto j = std::find_if(known.begin(), known.end(),
-                                  [segment](const judgement& k) { return k.segment == segment; });
-            if (j == known.end())
-                j = known.insert(
-                    j, {segment, distance_if_of(s, planes_[static_cast<std::size_t>(segment)])});
-            if (j->distance < best.distance) best = *j;
+    std::int32_t claim_to(const stray& s, const kd_tree& cubes) {
+        const Eigen::Vector3d p = points_[s.point];
+        std::int32_t best = unlabeled;
+        double least = thickness();
+        for (const point_index j : graph_[s.point]) {
+            if (squared_distance(points_[j], p) > options_.max_distance * options_.max_distance)
+                break;
+            const std::int32_t segment = labels_[j];
+            if (segment == unlabeled || segment == best) continue;
+            const plane& of = planes_[static_cast<std::size_t>(segment)];
+            const double distance = std::abs(of.signed_distance(p));
+            const bool is_nearer = best == unlabeled ? distance <= least : distance < least;
+            if (is_missing(of.normal) || !is_nearer || !are_of(segment, cubes_[s.cube], cubes))
+                continue;
+            best = segment;
+            least = distance;
         }
-        return best.segment;
+        return best;
     }
 
-    /// How far a stray is from a plane [m]; infinity if it, or the strays about it, are too far to
-    /// be of the plane.
-    double distance_if_of(std::size_t s, const plane& of) const {
-        constexpr double no = std::numeric_limits<double>::infinity(), deviations = 3.0;
-        const double thickness = deviations * options_.sigma;
-        const Eigen::Vector3d& p = positions_[s];
-        if (is_missing(of.normal)) return no;
-        const double distance = of.signed_distance(p);
-        if (!(std::abs(distance) <= thickness)) return no;
-        // About it in the slab, and so wide that noise does not decide who is near.
-        const double farthest =
-            around_[s].empty() ? 0.0 : std::sqrt(around_[s].back().squared_distance);
-        const double width = std::max(thickness, farthest);
+    /// Whether the strays in the slab about the plane of a segment, near a cube, are of the plane.
+    bool are_of(std::int32_t segment, cube& near, const kd_tree& cubes) {
+        const auto known =
+            std::find_if(near.judged.begin(), near.judged.end(),
+                         [segment](const judgement& j) { return j.segment == segment; });
+        if (known != near.judged.end()) return known->is_of_plane;
+        const plane& of = planes_[static_cast<std::size_t>(segment)];
+        // So wide that noise does not decide who is near.
+        const double width2 = std::max(thickness() * thickness(), near.squared_reach);
         double sum = 0.0, n = 0.0;
-        cells_->for_each_within(
-            combined(1.0, p, -distance, of.normal), std::hypot(width, thickness),
-            [&](const neighbor& q) {
-                const double off = of.signed_distance(cell_means_[q.index]);
-                if (std::abs(off) > thickness || q.squared_distance - off * off > width * width)
-                    return;
-                sum += cell_counts_[q.index] * off;
-                n += cell_counts_[q.index];
+        cubes.for_each_within(
+            combined(1.0, near.mean, -of.signed_distance(near.mean), of.normal),
+            std::sqrt(width2 + thickness() * thickness()), [&](const neighbor& q) {
+                const double off = of.signed_distance(cubes_[q.index].mean);
+                if (std::abs(off) > thickness() || q.squared_distance - off * off > width2) return;
+                sum += cubes_[q.index].count * off;
+                n += cubes_[q.index].count;
             });
         const bool is_of_plane = std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
-        return is_of_plane ? std::abs(distance) : no;
+        near.judged.push_back({segment, is_of_plane});
+        return is_of_plane;
     }
 
+    static constexpr double deviations = 3.0;
+    /// Of the slab about a plane, to each side [m].
+    double thickness() const { return deviations * options_.sigma; }
+
     const Points& points_;
+    const adjacency& graph_;
     stray_claiming options_;
     std::vector<std::int32_t> labels_;
-    std::vector<plane> planes_;        // of the segments; those that are not flat have no normal
-    std::vector<point_index> strays_;  // ascending
-    std::vector<Eigen::Vector3d> positions_;           // of the strays [m]
-    std::vector<Eigen::Vector3d> cell_means_;          // of the strays in a cube [m]
-    std::vector<double> cell_counts_;                  // how many these are
-    std::optional<kd_tree> cells_;                     // of the means
-    std::vector<std::vector<neighbor>> around_;        // each stray, in the cloud
-    std::vector<std::vector<std::size_t>> listed_by_;  // the strays that it is a neighbor of
-    std::vector<std::vector<judgement>> judgements_;   // about it, once for all
+    std::vector<plane> planes_;  // of the segments; those that are not flat have no normal
+    std::vector<stray> strays_;  // cube by cube
+    std::vector<cube> cubes_;
+    std::vector<Eigen::Vector3d> cube_means_;              // the same as theirs
+    std::vector<std::size_t> first_follower_, followers_;  // of the strays
 };
 
 }  // namespace detail
@@ -212,7 +244,7 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n log n), and for s strays O(s (k + cubes of sigma in the slab about each)).
+/// Complexity: O(n (log n + k)), and for c cubes of side sigma with strays O(c) slabs of cubes.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,
@@ -225,7 +257,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.k > 0, "claim_strays: k must be at least 1");
     detail::require(options.max_distance >= 0.0,
                     "claim_strays: max_distance must not be negative or NaN");
-    detail::stray_claimer claimer(p, parts, options);
+    const adjacency graph = knn{options.k}(points, run, projection);
+    detail::stray_claimer claimer(p, graph, parts, options);
     for (std::size_t s = 0; s < parts.size(); ++s) {
         const auto frame = principal_frame_of(subset_view<R, Proj>(points, parts[s], projection));
         const bool is_flat =
@@ -233,7 +266,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
         const Eigen::Vector3d normal = is_flat ? frame.normal() : Eigen::Vector3d(0.0, 0.0, 0.0);
         claimer.add_plane({normal, detail::dot(normal, frame.centroid)});
     }
-    return claimer(kd_tree(points, std::move(projection)), run);
+    return claimer(run);
 }
 
 }  // namespace gnomon

@@ -145,52 +145,90 @@ struct depth_regression {
     return sample;
 }
 
-/// Whether two samples are of one plane, as far as noise lets them tell.
-///
-/// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and of
-/// what is no noise, such as round edges, a tenth of a standard deviation more; an angle that is
-/// well known may be up to max_angle. Nothing is told if noise would hide an offset of max_offset
-/// more often than one time in six.
-/// @param wide  that of the wider segment
-[[nodiscard]] inline bool in_one_plane(const plane_sample& wide, const plane_sample& slim,
-                                       double sigma, angle max_angle, double max_offset) {
-    constexpr double deviations = 3.0;               // 99.7 % of a normal distribution
-    constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-    constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
-    constexpr double no_noise = 0.1;                 // in standard deviations
-    if (wide.count == 0 || slim.count == 0) return false;
-    // The slim one depends more on how the rays go.
-    const sight_axes axes = axes_towards(slim);
-    const depth_regression a(wide, axes), b(slim, axes);
-    const double m = static_cast<double>(wide.count), n = static_cast<double>(slim.count);
-    const double variance = sigma * sigma;
-    const matrix_across known_a = (m / variance) * a.spread, known_b = (n / variance) * b.spread;
+/// Two samples, and what noise lets them tell of whether they are of one plane.
+class plane_comparison {
+  public:
+    /// @param wide  that of the wider segment
+    plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
+        : wide_(wide),
+          slim_(slim),
+          sigma_(sigma),
+          axes_(axes_towards(slim)),  // the slim one depends more on how the rays go
+          a_(wide, axes_),
+          b_(slim, axes_) {}
 
-    const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
-    const matrix_across by_noise = (1.0 + no_noise * no_noise * m) * known_a.inverse() +
-                                   (1.0 + no_noise * no_noise * n) * known_b.inverse();
-    const bool parallel = dot(turn, by_noise.solved(turn)) <= square_of_two;
-    if (!parallel) {
-        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
-        const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
-        const double doubt = deviations * std::sqrt(by_noise.largest_eigenvalue());
-        if (!(turned <= max_angle.radians() && std::atan(doubt) <= max_angle.radians()))
-            return false;
+    /// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and
+    /// of what is no noise, such as round edges, a tenth of a standard deviation more; an angle
+    /// that is well known may be up to max_angle. Nothing is told if noise would hide an offset of
+    /// max_offset more often than one time in six.
+    [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
+        constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
+        constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
+        if (wide_.count == 0 || slim_.count == 0) return false;
+        const place_across turn{a_.slope[0] - b_.slope[0], a_.slope[1] - b_.slope[1]};
+        const bool parallel = dot(turn, spread_of_turn().solved(turn)) <= square_of_two;
+        if (!parallel) {
+            const Eigen::Vector3d normal = a_.normal(axes_), other = b_.normal(axes_);
+            const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
+            if (!(turned <= max_angle.radians() && turns_less(spread_of_turn(), max_angle)))
+                return false;
+        }
+
+        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
+        // more.
+        const matrix_across known_a = known(wide_, a_), known_b = known(slim_, b_);
+        const matrix_across sum = parallel ? known_a + known_b : known_a;
+        const place_across in_a = known_a * a_.slope, in_b = known_b * b_.slope;
+        const place_across slope =
+            parallel ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a_.slope;
+        const Eigen::Vector3d between = difference(slim_.mean, wide_.mean);
+        const place_across way{dot(axes_.x, between), dot(axes_.y, between)};
+        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
+        const double offset = cosine * std::abs(dot(axes_.along, between) - dot(slope, way));
+        const double variance = sigma_ * sigma_;
+        const double deviation = cosine * std::sqrt(variance / static_cast<double>(wide_.count) +
+                                                    variance / static_cast<double>(slim_.count) +
+                                                    dot(way, sum.solved(way)));
+        // What is hardly wider than noise became a segment by chance, and its points are no fair
+        // sample of the noise.
+        constexpr double chosen = 1.0;  // in standard deviations
+        const bool is_speck = b_.spread.largest_eigenvalue() < 9.0 * variance;
+        return not_hidden * deviation + no_noise * sigma_ < max_offset &&
+               offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 
-    // The slope of parallel planes is that of both, as each knows it; else the wide one knows more.
-    const matrix_across known = parallel ? known_a + known_b : known_a;
-    const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
-    const place_across slope =
-        parallel ? known.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
-    const Eigen::Vector3d between = difference(slim.mean, wide.mean);
-    const place_across way{dot(axes.x, between), dot(axes.y, between)};
-    const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // from depths to distances
-    const double offset = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
-    const double deviation =
-        cosine * std::sqrt(variance / m + variance / n + dot(way, known.solved(way)));
-    return not_hidden * deviation + no_noise * sigma < max_offset &&
-           offset <= deviations * deviation + no_noise * sigma;
-}
+    /// Whether noise turns at least one of them by no more than an angle, in 997 of 1,000 cases.
+    [[nodiscard]] bool is_sure_of_one(angle at_most) const {
+        return turns_less(spread_of_slope(wide_, a_), at_most) ||
+               turns_less(spread_of_slope(slim_, b_), at_most);
+    }
+
+  private:
+    static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+    static constexpr double no_noise = 0.1;    // in standard deviations
+
+    /// How well a slope is known: the inverse of its covariance.
+    [[nodiscard]] matrix_across known(const plane_sample& sample, const depth_regression& r) const {
+        return (static_cast<double>(sample.count) / (sigma_ * sigma_)) * r.spread;
+    }
+
+    /// The covariance of a slope.
+    [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
+                                                const depth_regression& r) const {
+        const double more = no_noise * no_noise * static_cast<double>(sample.count);
+        return (1.0 + more) * known(sample, r).inverse();
+    }
+    [[nodiscard]] matrix_across spread_of_turn() const {
+        return spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
+    }
+    [[nodiscard]] static bool turns_less(const matrix_across& spread, angle at_most) {
+        return std::atan(deviations * std::sqrt(spread.largest_eigenvalue())) <= at_most.radians();
+    }
+
+    const plane_sample &wide_, &slim_;
+    double sigma_;
+    sight_axes axes_;
+    depth_regression a_, b_;  // of wide and slim
+};
 
 }  // namespace gnomon::detail
