@@ -10984,12 +10984,6 @@ class plane_comparison {
                offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 
-    /// Whether noise turns at least one of them by no more than an angle, in 997 of 1,000 cases.
-    [[nodiscard]] bool is_sure_of_one(angle at_most) const {
-        return turns_less(spread_of_slope(wide_, a_), at_most) ||
-               turns_less(spread_of_slope(slim_, b_), at_most);
-    }
-
   private:
     static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
     static constexpr double no_noise = 0.1;    // in standard deviations
@@ -11117,15 +11111,12 @@ class occlusion_merger {
         bool any = false;
         for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
                                                    [this](const auto& f) { return is_flat(f); })) {
-            if (!(changed_[i] || changed_[j])) continue;
-            const plane_comparison planes = compared(i, j);
-            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
+            if (!(changed_[i] || changed_[j]) || !are_of_one_plane(i, j)) continue;
             considered_gap gap{
                 boundary_pairs(points_, members_[i], members_[j],
                                {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
                 false};
-            gap.merged = spans(gap.lines,
-                               planes.is_sure_of_one(radians(0.5 * options_.max_angle.radians())));
+            gap.merged = spans(gap.lines);
             if (gap.merged) sets.unite(i, j);
             any = any || gap.merged;
             gaps_.push_back(std::move(gap));
@@ -11148,18 +11139,18 @@ class occlusion_merger {
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] plane_comparison compared(std::size_t i, std::size_t j) const {
+    [[nodiscard]] bool are_of_one_plane(std::size_t i, std::size_t j) const {
         const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
         const std::size_t wide = first ? i : j, slim = first ? j : i;
-        return {planes_[wide], planes_[slim], options_.sigma};
+        return plane_comparison(planes_[wide], planes_[slim], options_.sigma)
+            .is_of_one(options_.max_angle, options_.max_offset);
     }
 
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
-    /// by whoever merges unless something farther is seen. If then nothing is in front either, the
-    /// planes must be known to agree, not only not to differ. A gap that is seen through at one
-    /// place is one, be there ever so much in front of the others.
-    [[nodiscard]] bool spans(std::span<const boundary_pair> lines, bool is_sure_of_planes) const {
-        std::size_t accepted = 0, passable = 0, partly_hidden = 0;
+    /// by whoever merges unless something farther is seen. A gap that is seen through at one place
+    /// is one, be there ever so much in front of the others.
+    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
+        std::size_t accepted = 0, passable = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
@@ -11168,12 +11159,9 @@ class occlusion_merger {
             if (seen[sighting::farther] > 0 && !policy_(sighting::farther)) return false;
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
-            partly_hidden += seen[sighting::closer] > 0 ? 1 : 0;
         }
-        const auto are_most = [&](std::size_t count) { return 2 * count > lines.size(); };
-        return are_most(accepted) ||
-               (coplanar_distance(lines) < options_.max_gap && are_most(passable) &&
-                (is_sure_of_planes || are_most(partly_hidden)));
+        return 2 * accepted > lines.size() ||
+               (coplanar_distance(lines) < options_.max_gap && 2 * passable > lines.size());
     }
 
     /// Makes one segment of each set.

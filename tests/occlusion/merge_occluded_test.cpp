@@ -209,17 +209,6 @@ TEST(merge_occluded, goes_on_in_rounds) {
     EXPECT_EQ(again.segments, merged.segments);
 }
 
-/// Slats hardly wider than noise may be of any plane about them, unless one that is wider tells.
-TEST(merge_occluded, does_not_merge_what_is_not_known_to_agree) {
-    drawn slats;
-    slats.add({3, 0.0, 0.0}, 2, 20);
-    slats.add({3, 0.06, 0.0}, 2, 20);
-    EXPECT_EQ(slats.merged().segments.size(), 2u);
-    EXPECT_EQ(slats.merged({.sigma = 0.001}).segments.size(), 1u);
-    slats.add({3, 0.3, 0.0}, 20, 20);
-    EXPECT_EQ(slats.merged().segments.size(), 1u);
-}
-
 /// Beside each other behind a column, but not in one plane: no gap is looked into.
 TEST(merge_occluded, merges_only_what_lies_in_one_plane) {
     for (const double step : {0.1, 0.5}) {
@@ -512,8 +501,7 @@ TEST(merge_occluded, of_thousands_of_segments_looks_into_few_gaps) {
     EXPECT_EQ(
         merge_occluded(from_afar, segments(labels), lines_of_sight(from_afar), never).gaps.size(),
         100u * 49 + 99 * 50);
-    const auto merged = merge_occluded(points, segments(labels), lines_of_sight(points),
-                                       conservative{}, {.sigma = 0.003});
+    const auto merged = merge_occluded(points, segments(labels), lines_of_sight(points));
     EXPECT_EQ(merged.segments.size(), 1u) << "the gaps between them are narrow";
 }
 

@@ -97,20 +97,6 @@ TEST(plane_comparison, does_not_reach_farther_than_it_knows) {
     EXPECT_EQ(found_in_one_plane(tile, {{3.0, 1.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 0);
 }
 
-/// Two slats say nothing about each other's direction, but a slat and a seat agree.
-TEST(plane_comparison, knows_whether_it_is_sure) {
-    const auto slat =
-        sample_of(seen_rectangle{{1.5, 0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}.points(1));
-    const auto other =
-        sample_of(seen_rectangle{{1.5, -0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}.points(2));
-    const auto is_sure = [](const plane_sample& a, const plane_sample& b) {
-        return plane_comparison(a, b, sigma).is_sure_of_one(gnomon::degrees(7.5));
-    };
-    EXPECT_FALSE(is_sure(slat, other));
-    EXPECT_TRUE(is_sure(sample_of(seat.points(3)), slat));
-    EXPECT_TRUE(is_sure(slat, sample_of(seat.points(3))));
-}
-
 TEST(plane_comparison, of_no_points_is_nothing) {
     const plane_sample none = sample_of({}), some = sample_of(seat.points(1));
     EXPECT_EQ(none.count, 0u);

@@ -197,12 +197,6 @@ class plane_comparison {
                offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 
-    /// Whether noise turns at least one of them by no more than an angle, in 997 of 1,000 cases.
-    [[nodiscard]] bool is_sure_of_one(angle at_most) const {
-        return turns_less(spread_of_slope(wide_, a_), at_most) ||
-               turns_less(spread_of_slope(slim_, b_), at_most);
-    }
-
   private:
     static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
     static constexpr double no_noise = 0.1;    // in standard deviations
