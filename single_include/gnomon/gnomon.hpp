@@ -12040,7 +12040,8 @@ struct pcd_lines {
 
 /// Reads the header; leaves `text` before the data.
 /// @throws gnomon::error  if it is damaged or contradicts itself
-[[nodiscard]] inline pcd_header read_pcd_header(text_cursor& text) {
+template <class = void>  // as read_ply and read_pcd are
+[[nodiscard]] pcd_header read_pcd_header(text_cursor& text) {
     pcd_lines lines = read_pcd_lines(text);
     pcd_header header;
 
@@ -12368,7 +12369,8 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 /// @param fields  names of further fields, e.g. "intensity" or, of many values, "fpfh[0]"
 /// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);
     const std::vector<std::string> columns = detail::pcd_columns(header);
@@ -12458,7 +12460,8 @@ struct ply_header {
 
 /// Reads the header; leaves `text` before the first element.
 /// @throws gnomon::error  if it is damaged or not the header of a PLY file
-[[nodiscard]] inline ply_header read_ply_header(text_cursor& text) {
+template <class = void>  // as read_ply and read_pcd are
+[[nodiscard]] ply_header read_ply_header(text_cursor& text) {
     ply_header header;
     if (text.words().next() != "ply") text.fail("not a PLY file");
     for (;;) {
@@ -12575,7 +12578,8 @@ template <class Rows>
 /// @param fields  names of further properties of the vertices, e.g. "nx", that become fields
 /// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::ply_header header = detail::read_ply_header(text);
 
@@ -12642,7 +12646,8 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if a field
 ///                        is asked for
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);
     detail::scan_builder builder({"x", "y", "z"}, fields, text);
@@ -12724,7 +12729,8 @@ namespace detail {
 /// @throws gnomon::error  for a line that is no row of as many numbers as the first, if there is no
 ///                        point at all, or not all the fields
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
     std::optional<detail::scan_builder> builder;
@@ -12783,7 +12789,8 @@ namespace detail {
 /// @throws gnomon::error  if the file is damaged or has not all the fields; it lists
 ///                        those there are
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
     if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
@@ -12793,8 +12800,8 @@ namespace detail {
 
 /// Reads the file `path`.
 /// @throws gnomon::error  moreover with the system's reason, if it cannot be read
-[[nodiscard]] inline scan read(const std::string& path,
-                               const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read(const std::string& path, const std::vector<std::string>& fields = {}) {
     return read(load(path), fields);
 }
 

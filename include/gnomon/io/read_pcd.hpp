@@ -127,7 +127,8 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 /// @param fields  names of further fields, e.g. "intensity" or, of many values, "fpfh[0]"
 /// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);
     const std::vector<std::string> columns = detail::pcd_columns(header);

@@ -72,7 +72,8 @@ namespace detail {
 /// @throws gnomon::error  for a line that is no row of as many numbers as the first, if there is no
 ///                        point at all, or not all the fields
 /// Complexity: O(bytes).
-[[nodiscard]] inline scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
+template <class = void>  // costs the compiler nothing where nobody reads
+[[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
     std::optional<detail::scan_builder> builder;

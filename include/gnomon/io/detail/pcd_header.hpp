@@ -97,7 +97,8 @@ struct pcd_lines {
 
 /// Reads the header; leaves `text` before the data.
 /// @throws gnomon::error  if it is damaged or contradicts itself
-[[nodiscard]] inline pcd_header read_pcd_header(text_cursor& text) {
+template <class = void>  // as read_ply and read_pcd are
+[[nodiscard]] pcd_header read_pcd_header(text_cursor& text) {
     pcd_lines lines = read_pcd_lines(text);
     pcd_header header;
 

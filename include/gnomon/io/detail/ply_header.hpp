@@ -84,7 +84,8 @@ struct ply_header {
 
 /// Reads the header; leaves `text` before the first element.
 /// @throws gnomon::error  if it is damaged or not the header of a PLY file
-[[nodiscard]] inline ply_header read_ply_header(text_cursor& text) {
+template <class = void>  // as read_ply and read_pcd are
+[[nodiscard]] ply_header read_ply_header(text_cursor& text) {
     ply_header header;
     if (text.words().next() != "ply") text.fail("not a PLY file");
     for (;;) {
