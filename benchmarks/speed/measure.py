@@ -3,14 +3,13 @@
 """Measures gnomon and its peers more thoroughly than peers does, and writes speed.json.
 
 The same turns (../peers/turns.py) on more tasks and larger clouds; parts of a cloud, for how time
-grows with the number of points; gnomon on one thread and on two, in turns with itself; and
-instructions, which valgrind counts: these do not depend on who else uses the machine.
+grows with the number of points; and instructions, which valgrind counts: these do not depend on who
+else uses the machine.
 """
 
 import pathlib
 import re
 import shutil
-import statistics
 import subprocess
 import sys
 
@@ -18,7 +17,7 @@ sys.dont_write_bytecode = True  # in a folder of sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
 
 import turns  # noqa: E402
-from turns import OFFICE, OURS, Part, Refusal, blank, describe, unmeasured  # noqa: E402
+from turns import OFFICE, OURS, Part, Refusal, blank, describe  # noqa: E402
 
 SEARCH = {
     OURS: "gnomon",
@@ -105,48 +104,6 @@ QUICK = [
 ]
 
 
-GAIN = "gain of threads"  # the task of rows that compare gnomon with itself
-
-
-def gains(programs, clouds, quick):
-    """Rows of how many times as long one thread takes as two. Two threads wait for the slower of two
-    cores, so that what else happens disturbs them more: there are more rounds than beside others."""
-    plan = [(SMALL, [10])] if quick else [("kitchen", KS), (OFFICE, KS), ("kitchen_million", [30])]
-    rows = []
-    for cloud_name, ks in plan:
-        part = Part("normals", cloud_name, ks, only(NORMALS, OURS), threads=(2,),
-                    rounds=2 if quick else 15)
-        for folder, setting in part.settings(programs):
-            setting["task"] = GAIN
-            print(f"[{turns.text_of(setting)}]", file=sys.stderr, flush=True)
-            try:
-                cloud, setting["points"] = clouds.make(cloud_name)
-                rows.append(gain(folder / OURS, setting, part, cloud))
-            except Refusal as refusal:
-                rows.append(unmeasured(setting, OURS, str(refusal)))
-    return rows
-
-
-def gain(program, setting, part, cloud):
-    workers = [turns.Worker(program, f"{part.task}/{OURS}", cloud, setting["k"], threads)
-               for threads in (1, 2)]
-    for turn in range(part.rounds):
-        for worker in workers[::1 if turn % 2 else -1]:
-            worker.take_turn()
-    for worker in workers:
-        worker.dismiss()
-    if failures := [worker.failure for worker in workers if worker.failure]:
-        raise Refusal(failures[0])
-    one, two = (worker.seconds for worker in workers)
-    ratios = [a / b for a, b in zip(one, two)]
-    return blank(setting, OURS) | {
-        "version": describe(program)["version"], "seconds": statistics.median(two),
-        "seconds_of_one_thread": statistics.median(one),
-        "gain": round(statistics.median(one) / statistics.median(two), 3),
-        "gain_low": round(min(ratios), 3), "gain_high": round(max(ratios), 3),
-        "rounds": part.rounds}
-
-
 def count_instructions(program, job, cloud, reach, times):
     """Of the whole program, which does the work once and so many times more."""
     valgrind = shutil.which("valgrind")
@@ -185,4 +142,4 @@ def instructions(programs, clouds, quick):
     return rows
 
 
-turns.main("speed", FULL, QUICK, lambda *about: gains(*about) + instructions(*about))
+turns.main("speed", FULL, QUICK, instructions)

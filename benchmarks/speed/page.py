@@ -55,18 +55,16 @@ METHOD = """\
   EuclideanClusterExtraction, Open3D's ClusterDBSCAN where one point is enough for a core, CGAL's
   cluster_point_set, and a loop of one's own by nanoflann's radius search, breadth first. All must
   find the same number of clusters.
-- Two threads: gnomon on one thread and on two in turns with itself, 15 rounds, as two threads are
-  disturbed by whatever keeps one of two cores.
 - Memory: how far the resident set rose during the warm-up. Instructions: of the program doing the
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
 - A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
 
 What was left out, so that all takes less than half an hour: CGAL's jets and, but for the kitchen,
 ANN with GSL and PCL's estimator for one thread, none of which is the fastest anywhere (see
-[peers.md](peers.md)); but for the kitchen, on two threads beside others, normals with another k than
-30; search and surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but
-normals, k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured
-in one round.
+[peers.md](peers.md)); but for the kitchen, on two threads, normals with another k than 30; search and
+surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but normals,
+k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured in one
+round.
 """
 
 
@@ -96,12 +94,8 @@ EXTRAS = [
 
 
 def is_timed(row):
-    """Whether a row is of a whole cloud and of libraries, not of parts, threads or instructions."""
-    return "/" not in row["cloud"] and "instructions" not in row and not is_gain(row)
-
-
-def is_gain(row):
-    return row["task"] == "gain of threads"
+    """Whether a row is of a whole cloud, and not one of the parts or of instructions."""
+    return "/" not in row["cloud"] and "instructions" not in row
 
 
 def is_part(row):
@@ -165,22 +159,6 @@ def scaling_section(rows):
                     along = f"k, {min(ks)} to {max(ks)}, {own[0]['points']:,} points"
                     lines.append(growth(library, along, own, "k"))
     parts.append(markdown(["library", "along", "flags", "exponent", "ns for each point"], lines))
-    return "\n".join(parts)
-
-
-# ---- Two threads --------------------------------------------------------------------------------
-
-def gains_section(rows):
-    parts = ["## Two threads\n",
-             "How many times as long gnomon takes on one thread as on two for normals, both in turns; "
-             "medians,\nand the least and greatest of any round.\n"]
-    lines = [[tables.CLOUDS.get(row["cloud"], row["cloud"]), row["flags"], str(row["k"]),
-              f"{1e9 * row['seconds_of_one_thread'] / row['points']:.0f}", f"{nanoseconds(row):.0f}",
-              f"{row['gain']:.2f} ({row['gain_low']:.2f} to {row['gain_high']:.2f})",
-              str(row["rounds"])]
-             for row in rows if is_gain(row) and row["seconds"]]
-    parts.append(markdown(["cloud", "flags", "k", "one thread [ns for each point]", "two", "gain",
-                           "rounds"], lines))
     return "\n".join(parts)
 
 
@@ -268,9 +246,8 @@ def page(rows):
     timed = [row for row in rows if is_timed(row)]
     sections = [section(own, times=("Nanoseconds for each point", time_text), extras=EXTRAS)
                 for own in sections_of(timed)]
-    gains = [row for row in rows if is_gain(row)]
-    return "\n".join([head, verdicts_section(timed + gains), *sections, gains_section(rows),
-                      memory_section(timed), scaling_section(rows), instructions_section(rows), limit_section(rows),
+    return "\n".join([head, verdicts_section(timed), *sections, memory_section(timed),
+                      scaling_section(rows), instructions_section(rows), limit_section(rows),
                       METHOD])
 
 
