@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, perception, the simulator and all that
-they include.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, perception, the simulator and
+all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          says whether that file is what would be written

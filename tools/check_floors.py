@@ -3,10 +3,11 @@
 """Keeps the floors of include/gnomon apart.
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
-contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which needs Boost), gnomon.hpp every
-umbrella but that of the simulator. The roof, which composes all floors, stands beside the umbrellas and is included by name. Adapters to other libraries see all floors, and nobody sees them;
-they have no umbrella. Some foreign headers are kept out, for what they cost or break. No header includes itself
-in a circle.
+contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
+needs Boost), gnomon.hpp every umbrella but that of the simulator. The roof, which composes all
+floors, stands beside the umbrellas and is included by name. Adapters to other libraries see all
+floors, and nobody sees them; they have no umbrella. Some foreign headers are kept out, for what
+they cost or break. No header includes itself in a circle.
 """
 
 import pathlib

@@ -89,18 +89,22 @@ struct merge_tally {
     double coplanar = 0.0;  ///< of these, of two objects in one plane
     double in_noise = 0.0;  ///< of these, of planes less than 15 mm apart, and not that
 
-    merge_tally& operator+=(const merge_tally& t) {
-        wanted += t.wanted;
-        right += t.right;
-        wrong += t.wrong;
-        coplanar += t.coplanar;
-        in_noise += t.in_noise;
-        return *this;
+    void add(const merge_tally& t, double weight) {
+        wanted += weight * t.wanted;
+        right += weight * t.right;
+        wrong += weight * t.wrong;
+        coplanar += weight * t.coplanar;
+        in_noise += weight * t.in_noise;
     }
     [[nodiscard]] double precision() const {
         return right + wrong > 0.0 ? right / (right + wrong) : 1.0;
     }
     [[nodiscard]] double recall() const { return wanted > 0.0 ? right / wanted : 1.0; }
+};
+
+/// Each pair counted as one, and as the points of both.
+struct merge_tallies {
+    merge_tally pairs, by_points;
 };
 
 /// The segments of a scan. Of a segment of which more than a fifth is of other surfaces nothing is
@@ -150,29 +154,30 @@ class fragments {
     /// Whether two fragments are one surface that something before it has torn apart.
     [[nodiscard]] bool wanted(std::size_t a, std::size_t b) const { return whole_[a] == whole_[b]; }
 
-    /// What a merging has done: pairs count as one, or as the points of both. Of fragments of one
-    /// surface that nothing has torn apart, it is right to merge them and right not to.
-    [[nodiscard]] merge_tally tally(const gnomon::segments& merged, bool by_points) const {
-        merge_tally t;
+    /// What a merging has done. Of fragments of one surface that nothing has torn apart, it is
+    /// right to merge them and right not to.
+    [[nodiscard]] merge_tallies tally(const gnomon::segments& merged) const {
+        merge_tallies t;
         for (std::size_t i = 0; i < parts_.size(); ++i) {
             for (std::size_t j = i + 1; j < parts_.size(); ++j) {
                 const std::int32_t a = surface_[i], b = surface_[j];
                 if (a == gnomon::nothing || b == gnomon::nothing) continue;
-                const double weight =
-                    by_points ? static_cast<double>(parts_[i].size() + parts_[j].size()) : 1.0;
                 const bool is_merged =
                     merged.labels()[parts_[i].front()] == merged.labels()[parts_[j].front()];
+                merge_tally pair;
                 if (wanted(i, j)) {
-                    t.wanted += weight;
-                    if (is_merged) t.right += weight;
+                    pair.wanted = 1.0;
+                    pair.right = is_merged ? 1.0 : 0.0;
                 } else if (is_merged && a != b) {
-                    t.wrong += weight;
+                    pair.wrong = 1.0;
                     const double apart = surfaces_.distance(a, b);
                     if (apart < 0.005 && !surfaces_.same_object(a, b))
-                        t.coplanar += weight;
+                        pair.coplanar = 1.0;
                     else if (apart < 0.015)
-                        t.in_noise += weight;
+                        pair.in_noise = 1.0;
                 }
+                t.pairs.add(pair, 1.0);
+                t.by_points.add(pair, static_cast<double>(parts_[i].size() + parts_[j].size()));
             }
         }
         return t;

@@ -5,11 +5,9 @@
 // that moves, at one for each view point.
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "fragments.hpp"
@@ -40,16 +38,13 @@ gnomon::true_scan scan_of(const gnomon::scene& world, const gnomon::bvh_caster& 
 
 /// How all policies do in one scan, or in many.
 struct outcome {
-    struct of_policy {
-        merge_tally pairs, by_points;
-    };
-    std::array<of_policy, policies.size()> tallies{};
+    std::array<merge_tallies, policies.size()> tallies{};
     std::size_t fragments = 0, mixed = 0;
 
     outcome& operator+=(const outcome& o) {
         for (std::size_t p = 0; p < policies.size(); ++p) {
-            tallies[p].pairs += o.tallies[p].pairs;
-            tallies[p].by_points += o.tallies[p].by_points;
+            tallies[p].pairs.add(o.tallies[p].pairs, 1.0);
+            tallies[p].by_points.add(o.tallies[p].by_points, 1.0);
         }
         fragments += o.fragments;
         mixed += o.mixed;
@@ -74,7 +69,7 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     const gnomon::lines_of_sight sights(truth.scan);
     const gnomon::lines_of_sight upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
     const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
-        result.tallies[policy] = {known.tally(merged, false), known.tally(merged, true)};
+        result.tallies[policy] = known.tally(merged);
     };
     const auto mend = [&](const auto& policy) {
         return gnomon::merge_occluded(truth.scan, parts, sights, policy).segments;
@@ -93,16 +88,8 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
 /// In rooms 1 to `rooms`; on all cores, as nothing is timed.
 outcome outcome_of(std::uint64_t rooms, const std::string& trajectory, std::uint64_t seed) {
     std::vector<outcome> of_room(rooms);
-    std::atomic<std::uint64_t> next{0};
-    const auto work = [&] {
-        for (std::uint64_t r = next++; r < rooms; r = next++)
-            of_room[r] = outcome_in(r + 1, trajectory, seed);
-    };
-    {
-        std::vector<std::jthread> others(std::max(1U, std::thread::hardware_concurrency()) - 1);
-        for (std::jthread& t : others) t = std::jthread(work);
-        work();
-    }
+    gnomon::threads{}(rooms,
+                      [&](std::size_t r) { of_room[r] = outcome_in(r + 1, trajectory, seed); });
     outcome total;
     for (const outcome& o : of_room) total += o;
     return total;

@@ -3,12 +3,13 @@
 // scans with labels by others and on simulated ones, by Hoover's measures (hoover.hpp). Every
 // method runs with its defaults and with all settings of a small grid, made of the same numbers for
 // all (plane_methods.hpp); of the grid, the setting with the most correct regions is told.
+#include <algorithm>
 #include <array>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -19,6 +20,7 @@
 #include "plane_methods.hpp"
 #include "plane_scans.hpp"
 #include "record.hpp"
+#include <gnomon/core/execution.hpp>
 
 namespace {
 
@@ -164,13 +166,17 @@ json measure(const effort& much, const std::vector<source>& own) {
         std::fflush(stdout);
         results.add(scene);
         for (const planes::method& m : methods) {
-            std::optional<score> best, best_f;
-            for (const planes::setting& how : m.settings) {
-                const score s = score_of(scene, how);
-                if (!best) results.add(scene, m.name, "defaults", s);
-                if (!best || is_better(s, *best)) best = s;
-                if (!best_f || s.at[eighty].f() > best_f->at[eighty].f()) best_f = s;
-            }
+            std::vector<score> scores(m.settings.size());
+            gnomon::threads{}(scores.size(), [&](std::size_t s) {  // nothing is timed
+                scores[s] = score_of(scene, m.settings[s]);
+            });
+            results.add(scene, m.name, "defaults", scores.front());
+            const auto best =
+                std::max_element(scores.begin(), scores.end(),
+                                 [](const score& a, const score& b) { return is_better(b, a); });
+            const auto best_f = std::max_element(
+                scores.begin(), scores.end(),
+                [](const score& a, const score& b) { return a.at[eighty].f() < b.at[eighty].f(); });
             results.add(scene, m.name, "best", *best);
             if (best_f->setting != best->setting) results.add(scene, m.name, "best F", *best_f);
         }
@@ -200,6 +206,8 @@ int main(int argc, char** argv) {
         });
         i += 3;
     }
-    return run_program(static_cast<int>(words.size()), words.data(),
-                       [&](const effort& much) { return measure(much, own); });
+    return run_program(
+        static_cast<int>(words.size()), words.data(),
+        [&](const effort& much) { return measure(much, own); },
+        " [--scan FILE FIELD FIRST_LABEL]...");
 }

@@ -61,8 +61,9 @@ inline double rounded(double value, int digits) {
     return std::stod(text);
 }
 
-/// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables.
-int run_program(int argc, char** argv, auto&& measure) {
+/// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables. What else
+/// the program takes is told in `more`.
+int run_program(int argc, char** argv, auto&& measure, const char* more = "") {
     effort much;
     bool understood = true;
     for (int i = 1; i < argc; ++i) {
@@ -76,7 +77,7 @@ int run_program(int argc, char** argv, auto&& measure) {
     }
     const std::string name = std::filesystem::path(argv[0]).filename().string();
     if (!understood || much.out.empty()) {
-        std::fprintf(stderr, "usage: %s [--quick] --out DIR\n", name.c_str());
+        std::fprintf(stderr, "usage: %s [--quick]%s --out DIR\n", name.c_str(), more);
         return 2;
     }
     try {

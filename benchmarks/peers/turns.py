@@ -42,10 +42,10 @@ def cores():
     return list(range(os.cpu_count() or 1))
 
 
-def confine(count):
+def confine(to):
     """Leaves only some cores to this process and those that it starts."""
     if hasattr(os, "sched_setaffinity"):
-        os.sched_setaffinity(0, cores()[-count:])
+        os.sched_setaffinity(0, to)
 
 
 def cpu():
@@ -77,13 +77,14 @@ def busy_cores():
 
 
 class Worker:
-    """One library at one setting, warmed up and waiting for its turns."""
+    """One library at one setting, warmed up and waiting for its turns; on the last cores, or on
+    some."""
 
-    def __init__(self, program, job, cloud, reach, threads):
+    def __init__(self, program, job, cloud, reach, threads, on=None):
         environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
         self.process = subprocess.Popen(
             [program, job, cloud, str(reach), str(threads)], env=environment, bufsize=0,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=lambda: confine(threads))
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=lambda: confine(on or cores()[-threads:]))
         self.seconds = []
         self.failure = None
         self.warm_up = json.loads(self.answer())
@@ -95,10 +96,16 @@ class Worker:
         return line
 
     def take_turn(self):
-        if self.failure:
-            return
+        self.begin()
+        self.end()
+
+    def begin(self):
         with contextlib.suppress(BrokenPipeError):  # then there will be no answer
             self.process.stdin.write(b"\n")
+
+    def end(self):
+        if self.failure:
+            return
         try:
             self.seconds.append(float(self.answer()))
         except Refusal as refusal:

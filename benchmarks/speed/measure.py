@@ -3,13 +3,14 @@
 """Measures gnomon and its peers more thoroughly than peers does, and writes speed.json.
 
 The same turns (../peers/turns.py) on more tasks and larger clouds; parts of a cloud, for how time
-grows with the number of points; and instructions, which valgrind counts: these do not depend on who
-else uses the machine.
+grows with the number of points; gnomon on one thread and on two, in turns with itself; and
+instructions, which valgrind counts: these do not depend on who else uses the machine.
 """
 
 import pathlib
 import re
 import shutil
+import statistics
 import subprocess
 import sys
 
@@ -17,7 +18,7 @@ sys.dont_write_bytecode = True  # in a folder of sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
 
 import turns  # noqa: E402
-from turns import OFFICE, OURS, Part, Refusal, blank, describe  # noqa: E402
+from turns import OFFICE, OURS, Part, Refusal, blank, describe, unmeasured  # noqa: E402
 
 SEARCH = {
     OURS: "gnomon",
@@ -104,42 +105,61 @@ QUICK = [
 ]
 
 
-def count_instructions(program, job, cloud, reach, times):
-    """Of the whole program, which does the work once and so many times more."""
-    valgrind = shutil.which("valgrind")
-    if not valgrind:
-        raise Refusal("valgrind is not here; benchmarks/peers/install.sh installs it")
-    told = subprocess.run(
-        [valgrind, "--tool=callgrind", "--callgrind-out-file=/dev/null", program, job, cloud,
-         str(reach), "1"], input="\n" * times, capture_output=True, text=True)
-    found = re.search(r"Collected : (\d+)", told.stderr)
-    if told.returncode != 0 or not found:
-        raise Refusal(f"valgrind failed with status {told.returncode}")
-    return int(found.group(1))
+GAIN = "gain of threads"  # the task of rows that compare gnomon with itself
 
 
-def instructions(programs, clouds, quick):
-    """Rows of the instructions that one round takes."""
+def gains(programs, clouds, quick):
+    """Rows of how many times as long one thread takes as two."""
+    plan = [(SMALL, [10], 2)] if quick else [("kitchen", KS, 6), (OFFICE, KS, 6),
+                                             ("kitchen_million", [30], 4)]
     rows = []
-    ks = [10] if quick else [10, 50]
-    for part in (Part("normals", SMALL, ks, GROWING, threads=(1,), flags=PORTABLE),
-                 Part("search", SMALL, ks, only(SEARCH, OURS, "nanoflann"), threads=(1,),
-                      flags=PORTABLE)):
+    for cloud_name, ks, rounds in plan:
+        part = Part("normals", cloud_name, ks, only(NORMALS, OURS), threads=(2,), rounds=rounds)
         for folder, setting in part.settings(programs):
-            print(f"[instructions] {turns.text_of(setting)}", file=sys.stderr, flush=True)
-            cloud, setting["points"] = clouds.make(part.cloud)
-            for library, program in part.peers.items():
-                row = blank(setting, library) | {"instructions": None}
-                try:
-                    row.update(version=describe(folder / program)["version"])
-                    none, one = (count_instructions(folder / program, f"{part.task}/{library}",
-                                                    cloud, setting["k"], times)
-                                 for times in (0, 1))
-                    row["instructions"] = one - none
-                except Refusal as refusal:
-                    row["note"] = str(refusal)
-                rows.append(row)
+            setting["task"] = GAIN
+            print(f"[{turns.text_of(setting)}]", file=sys.stderr, flush=True)
+            try:
+                cloud, setting["points"] = clouds.make(cloud_name)
+                rows.append(gain(folder / OURS, setting, part, cloud))
+            except Refusal as refusal:
+                rows.append(unmeasured(setting, OURS, str(refusal)))
     return rows
 
 
-turns.main("speed", FULL, QUICK, instructions)
+def gain(program, setting, part, cloud):
+    """The row of one setting. Who waits for two cores waits for the slower: so each takes several
+    turns in a row, of which the first do not count, as a core that was idle takes some time to run
+    at full speed; and two programs side by side, which share nothing but the machine, show what two
+    cores of it are worth."""
+    def worker(threads, on=None):
+        return turns.Worker(program, f"{part.task}/{OURS}", cloud, setting["k"], threads, on)
+
+    first, last = turns.cores()[-2:]
+    teams = {"one": [worker(1)], "two": [worker(2)], "apart": [worker(1, [first]), worker(1, [last])]}
+    seconds = {name: [] for name in teams}
+    idle, turns_in_a_row = 3, 8
+    for _ in range(part.rounds):
+        for name, team in teams.items():
+            for turn in range(turns_in_a_row):
+                for one in team:
+                    one.begin()
+                for one in team:
+                    one.end()
+                    if one.failure:
+                        raise Refusal(one.failure)
+                if turn >= idle:
+                    seconds[name].append(max(one.seconds[-1] for one in team))
+    for team in teams.values():
+        for one in team:
+            one.dismiss()
+    median = {name: statistics.median(times) for name, times in seconds.items()}
+    ratios = [a / b for a, b in zip(seconds["one"], seconds["two"])]
+    return blank(setting, OURS) | {
+        "version": describe(program)["version"], "seconds": median["two"],
+        "seconds_of_one_thread": median["one"],
+        "gain": round(median["one"] / median["two"], 3),
+        "gain_low": round(min(ratios), 3), "gain_high": round(max(ratios), 3),
+        "worth_of_cores": round(2 * median["one"] / median["apart"], 3), "rounds": len(ratios)}
+
+
+turns.main("speed", FULL, QUICK, lambda *about: gains(*about) + instructions(*about))

@@ -55,16 +55,19 @@ METHOD = """\
   EuclideanClusterExtraction, Open3D's ClusterDBSCAN where one point is enough for a core, CGAL's
   cluster_point_set, and a loop of one's own by nanoflann's radius search, breadth first. All must
   find the same number of clusters.
+- Gains of two threads: one thread, two threads, and two programs side by side take eight turns
+  each, of which the first three do not count, as a core that was idle takes some time to run at full
+  speed; and again, six times over.
 - Memory: how far the resident set rose during the warm-up. Instructions: of the program doing the
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
 - A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
 
 What was left out, so that all takes less than half an hour: CGAL's jets and, but for the kitchen,
 ANN with GSL and PCL's estimator for one thread, none of which is the fastest anywhere (see
-[peers.md](peers.md)); but for the kitchen, on two threads, normals with another k than 30; search and
-surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but normals,
-k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured in one
-round.
+[peers.md](peers.md)); but for the kitchen, on two threads beside others, normals with another k than
+30; search and surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but
+normals, k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured
+in one round.
 """
 
 
@@ -94,8 +97,12 @@ EXTRAS = [
 
 
 def is_timed(row):
-    """Whether a row is of a whole cloud, and not one of the parts or of instructions."""
-    return "/" not in row["cloud"] and "instructions" not in row
+    """Whether a row is of a whole cloud and of libraries, not of parts, threads or instructions."""
+    return "/" not in row["cloud"] and "instructions" not in row and not is_gain(row)
+
+
+def is_gain(row):
+    return row["task"] == "gain of threads"
 
 
 def is_part(row):
@@ -160,6 +167,29 @@ def scaling_section(rows):
                     lines.append(growth(library, along, own, "k"))
     parts.append(markdown(["library", "along", "flags", "exponent", "ns for each point"], lines))
     return "\n".join(parts)
+
+
+# ---- Two threads --------------------------------------------------------------------------------
+
+GAINS = """\
+## Two threads
+
+How many times as long gnomon takes on one thread as on two for normals: medians, and the least and
+greatest ratio of any turn. Beside it what the two cores are worth at that time: how much two programs
+of one thread each, side by side, get done in the time of one alone. More than this no program can
+gain; on a machine that is shared with others it is not always 2.
+"""
+
+
+def gains_section(rows):
+    lines = [[tables.CLOUDS.get(row["cloud"], row["cloud"]), row["flags"], str(row["k"]),
+              f"{1e9 * row['seconds_of_one_thread'] / row['points']:.0f}", f"{nanoseconds(row):.0f}",
+              f"{row['gain']:.2f} ({row['gain_low']:.2f} to {row['gain_high']:.2f})",
+              f"{row['worth_of_cores']:.2f}", str(row["rounds"])]
+             for row in rows if row["seconds"]]
+    return "\n".join([GAINS, markdown(
+        ["cloud", "flags", "k", "one thread [ns for each point]", "two", "gain", "cores are worth",
+         "turns"], lines)])
 
 
 # ---- Instructions -------------------------------------------------------------------------------
@@ -246,9 +276,10 @@ def page(rows):
     timed = [row for row in rows if is_timed(row)]
     sections = [section(own, times=("Nanoseconds for each point", time_text), extras=EXTRAS)
                 for own in sections_of(timed)]
-    return "\n".join([head, verdicts_section(timed), *sections, memory_section(timed),
-                      scaling_section(rows), instructions_section(rows), limit_section(rows),
-                      METHOD])
+    gains = [row for row in rows if is_gain(row)]
+    return "\n".join([head, verdicts_section(timed + gains), *sections, gains_section(gains),
+                      memory_section(timed), scaling_section(rows), instructions_section(rows),
+                      limit_section(rows), METHOD])
 
 
 def picture(rows):

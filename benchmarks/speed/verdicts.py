@@ -49,17 +49,14 @@ def normals_against_peers(rows, cloud, flags):
 
 
 def two_threads(rows, cloud):
-    gains = []
-    for one in ours_at(rows, task="normals", cloud=cloud, threads=1):
-        for two in ours_at(rows, task="normals", cloud=cloud, threads=2, k=one["k"],
-                           flags=one["flags"]):
-            gains.append((one["seconds"] / two["seconds"], one["k"], one["flags"]))
+    own = rows_at(rows, task="gain of threads", cloud=cloud)
     measured = []
-    if gains:
-        worst, best = min(gains), max(gains)
-        measured = [f"{worst[0]:.2f} (k = {worst[1]}, `{worst[2]}`) to {best[0]:.2f}"]
+    if own:
+        worst, best = (extreme(own, key=lambda row: row["gain"]) for extreme in (min, max))
+        measured = [f"{worst['gain']:.2f} (k = {worst['k']}, `{worst['flags']}`, where the two "
+                    f"cores were worth {worst['worth_of_cores']:.2f}) to {best['gain']:.2f}"]
     return verdict(f"normals of {CLOUDS[cloud]}: time of one thread over that of two",
-                   "at least 1.8", measured, bool(gains) and min(gains)[0] >= 1.8)
+                   "at least 1.8", measured, bool(own) and worst["gain"] >= 1.8)
 
 
 def against(rows, claim, wanted, more=False, **at):

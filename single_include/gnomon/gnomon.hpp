@@ -838,6 +838,7 @@ template <indexed_range R>
 }
 
 /// Those of some of its points; see `viewpoint_table::subset`.
+/// @throws std::invalid_argument  if the table lists view points for another number of points
 template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
     return detail::with_table_of(
@@ -8490,8 +8491,8 @@ struct stray_claiming {
 
 namespace detail {
 
-/// One run over a cloud. The strays are numbered cube by cube of sigma, and judged so: thousands at
-/// one place cost hardly more than a few.
+/// One run over a cloud. The strays are numbered cube by cube, and judged so: thousands at one
+/// place cost hardly more than a few.
 template <class Points>
 class stray_claimer {
   public:
@@ -8500,7 +8501,6 @@ class stray_claimer {
                   const stray_claiming& options)
         : points_(points), graph_(graph), options_(options), labels_(parts.labels()) {
         number_strays();
-        for (cube& c : cubes_) cube_means_.push_back(c.mean);
         list_followers();
     }
 
@@ -8510,7 +8510,7 @@ class stray_claimer {
     /// Segments grow by one layer of strays after the other, until no stray is claimed.
     template <execution X>
     [[nodiscard]] segments operator()(const X& run) {
-        const kd_tree cubes(cube_means_);
+        const kd_tree cubes(cubes_, &cube::mean);
         std::vector<std::size_t> layer(strays_.size());
         std::iota(layer.begin(), layer.end(), std::size_t{0});
         std::vector<std::int32_t> claims;
@@ -8567,11 +8567,13 @@ class stray_claimer {
             point_index point;
             auto operator<=>(const placed&) const = default;
         };
+        // In standard deviations: so narrow that where cubes begin decides next to nothing.
+        constexpr double side = 0.75;
         std::vector<placed> all;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             if (labels_[i] != unlabeled || !is_finite(p)) continue;
-            const auto cell = [&](int a) { return std::floor(p[a] / options_.sigma); };
+            const auto cell = [&](int a) { return std::floor(p[a] / (side * options_.sigma)); };
             all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
         }
         std::sort(all.begin(), all.end());
@@ -8669,7 +8671,6 @@ class stray_claimer {
     std::vector<plane> planes_;  // of the segments; those that are not flat have no normal
     std::vector<stray> strays_;  // cube by cube
     std::vector<cube> cubes_;
-    std::vector<Eigen::Vector3d> cube_means_;              // the same as theirs
     std::vector<std::size_t> first_follower_, followers_;  // of the strays
 };
 
@@ -8683,7 +8684,8 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n (log n + k)), and for c cubes of side sigma with strays O(c) slabs of cubes.
+/// Complexity: O(n (log n + k)), and for c cubes narrower than sigma with strays O(c) slabs of
+/// cubes.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,
@@ -9360,8 +9362,8 @@ struct planar_segments {
 /// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists a
 ///                                neighbor of no point; unless noise and max_deviations are finite
 ///                                and not negative, and max_angle is from 0 to 90 degrees
-/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(s^2) for s segments. Growing
-/// runs on one thread. The same bytes for every execution.
+/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(t log t) for t pairs of regions
+/// that touch. Growing runs on one thread. The same bytes for every execution.
 template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -10761,15 +10763,19 @@ namespace gnomon::detail {
 
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-[[nodiscard]] inline std::vector<std::pair<point_index, point_index>> pairs_to_compare(
-    const std::vector<principal_frame>& frames, std::size_t wanted, auto&& is_flat) {
+/// @param all    something of each segment
+/// @param frame  the principal_frame of that
+template <class Segment, class Frame = std::identity>
+[[nodiscard]] std::vector<std::pair<point_index, point_index>> pairs_to_compare(
+    const std::vector<Segment>& all, std::size_t wanted, auto&& is_flat, Frame&& frame = {}) {
     constexpr std::size_t not_many = 300, few = 20;
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < frames.size(); ++s) {
-        if (!is_flat(frames[s])) continue;
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        const principal_frame& of = std::invoke(frame, all[s]);
+        if (!is_flat(of)) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(frames[s].centroid);
+        centroids.push_back(of.centroid);
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     const kd_tree tree(centroids);
@@ -10953,12 +10959,12 @@ class plane_comparison {
         constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
         if (wide_.count == 0 || slim_.count == 0) return false;
         const place_across turn{a_.slope[0] - b_.slope[0], a_.slope[1] - b_.slope[1]};
-        const bool parallel = dot(turn, spread_of_turn().solved(turn)) <= square_of_two;
+        const matrix_across spread = spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
+        const bool parallel = dot(turn, spread.solved(turn)) <= square_of_two;
         if (!parallel) {
             const Eigen::Vector3d normal = a_.normal(axes_), other = b_.normal(axes_);
             const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
-            if (!(turned <= max_angle.radians() && turns_less(spread_of_turn(), max_angle)))
-                return false;
+            if (!(turned <= max_angle.radians() && turns_less(spread, max_angle))) return false;
         }
 
         // The slope of parallel planes is that of both, as each knows it; else the wide one knows
@@ -10998,9 +11004,6 @@ class plane_comparison {
                                                 const depth_regression& r) const {
         const double more = no_noise * no_noise * static_cast<double>(sample.count);
         return (1.0 + more) * known(sample, r).inverse();
-    }
-    [[nodiscard]] matrix_across spread_of_turn() const {
-        return spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
     }
     [[nodiscard]] static bool turns_less(const matrix_across& spread, angle at_most) {
         return std::atan(deviations * std::sqrt(spread.largest_eigenvalue())) <= at_most.radians();
@@ -11076,6 +11079,13 @@ template <merge_policy M>
     return in_favor > against;
 }
 
+/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
+/// ever so much in front of the others.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
+    return seen[sighting::farther] > 0 && !policy(sighting::farther);
+}
+
 /// One run of the algorithm.
 template <class R, merge_policy M, class Proj>
 class occlusion_merger {
@@ -11089,34 +11099,48 @@ class occlusion_merger {
           viewpoints_(viewpoints_of(points)),
           policy_(policy),
           options_(options) {
-        for (std::size_t s = 0; s < parts.size(); ++s) {
-            members_.emplace_back(parts[s].begin(), parts[s].end());
-            frames_.push_back(frame_of(members_.back()));
-            planes_.push_back(plane_of(members_.back()));
-            changed_.push_back(true);
-        }
+        for (std::size_t s = 0; s < parts.size(); ++s)
+            surfaces_.push_back(surface_of({parts[s].begin(), parts[s].end()}));
     }
 
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        return {segments_of_groups(points_.size(), members_), std::move(gaps_)};
+        std::vector<std::vector<point_index>> groups;
+        for (surface& s : surfaces_) groups.push_back(std::move(s.members));
+        return {segments_of_groups(points_.size(), groups), std::move(gaps_)};
     }
 
   private:
+    /// A segment as it is in a round.
+    struct surface {
+        std::vector<point_index> members;
+        principal_frame frame;
+        plane_sample plane;
+        bool is_new = true;  ///< since the round before
+    };
+
+    [[nodiscard]] surface surface_of(std::vector<point_index> members) const {
+        const auto frame = principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
+        const auto plane = plane_sample_of(points_, members, viewpoints_, options_.sigma);
+        return {std::move(members), frame, plane};
+    }
+
     /// One round.
     /// @return whether it merged any
     bool merge_once() {
-        union_find sets(members_.size());
+        union_find sets(surfaces_.size());
         bool any = false;
-        for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
-                                                   [this](const auto& f) { return is_flat(f); })) {
-            if (!(changed_[i] || changed_[j]) || !are_of_one_plane(i, j)) continue;
+        for (const auto& [i, j] : pairs_to_compare(
+                 surfaces_, options_.candidates, [this](const auto& f) { return is_flat(f); },
+                 &surface::frame)) {
+            const surface &a = surfaces_[i], &b = surfaces_[j];
+            if (!(a.is_new || b.is_new) || !are_of_one_plane(a, b)) continue;
             considered_gap gap{
-                boundary_pairs(points_, members_[i], members_[j],
-                               {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
+                boundary_pairs(points_, a.members, b.members, {a.frame.centroid, b.frame.centroid},
+                               options_.boundary_pairs),
                 false};
-            gap.merged = spans(gap.lines);
+            gap.merged = is_closed(gap.lines);
             if (gap.merged) sets.unite(i, j);
             any = any || gap.merged;
             gaps_.push_back(std::move(gap));
@@ -11125,38 +11149,29 @@ class occlusion_merger {
         return any;
     }
 
-    [[nodiscard]] principal_frame frame_of(std::span<const point_index> members) const {
-        return principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
-    }
-
-    [[nodiscard]] plane_sample plane_of(std::span<const point_index> members) const {
-        return plane_sample_of(points_, members, viewpoints_, options_.sigma);
-    }
-
     /// A segment no thicker than twice the noise is flat, whatever its variation.
     [[nodiscard]] bool is_flat(const principal_frame& a) const {
         return a.spectrum.surface_variation() <= options_.max_variation ||
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool are_of_one_plane(std::size_t i, std::size_t j) const {
-        const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
-        const std::size_t wide = first ? i : j, slim = first ? j : i;
-        return plane_comparison(planes_[wide], planes_[slim], options_.sigma)
+    [[nodiscard]] bool are_of_one_plane(const surface& a, const surface& b) const {
+        const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
+        const plane_sample &wide = (first ? a : b).plane, &slim = (first ? b : a).plane;
+        return plane_comparison(wide, slim, options_.sigma)
             .is_of_one(options_.max_angle, options_.max_offset);
     }
 
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
-    /// by whoever merges unless something farther is seen. A gap that is seen through at one place
-    /// is one, be there ever so much in front of the others.
-    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
+    /// by whoever merges unless something farther is seen.
+    [[nodiscard]] bool is_closed(std::span<const boundary_pair> lines) const {
         std::size_t accepted = 0, passable = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
             const sighting_count seen =
                 sights_.between(points_[line.first], points_[line.second], v);
-            if (seen[sighting::farther] > 0 && !policy_(sighting::farther)) return false;
+            if (keeps_open(policy_, seen)) return false;
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
@@ -11166,34 +11181,22 @@ class occlusion_merger {
 
     /// Makes one segment of each set.
     void gather(union_find& sets) {
-        std::fill(changed_.begin(), changed_.end(), false);
-        for (std::size_t s = 0; s < members_.size(); ++s) {
+        std::vector<bool> grows(surfaces_.size(), false);
+        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const point_index root = sets.find(static_cast<point_index>(s));
             if (root == s) continue;
-            members_[root].insert(members_[root].end(), members_[s].begin(), members_[s].end());
-            members_[s].clear();
-            changed_[root] = true;
+            auto &from = surfaces_[s].members, &to = surfaces_[root].members;
+            to.insert(to.end(), from.begin(), from.end());
+            from.clear();
+            grows[root] = true;
         }
-        std::size_t kept = 0;
-        for (std::size_t s = 0; s < members_.size(); ++s) {
-            if (members_[s].empty()) continue;
-            if (changed_[s]) {
-                std::sort(members_[s].begin(), members_[s].end());
-                frames_[s] = frame_of(members_[s]);
-                planes_[s] = plane_of(members_[s]);
-            }
-            if (kept != s) {
-                members_[kept] = std::move(members_[s]);
-                frames_[kept] = frames_[s];
-                planes_[kept] = planes_[s];
-                changed_[kept] = changed_[s];
-            }
-            ++kept;
+        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+            surfaces_[s].is_new = false;
+            if (!grows[s]) continue;
+            std::sort(surfaces_[s].members.begin(), surfaces_[s].members.end());
+            surfaces_[s] = surface_of(std::move(surfaces_[s].members));
         }
-        members_.resize(kept);
-        frames_.resize(kept);
-        planes_.resize(kept);
-        changed_.resize(kept);
+        std::erase_if(surfaces_, [](const surface& s) { return s.members.empty(); });
     }
 
     const R& range_;
@@ -11203,10 +11206,7 @@ class occlusion_merger {
     viewpoint_table viewpoints_;
     const M& policy_;
     const occlusion_merging& options_;
-    std::vector<std::vector<point_index>> members_;
-    std::vector<principal_frame> frames_;
-    std::vector<plane_sample> planes_;
-    std::vector<bool> changed_;  // since the round before
+    std::vector<surface> surfaces_;
     std::vector<considered_gap> gaps_;
 };
 

@@ -67,7 +67,6 @@ TEST(lines_of_sight, tell_what_was_seen_towards_a_place) {
     }
 }
 
-/// Three sigma and what a surface may turn away within a pixel are no difference.
 /// Between two rays, where none is: what both tell, or what they have in common.
 TEST(lines_of_sight, tell_what_the_rays_about_a_place_tell) {
     const auto place = [](double degrees, double range) -> Eigen::Vector3d {
@@ -89,6 +88,7 @@ TEST(lines_of_sight, tell_what_the_rays_about_a_place_tell) {
     EXPECT_EQ(between(5.0, 3.0), sighting::unseen);
 }
 
+/// Three sigma and what a surface may turn away within a pixel are no difference.
 TEST(lines_of_sight, leave_a_margin_for_noise) {
     gnomon::scene world;
     looks::add_wall(world, -2.0, 2.0);

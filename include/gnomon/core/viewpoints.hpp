@@ -122,6 +122,7 @@ template <indexed_range R>
 }
 
 /// Those of some of its points; see `viewpoint_table::subset`.
+/// @throws std::invalid_argument  if the table lists view points for another number of points
 template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
     return detail::with_table_of(

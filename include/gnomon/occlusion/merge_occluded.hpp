@@ -84,6 +84,13 @@ template <merge_policy M>
     return in_favor > against;
 }
 
+/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
+/// ever so much in front of the others.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
+    return seen[sighting::farther] > 0 && !policy(sighting::farther);
+}
+
 /// One run of the algorithm.
 template <class R, merge_policy M, class Proj>
 class occlusion_merger {
@@ -97,34 +104,48 @@ class occlusion_merger {
           viewpoints_(viewpoints_of(points)),
           policy_(policy),
           options_(options) {
-        for (std::size_t s = 0; s < parts.size(); ++s) {
-            members_.emplace_back(parts[s].begin(), parts[s].end());
-            frames_.push_back(frame_of(members_.back()));
-            planes_.push_back(plane_of(members_.back()));
-            changed_.push_back(true);
-        }
+        for (std::size_t s = 0; s < parts.size(); ++s)
+            surfaces_.push_back(surface_of({parts[s].begin(), parts[s].end()}));
     }
 
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        return {segments_of_groups(points_.size(), members_), std::move(gaps_)};
+        std::vector<std::vector<point_index>> groups;
+        for (surface& s : surfaces_) groups.push_back(std::move(s.members));
+        return {segments_of_groups(points_.size(), groups), std::move(gaps_)};
     }
 
   private:
+    /// A segment as it is in a round.
+    struct surface {
+        std::vector<point_index> members;
+        principal_frame frame;
+        plane_sample plane;
+        bool is_new = true;  ///< since the round before
+    };
+
+    [[nodiscard]] surface surface_of(std::vector<point_index> members) const {
+        const auto frame = principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
+        const auto plane = plane_sample_of(points_, members, viewpoints_, options_.sigma);
+        return {std::move(members), frame, plane};
+    }
+
     /// One round.
     /// @return whether it merged any
     bool merge_once() {
-        union_find sets(members_.size());
+        union_find sets(surfaces_.size());
         bool any = false;
-        for (const auto& [i, j] : pairs_to_compare(frames_, options_.candidates,
-                                                   [this](const auto& f) { return is_flat(f); })) {
-            if (!(changed_[i] || changed_[j]) || !are_of_one_plane(i, j)) continue;
+        for (const auto& [i, j] : pairs_to_compare(
+                 surfaces_, options_.candidates, [this](const auto& f) { return is_flat(f); },
+                 &surface::frame)) {
+            const surface &a = surfaces_[i], &b = surfaces_[j];
+            if (!(a.is_new || b.is_new) || !are_of_one_plane(a, b)) continue;
             considered_gap gap{
-                boundary_pairs(points_, members_[i], members_[j],
-                               {frames_[i].centroid, frames_[j].centroid}, options_.boundary_pairs),
+                boundary_pairs(points_, a.members, b.members, {a.frame.centroid, b.frame.centroid},
+                               options_.boundary_pairs),
                 false};
-            gap.merged = spans(gap.lines);
+            gap.merged = is_closed(gap.lines);
             if (gap.merged) sets.unite(i, j);
             any = any || gap.merged;
             gaps_.push_back(std::move(gap));
@@ -133,38 +154,29 @@ class occlusion_merger {
         return any;
     }
 
-    [[nodiscard]] principal_frame frame_of(std::span<const point_index> members) const {
-        return principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
-    }
-
-    [[nodiscard]] plane_sample plane_of(std::span<const point_index> members) const {
-        return plane_sample_of(points_, members, viewpoints_, options_.sigma);
-    }
-
     /// A segment no thicker than twice the noise is flat, whatever its variation.
     [[nodiscard]] bool is_flat(const principal_frame& a) const {
         return a.spectrum.surface_variation() <= options_.max_variation ||
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool are_of_one_plane(std::size_t i, std::size_t j) const {
-        const bool first = frames_[i].spectrum.lambda[1] >= frames_[j].spectrum.lambda[1];
-        const std::size_t wide = first ? i : j, slim = first ? j : i;
-        return plane_comparison(planes_[wide], planes_[slim], options_.sigma)
+    [[nodiscard]] bool are_of_one_plane(const surface& a, const surface& b) const {
+        const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
+        const plane_sample &wide = (first ? a : b).plane, &slim = (first ? b : a).plane;
+        return plane_comparison(wide, slim, options_.sigma)
             .is_of_one(options_.max_angle, options_.max_offset);
     }
 
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
-    /// by whoever merges unless something farther is seen. A gap that is seen through at one place
-    /// is one, be there ever so much in front of the others.
-    [[nodiscard]] bool spans(std::span<const boundary_pair> lines) const {
+    /// by whoever merges unless something farther is seen.
+    [[nodiscard]] bool is_closed(std::span<const boundary_pair> lines) const {
         std::size_t accepted = 0, passable = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
             const sighting_count seen =
                 sights_.between(points_[line.first], points_[line.second], v);
-            if (seen[sighting::farther] > 0 && !policy_(sighting::farther)) return false;
+            if (keeps_open(policy_, seen)) return false;
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
@@ -174,34 +186,22 @@ class occlusion_merger {
 
     /// Makes one segment of each set.
     void gather(union_find& sets) {
-        std::fill(changed_.begin(), changed_.end(), false);
-        for (std::size_t s = 0; s < members_.size(); ++s) {
+        std::vector<bool> grows(surfaces_.size(), false);
+        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const point_index root = sets.find(static_cast<point_index>(s));
             if (root == s) continue;
-            members_[root].insert(members_[root].end(), members_[s].begin(), members_[s].end());
-            members_[s].clear();
-            changed_[root] = true;
+            auto &from = surfaces_[s].members, &to = surfaces_[root].members;
+            to.insert(to.end(), from.begin(), from.end());
+            from.clear();
+            grows[root] = true;
         }
-        std::size_t kept = 0;
-        for (std::size_t s = 0; s < members_.size(); ++s) {
-            if (members_[s].empty()) continue;
-            if (changed_[s]) {
-                std::sort(members_[s].begin(), members_[s].end());
-                frames_[s] = frame_of(members_[s]);
-                planes_[s] = plane_of(members_[s]);
-            }
-            if (kept != s) {
-                members_[kept] = std::move(members_[s]);
-                frames_[kept] = frames_[s];
-                planes_[kept] = planes_[s];
-                changed_[kept] = changed_[s];
-            }
-            ++kept;
+        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
+            surfaces_[s].is_new = false;
+            if (!grows[s]) continue;
+            std::sort(surfaces_[s].members.begin(), surfaces_[s].members.end());
+            surfaces_[s] = surface_of(std::move(surfaces_[s].members));
         }
-        members_.resize(kept);
-        frames_.resize(kept);
-        planes_.resize(kept);
-        changed_.resize(kept);
+        std::erase_if(surfaces_, [](const surface& s) { return s.members.empty(); });
     }
 
     const R& range_;
@@ -211,10 +211,7 @@ class occlusion_merger {
     viewpoint_table viewpoints_;
     const M& policy_;
     const occlusion_merging& options_;
-    std::vector<std::vector<point_index>> members_;
-    std::vector<principal_frame> frames_;
-    std::vector<plane_sample> planes_;
-    std::vector<bool> changed_;  // since the round before
+    std::vector<surface> surfaces_;
     std::vector<considered_gap> gaps_;
 };
 

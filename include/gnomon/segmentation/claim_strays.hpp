@@ -51,8 +51,8 @@ struct stray_claiming {
 
 namespace detail {
 
-/// One run over a cloud. The strays are numbered cube by cube of sigma, and judged so: thousands at
-/// one place cost hardly more than a few.
+/// One run over a cloud. The strays are numbered cube by cube, and judged so: thousands at one
+/// place cost hardly more than a few.
 template <class Points>
 class stray_claimer {
   public:
@@ -61,7 +61,6 @@ class stray_claimer {
                   const stray_claiming& options)
         : points_(points), graph_(graph), options_(options), labels_(parts.labels()) {
         number_strays();
-        for (cube& c : cubes_) cube_means_.push_back(c.mean);
         list_followers();
     }
 
@@ -71,7 +70,7 @@ class stray_claimer {
     /// Segments grow by one layer of strays after the other, until no stray is claimed.
     template <execution X>
     [[nodiscard]] segments operator()(const X& run) {
-        const kd_tree cubes(cube_means_);
+        const kd_tree cubes(cubes_, &cube::mean);
         std::vector<std::size_t> layer(strays_.size());
         std::iota(layer.begin(), layer.end(), std::size_t{0});
         std::vector<std::int32_t> claims;
@@ -128,11 +127,13 @@ class stray_claimer {
             point_index point;
             auto operator<=>(const placed&) const = default;
         };
+        // In standard deviations: so narrow that where cubes begin decides next to nothing.
+        constexpr double side = 0.75;
         std::vector<placed> all;
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             if (labels_[i] != unlabeled || !is_finite(p)) continue;
-            const auto cell = [&](int a) { return std::floor(p[a] / options_.sigma); };
+            const auto cell = [&](int a) { return std::floor(p[a] / (side * options_.sigma)); };
             all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
         }
         std::sort(all.begin(), all.end());
@@ -230,7 +231,6 @@ class stray_claimer {
     std::vector<plane> planes_;  // of the segments; those that are not flat have no normal
     std::vector<stray> strays_;  // cube by cube
     std::vector<cube> cubes_;
-    std::vector<Eigen::Vector3d> cube_means_;              // the same as theirs
     std::vector<std::size_t> first_follower_, followers_;  // of the strays
 };
 
@@ -244,7 +244,8 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n (log n + k)), and for c cubes of side sigma with strays O(c) slabs of cubes.
+/// Complexity: O(n (log n + k)), and for c cubes narrower than sigma with strays O(c) slabs of
+/// cubes.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,

@@ -166,12 +166,12 @@ class plane_comparison {
         constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
         if (wide_.count == 0 || slim_.count == 0) return false;
         const place_across turn{a_.slope[0] - b_.slope[0], a_.slope[1] - b_.slope[1]};
-        const bool parallel = dot(turn, spread_of_turn().solved(turn)) <= square_of_two;
+        const matrix_across spread = spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
+        const bool parallel = dot(turn, spread.solved(turn)) <= square_of_two;
         if (!parallel) {
             const Eigen::Vector3d normal = a_.normal(axes_), other = b_.normal(axes_);
             const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
-            if (!(turned <= max_angle.radians() && turns_less(spread_of_turn(), max_angle)))
-                return false;
+            if (!(turned <= max_angle.radians() && turns_less(spread, max_angle))) return false;
         }
 
         // The slope of parallel planes is that of both, as each knows it; else the wide one knows
@@ -211,9 +211,6 @@ class plane_comparison {
                                                 const depth_regression& r) const {
         const double more = no_noise * no_noise * static_cast<double>(sample.count);
         return (1.0 + more) * known(sample, r).inverse();
-    }
-    [[nodiscard]] matrix_across spread_of_turn() const {
-        return spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
     }
     [[nodiscard]] static bool turns_less(const matrix_across& spread, angle at_most) {
         return std::atan(deviations * std::sqrt(spread.largest_eigenvalue())) <= at_most.radians();

@@ -5,8 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <span>
+#include <functional>
 #include <utility>
 #include <vector>
 
@@ -23,15 +22,19 @@ namespace gnomon::detail {
 
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-[[nodiscard]] inline std::vector<std::pair<point_index, point_index>> pairs_to_compare(
-    const std::vector<principal_frame>& frames, std::size_t wanted, auto&& is_flat) {
+/// @param all    something of each segment
+/// @param frame  the principal_frame of that
+template <class Segment, class Frame = std::identity>
+[[nodiscard]] std::vector<std::pair<point_index, point_index>> pairs_to_compare(
+    const std::vector<Segment>& all, std::size_t wanted, auto&& is_flat, Frame&& frame = {}) {
     constexpr std::size_t not_many = 300, few = 20;
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < frames.size(); ++s) {
-        if (!is_flat(frames[s])) continue;
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        const principal_frame& of = std::invoke(frame, all[s]);
+        if (!is_flat(of)) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(frames[s].centroid);
+        centroids.push_back(of.centroid);
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     const kd_tree tree(centroids);
