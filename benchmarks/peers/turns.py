@@ -84,7 +84,8 @@ class Worker:
         environment = dict(os.environ, OMP_NUM_THREADS=str(threads), OMP_WAIT_POLICY="passive")
         self.process = subprocess.Popen(
             [program, job, cloud, str(reach), str(threads)], env=environment, bufsize=0,
-            stdin=subprocess.PIPE, stdout=subprocess.PIPE, preexec_fn=lambda: confine(on or cores()[-threads:]))
+            stdin=subprocess.PIPE, stdout=subprocess.PIPE,
+            preexec_fn=lambda: confine(on or cores()[-threads:]))
         self.seconds = []
         self.failure = None
         self.warm_up = json.loads(self.answer())

@@ -135,7 +135,8 @@ def gain(program, setting, part, cloud):
         return turns.Worker(program, f"{part.task}/{OURS}", cloud, setting["k"], threads, on)
 
     first, last = turns.cores()[-2:]
-    teams = {"one": [worker(1)], "two": [worker(2)], "apart": [worker(1, [first]), worker(1, [last])]}
+    teams = {"one": [worker(1)], "two": [worker(2)],
+             "apart": [worker(1, [first]), worker(1, [last])]}
     seconds = {name: [] for name in teams}
     idle, turns_in_a_row = 3, 8
     for _ in range(part.rounds):
@@ -160,6 +161,44 @@ def gain(program, setting, part, cloud):
         "gain": round(median["one"] / median["two"], 3),
         "gain_low": round(min(ratios), 3), "gain_high": round(max(ratios), 3),
         "worth_of_cores": round(2 * median["one"] / median["apart"], 3), "rounds": len(ratios)}
+
+
+def count_instructions(program, job, cloud, reach, times):
+    """Of the whole program, which does the work once and so many times more."""
+    valgrind = shutil.which("valgrind")
+    if not valgrind:
+        raise Refusal("valgrind is not here; benchmarks/peers/install.sh installs it")
+    told = subprocess.run(
+        [valgrind, "--tool=callgrind", "--callgrind-out-file=/dev/null", program, job, cloud,
+         str(reach), "1"], input="\n" * times, capture_output=True, text=True)
+    found = re.search(r"Collected : (\d+)", told.stderr)
+    if told.returncode != 0 or not found:
+        raise Refusal(f"valgrind failed with status {told.returncode}")
+    return int(found.group(1))
+
+
+def instructions(programs, clouds, quick):
+    """Rows of the instructions that one round takes."""
+    rows = []
+    ks = [10] if quick else [10, 50]
+    for part in (Part("normals", SMALL, ks, GROWING, threads=(1,), flags=PORTABLE),
+                 Part("search", SMALL, ks, only(SEARCH, OURS, "nanoflann"), threads=(1,),
+                      flags=PORTABLE)):
+        for folder, setting in part.settings(programs):
+            print(f"[instructions] {turns.text_of(setting)}", file=sys.stderr, flush=True)
+            cloud, setting["points"] = clouds.make(part.cloud)
+            for library, program in part.peers.items():
+                row = blank(setting, library) | {"instructions": None}
+                try:
+                    row.update(version=describe(folder / program)["version"])
+                    none, one = (count_instructions(folder / program, f"{part.task}/{library}",
+                                                    cloud, setting["k"], times)
+                                 for times in (0, 1))
+                    row["instructions"] = one - none
+                except Refusal as refusal:
+                    row["note"] = str(refusal)
+                rows.append(row)
+    return rows
 
 
 turns.main("speed", FULL, QUICK, lambda *about: gains(*about) + instructions(*about))
