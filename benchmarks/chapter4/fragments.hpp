@@ -13,8 +13,6 @@
 #include <cstdint>
 #include <limits>
 #include <map>
-#include <span>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -107,7 +105,7 @@ struct merge_tallies {
     merge_tally pairs, by_points;
 };
 
-/// The segments of a scan. Of a segment of which more than a fifth is of other surfaces nothing is
+/// The segments of a scan. Of a segment of which a fifth or more is of other surfaces nothing is
 /// true, and nothing counted.
 class fragments {
   public:

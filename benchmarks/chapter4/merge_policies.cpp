@@ -7,10 +7,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <cstdio>
 #include <string>
 #include <vector>
 
 #include "fragments.hpp"
+#include "record.hpp"
 #include "rooms.hpp"
 
 namespace {

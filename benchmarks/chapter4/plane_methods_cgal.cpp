@@ -33,7 +33,7 @@ points_with_normals estimated(const cloud& scene, unsigned k) {
 }
 
 points_with_normals with_normals(const cloud& scene, unsigned k) {
-    static latest<points_with_normals> made;
+    thread_local latest<points_with_normals> made;
     return made(scene, k, [&] { return estimated(scene, k); });
 }
 

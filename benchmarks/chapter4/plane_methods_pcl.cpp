@@ -33,7 +33,7 @@ points_and_normals estimated(const cloud& scene, int k) {
 
 /// `configure` changes what the class has as defaults.
 labels grown(const cloud& scene, int k, auto&& configure) {
-    static latest<points_and_normals> made;
+    thread_local latest<points_and_normals> made;
     const auto& [points, normals] =
         made(scene, static_cast<std::size_t>(k), [&] { return estimated(scene, k); });
     pcl::RegionGrowing<pcl::PointXYZ, pcl::Normal> growing;

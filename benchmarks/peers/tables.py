@@ -21,7 +21,7 @@ try:
 except ImportError:
     pyplot = None
 
-from turns import BUSY, OFFICE, OURS
+from turns import BUSY, GAIN, OFFICE, OURS
 
 CLOUDS = {
     "kitchen": "a simulated kitchen",

@@ -24,6 +24,7 @@ import tempfile
 import time
 
 OURS = "gnomon"
+GAIN = "gain of threads"  # the task of rows that compare gnomon with itself
 OFFICE = "pcl_office1_kinect.pcd"  # a scan of a depth camera
 
 BUSY = 0.2  # cores that others use when it begins, above which the figures will scatter

@@ -18,7 +18,7 @@ sys.dont_write_bytecode = True  # in a folder of sources
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers"))
 
 import turns  # noqa: E402
-from turns import OFFICE, OURS, Part, Refusal, blank, describe, unmeasured  # noqa: E402
+from turns import GAIN, OFFICE, OURS, Part, Refusal, blank, describe, unmeasured  # noqa: E402
 
 SEARCH = {
     OURS: "gnomon",
@@ -105,9 +105,6 @@ QUICK = [
 ]
 
 
-GAIN = "gain of threads"  # the task of rows that compare gnomon with itself
-
-
 def gains(programs, clouds, quick):
     """Rows of how many times as long one thread takes as two."""
     plan = [(SMALL, [10], 2)] if quick else [("kitchen", KS, 6), (OFFICE, KS, 6),
@@ -160,7 +157,7 @@ def gain(program, setting, part, cloud):
         "seconds_of_one_thread": median["one"],
         "gain": round(median["one"] / median["two"], 3),
         "gain_low": round(min(ratios), 3), "gain_high": round(max(ratios), 3),
-        "worth_of_cores": round(2 * median["one"] / median["apart"], 3), "rounds": len(ratios)}
+        "worth_of_cores": round(2 * median["one"] / median["apart"], 3), "turns": len(ratios)}
 
 
 def count_instructions(program, job, cloud, reach, times):

@@ -12,7 +12,7 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers")
 
 import tables  # noqa: E402
 from tables import (  # noqa: E402
-    OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text, unique)
+    GAIN, OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text, unique)
 from verdicts import extra_bytes, judged, ours_at, rows_at, table_of  # noqa: E402
 
 INTRODUCTION = """\
@@ -57,7 +57,7 @@ METHOD = """\
   find the same number of clusters.
 - Gains of two threads: one thread, two threads, and two programs side by side take eight turns
   each, of which the first three do not count, as a core that was idle takes some time to run at full
-  speed; and again, six times over.
+  speed; and again, six times over (four for 1,000,000 points).
 - Memory: how far the resident set rose during the warm-up. Instructions: of the program doing the
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
 - A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
@@ -102,7 +102,7 @@ def is_timed(row):
 
 
 def is_gain(row):
-    return row["task"] == "gain of threads"
+    return row["task"] == GAIN
 
 
 def is_part(row):
@@ -189,7 +189,7 @@ def gains_section(rows):
     lines = [[tables.CLOUDS.get(row["cloud"], row["cloud"]), row["flags"], str(row["k"]),
               f"{1e9 * row['seconds_of_one_thread'] / row['points']:.0f}", f"{nanoseconds(row):.0f}",
               f"{row['gain']:.2f} ({row['gain_low']:.2f} to {row['gain_high']:.2f})",
-              f"{row['worth_of_cores']:.2f}", str(row["rounds"])]
+              f"{row['worth_of_cores']:.2f}", str(row["turns"])]
              for row in rows if row["seconds"]]
     return "\n".join([GAINS, markdown(
         ["cloud", "flags", "k", "one thread [ns for each point]", "two", "gain", "cores are worth",

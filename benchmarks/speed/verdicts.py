@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """What gnomon wants to reach, and whether the rows of speed.json show it."""
 
-from tables import OFFICE, OURS, markdown
+from tables import GAIN, OFFICE, OURS, markdown
 
 NATIVE, PORTABLE = "-O3 -march=native", "-O2"
 CLOUDS = {"kitchen": "the kitchen", "kitchen_million": "1,000,000 points", OFFICE: "the office"}
@@ -49,7 +49,7 @@ def normals_against_peers(rows, cloud, flags):
 
 
 def two_threads(rows, cloud):
-    own = rows_at(rows, task="gain of threads", cloud=cloud)
+    own = rows_at(rows, task=GAIN, cloud=cloud)
     measured = []
     if own:
         worst, best = (extreme(own, key=lambda row: row["gain"]) for extreme in (min, max))

@@ -8655,7 +8655,8 @@ class stray_claimer {
                 sum += cubes_[q.index].count * off;
                 n += cubes_[q.index].count;
             });
-        const bool is_of_plane = std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
+        const bool is_of_plane =
+            n > 0.0 && std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
         near.judged.push_back({segment, is_of_plane});
         return is_of_plane;
     }
@@ -8684,8 +8685,8 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n (log n + k)), and for c cubes narrower than sigma with strays O(c) slabs of
-/// cubes.
+/// Complexity: O(n (log n + k^2)) at worst, and a slab of cubes narrower than sigma for each pair
+/// of a cube with strays and a segment beside it.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,
@@ -8995,6 +8996,7 @@ class plane_growth {
                 std::size_t count = 0;
                 for (const point_index j : graph_[i]) {
                     const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
+                    if (!std::isfinite(d)) continue;
                     roughness[i] += d * d;
                     ++count;
                 }
@@ -9337,6 +9339,7 @@ class plane_regions {
 
 namespace gnomon {
 
+/// Parameters of `segment_planes`.
 struct plane_segmentation {
     std::optional<double> noise =
         {};                         ///< sigma across the surface [m]; else what `noise_level` finds
@@ -9362,8 +9365,9 @@ struct planar_segments {
 /// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists a
 ///                                neighbor of no point; unless noise and max_deviations are finite
 ///                                and not negative, and max_angle is from 0 to 90 degrees
-/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(t log t) for t pairs of regions
-/// that touch. Growing runs on one thread. The same bytes for every execution.
+/// Complexity: O(n (log n + k)) for k neighbors in the graph where what grows is kept, and O(n m k)
+/// where it stays below m = min_points; O(t log t) for t pairs of regions that touch, and O(t^2
+/// log t) at worst. Growing runs on one thread. The same bytes for every execution.
 template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -9977,6 +9981,7 @@ template <class R, class Proj = std::identity>
 
 namespace gnomon {
 
+/// Parameters of `extend_segments`.
 struct segment_extension {
     angle max_angle = degrees(20);  ///< between the normals of a point and of who takes it in
     int rings = 10;                 ///< how many neighbors deep, at most
@@ -9994,7 +9999,8 @@ template <class Points, neighborhood_graph G, normal_range Surface>
     votes.clear();
     for (const point_index j : graph[i]) {
         const Eigen::Vector3d& n_j = surface[j].normal;
-        if (labels[j] != unlabeled && std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
+        if (labels[j] == unlabeled || is_missing(n_j) || !is_finite(p[j])) continue;
+        if (std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
             votes.emplace_back(labels[j], std::abs(dot(n_j, difference(p[i], p[j]))));
     }
     std::sort(votes.begin(), votes.end());
@@ -10629,8 +10635,8 @@ class lines_of_sight {
     /// The angle of a pixel.
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
-    /// What was seen towards a place, by most view points that saw anything there; of equally many
-    /// what speaks against a surface.
+    /// What was seen towards a place [m], by most view points that saw anything there; of equally
+    /// many what speaks against a surface. O(view points).
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place) const {
         sighting_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
@@ -10645,8 +10651,9 @@ class lines_of_sight {
         return most;
     }
 
-    /// What was seen along the straight line between two places, as `viewpoint` sees it: at steps
-    /// of a pixel, the ends left out.
+    /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
+    /// at steps of a pixel, the ends left out; nothing if one of them is not finite. O(steps * view
+    /// points).
     [[nodiscard]] sighting_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                                          const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
@@ -10901,7 +10908,7 @@ struct depth_regression {
 
 /// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
 /// at the edges: what is off the plane by more than 2.5 standard deviations of a range is left out,
-/// unless that is most. Of none if no point is finite.
+/// again and again, unless that is most of what was left. Of none if no point is finite.
 /// @param points   a position_view of the cloud
 /// @param members  indices of the points of the segment
 /// Complexity: O(n).
@@ -10909,8 +10916,10 @@ struct depth_regression {
                                            const viewpoint_table& viewpoints, double sigma) {
     plane_sample sample;
     moments seen_from;
-    for (const point_index i : members) seen_from.add(viewpoints[i]);
-    sample.viewpoint = scaled(1.0 / static_cast<double>(members.size()), seen_from.sum);
+    for (const point_index i : members)
+        if (is_finite(viewpoints[i])) seen_from.add(viewpoints[i]);
+    if (seen_from.count > 0)
+        sample.viewpoint = scaled(1.0 / static_cast<double>(seen_from.count), seen_from.sum);
     const auto first = std::find_if(members.begin(), members.end(),
                                     [&](point_index i) { return is_finite(points[i]); });
     if (first == members.end()) return sample;
@@ -10986,7 +10995,7 @@ class plane_comparison {
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
         const bool is_speck = b_.spread.largest_eigenvalue() < 9.0 * variance;
-        return not_hidden * deviation + no_noise * sigma_ < max_offset &&
+        return offset < max_offset && not_hidden * deviation + no_noise * sigma_ < max_offset &&
                offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 
@@ -11024,7 +11033,7 @@ class plane_comparison {
 /// what was seen in the gap between them speaks for it.
 ///
 /// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
-/// judges all pairs of segments as they are and merges those that are accepted, until none is. A
+/// judges all pairs with a new segment and merges those that are accepted, until none is. A
 /// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
 /// is (specification of it, A15 to A19); and whether two segments are in one plane is asked of
 /// their ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the
@@ -11038,13 +11047,14 @@ struct occlusion_merging {
     angle max_angle = degrees(15);  ///< rho_a between coplanar segments
     double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
     double max_gap = 0.20;          ///< rho_c [m]: narrower gaps only stay open if seen through
-    /// Standard deviation of points across a surface [m], greater than 0. What is less flat, or
-    /// less in one plane, than the thresholds want may be so by noise, and what keeps to them by
-    /// less than noise would.
+    /// Standard deviation of ranges [m], greater than 0; of points across a surface it is no more.
+    /// What is less flat, or less in one plane, than the thresholds want may be so by noise, and
+    /// what keeps to them by less than noise would.
     double sigma = 0.015;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
     /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
-    /// to 300 segments, and for 20 of more.
+    /// to 300 segments, and for 20 of more. Two that become neighbors only because others merged
+    /// are not compared in the same run.
     std::size_t candidates = 0;
 };
 
@@ -11220,7 +11230,7 @@ class occlusion_merger {
 /// @param policy  `conservative`, `liberal` or another
 /// @throws std::invalid_argument  if the segments are of another number of points, for an odd or no
 ///                                number of boundary pairs, or a negative or NaN threshold
-/// Complexity: per round O(candidates * (n + pixels of the gaps)); rounds are few.
+/// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] merged_segments merge_occluded(const R& points, const segments& parts,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <cstddef>
+#include <cstdint>
 #include <numeric>
 #include <vector>
 
@@ -8,7 +8,6 @@
 #include "laws/clouds.hpp"
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/random.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/occlusion/detail/seen_plane.hpp>
 
@@ -21,8 +20,7 @@ constexpr double sigma = 0.015;
 /// A rectangle that rays from the origin meet, with noise along them.
 struct seen_rectangle {
     Eigen::Vector3d center, side, other_side;
-    int rays = 10;         ///< in each direction
-    double noise = sigma;  ///< standard deviation of ranges [m]
+    int rays = 10;  ///< in each direction
 
     [[nodiscard]] clouds::cloud points(std::uint64_t seed) const {
         gnomon::random_stream random(seed);
@@ -31,7 +29,7 @@ struct seen_rectangle {
             for (int j = 0; j < rays; ++j) {
                 const double a = (i + 0.5) / rays - 0.5, b = (j + 0.5) / rays - 0.5;
                 const Eigen::Vector3d p = center + a * side + b * other_side;
-                result.push_back(p * (1.0 + noise * random.gaussian() / p.norm()));
+                result.push_back(p * (1.0 + sigma * random.gaussian() / p.norm()));
             }
         }
         return result;
@@ -95,6 +93,20 @@ TEST(plane_comparison, does_not_reach_farther_than_it_knows) {
     const seen_rectangle tile{{3.0, 0.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6};
     EXPECT_GE(found_in_one_plane(tile, {{3.0, 0.12, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 97);
     EXPECT_EQ(found_in_one_plane(tile, {{3.0, 1.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 0);
+}
+
+/// What is hardly wider than noise may be off by that, but never by more than the largest offset.
+TEST(plane_comparison, allows_no_speck_more_than_the_largest_offset) {
+    int near = 0;
+    for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+        const seen_rectangle wall{{3, 0, 0}, {0, 1, 0}, {0, 0, 1}, 40};
+        const seen_rectangle small{{3.015, 0, 0.52}, {0, 0.04, 0}, {0, 0, 0.04}, 14};
+        const auto wide = sample_of(wall.points(seed)), speck = sample_of(small.points(seed + 100));
+        const plane_comparison both(wide, speck, sigma);
+        near += both.is_of_one(gnomon::degrees(15), 0.05) ? 1 : 0;
+        EXPECT_FALSE(both.is_of_one(gnomon::degrees(15), 0.008)) << seed;
+    }
+    EXPECT_GE(near, 90);
 }
 
 TEST(plane_comparison, of_no_points_is_nothing) {

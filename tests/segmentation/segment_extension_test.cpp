@@ -76,12 +76,29 @@ TEST(extend_segments, leaves_what_segments_have_and_brings_edges_back) {
     const auto more = gnomon::extend_segments(scene.points, graph, surface, found,
                                               {.max_angle = gnomon::degrees(30)});
     std::size_t before = 0, after = 0;
+    std::vector<std::int32_t> had, has;
     for (std::size_t i = 0; i < scene.points.size(); ++i) {
         before += found.labels()[i] != unlabeled;
         after += more.labels()[i] != unlabeled;
-        EXPECT_TRUE(found.labels()[i] == unlabeled || more.labels()[i] != unlabeled);
+        if (found.labels()[i] == unlabeled) continue;
+        had.push_back(found.labels()[i]);
+        has.push_back(more.labels()[i]);
     }
+    EXPECT_EQ(laws::rand_index(has, had), 1.0);
     EXPECT_GT(after, before);
+}
+
+/// Who has no normal has no say, however wide the angle.
+TEST(extend_segments, asks_only_neighbors_with_a_normal) {
+    const clouds::cloud points{{0, 0, 0}, {0.1, 0, 0.3}, {0.1, 0, 0.2}};
+    std::vector<gnomon::surfel<gnomon::plane_fit>> surface(3);
+    surface[0].normal = surface[2].normal = Eigen::Vector3d::UnitZ();
+    const auto labels = gnomon::extend_segments(points, knn{2}(points), surface,
+                                                gnomon::segments({unlabeled, 0, 1}),
+                                                {.max_angle = gnomon::degrees(90)})
+                            .labels();
+    EXPECT_EQ(labels[0], labels[2]);
+    EXPECT_NE(labels[0], labels[1]);
 }
 
 TEST(extend_segments, is_the_same_on_any_threads_and_survives_permutation_and_motion) {

@@ -29,7 +29,6 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/viewpoints.hpp>
-#include <gnomon/occlusion/boundary_pairs.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 
@@ -179,8 +178,8 @@ class lines_of_sight {
     /// The angle of a pixel.
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
-    /// What was seen towards a place, by most view points that saw anything there; of equally many
-    /// what speaks against a surface.
+    /// What was seen towards a place [m], by most view points that saw anything there; of equally
+    /// many what speaks against a surface. O(view points).
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place) const {
         sighting_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
@@ -195,8 +194,9 @@ class lines_of_sight {
         return most;
     }
 
-    /// What was seen along the straight line between two places, as `viewpoint` sees it: at steps
-    /// of a pixel, the ends left out.
+    /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
+    /// at steps of a pixel, the ends left out; nothing if one of them is not finite. O(steps * view
+    /// points).
     [[nodiscard]] sighting_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
                                          const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);

@@ -4,7 +4,7 @@
 /// what was seen in the gap between them speaks for it.
 ///
 /// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
-/// judges all pairs of segments as they are and merges those that are accepted, until none is. A
+/// judges all pairs with a new segment and merges those that are accepted, until none is. A
 /// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
 /// is (specification of it, A15 to A19); and whether two segments are in one plane is asked of
 /// their ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the
@@ -43,13 +43,14 @@ struct occlusion_merging {
     angle max_angle = degrees(15);  ///< rho_a between coplanar segments
     double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
     double max_gap = 0.20;          ///< rho_c [m]: narrower gaps only stay open if seen through
-    /// Standard deviation of points across a surface [m], greater than 0. What is less flat, or
-    /// less in one plane, than the thresholds want may be so by noise, and what keeps to them by
-    /// less than noise would.
+    /// Standard deviation of ranges [m], greater than 0; of points across a surface it is no more.
+    /// What is less flat, or less in one plane, than the thresholds want may be so by noise, and
+    /// what keeps to them by less than noise would.
     double sigma = 0.015;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
     /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
-    /// to 300 segments, and for 20 of more.
+    /// to 300 segments, and for 20 of more. Two that become neighbors only because others merged
+    /// are not compared in the same run.
     std::size_t candidates = 0;
 };
 
@@ -225,7 +226,7 @@ class occlusion_merger {
 /// @param policy  `conservative`, `liberal` or another
 /// @throws std::invalid_argument  if the segments are of another number of points, for an odd or no
 ///                                number of boundary pairs, or a negative or NaN threshold
-/// Complexity: per round O(candidates * (n + pixels of the gaps)); rounds are few.
+/// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] merged_segments merge_occluded(const R& points, const segments& parts,

@@ -215,7 +215,8 @@ class stray_claimer {
                 sum += cubes_[q.index].count * off;
                 n += cubes_[q.index].count;
             });
-        const bool is_of_plane = std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
+        const bool is_of_plane =
+            n > 0.0 && std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
         near.judged.push_back({segment, is_of_plane});
         return is_of_plane;
     }
@@ -244,8 +245,8 @@ class stray_claimer {
 /// @return the segments, largest first; the same bytes for every execution
 /// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
 ///                                is greater than 0, k at least 1 and max_distance not negative
-/// Complexity: O(n (log n + k)), and for c cubes narrower than sigma with strays O(c) slabs of
-/// cubes.
+/// Complexity: O(n (log n + k^2)) at worst, and a slab of cubes narrower than sigma for each pair
+/// of a cube with strays and a segment beside it.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments claim_strays(const R& points, const segments& parts,

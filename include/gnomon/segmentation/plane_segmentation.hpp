@@ -40,6 +40,7 @@
 
 namespace gnomon {
 
+/// Parameters of `segment_planes`.
 struct plane_segmentation {
     std::optional<double> noise =
         {};                         ///< sigma across the surface [m]; else what `noise_level` finds
@@ -65,8 +66,9 @@ struct planar_segments {
 /// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists a
 ///                                neighbor of no point; unless noise and max_deviations are finite
 ///                                and not negative, and max_angle is from 0 to 90 degrees
-/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(t log t) for t pairs of regions
-/// that touch. Growing runs on one thread. The same bytes for every execution.
+/// Complexity: O(n (log n + k)) for k neighbors in the graph where what grows is kept, and O(n m k)
+/// where it stays below m = min_points; O(t log t) for t pairs of regions that touch, and O(t^2
+/// log t) at worst. Growing runs on one thread. The same bytes for every execution.
 template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>

@@ -32,6 +32,7 @@
 
 namespace gnomon {
 
+/// Parameters of `extend_segments`.
 struct segment_extension {
     angle max_angle = degrees(20);  ///< between the normals of a point and of who takes it in
     int rings = 10;                 ///< how many neighbors deep, at most
@@ -49,7 +50,8 @@ template <class Points, neighborhood_graph G, normal_range Surface>
     votes.clear();
     for (const point_index j : graph[i]) {
         const Eigen::Vector3d& n_j = surface[j].normal;
-        if (labels[j] != unlabeled && std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
+        if (labels[j] == unlabeled || is_missing(n_j) || !is_finite(p[j])) continue;
+        if (std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
             votes.emplace_back(labels[j], std::abs(dot(n_j, difference(p[i], p[j]))));
     }
     std::sort(votes.begin(), votes.end());

@@ -108,7 +108,7 @@ struct depth_regression {
 
 /// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
 /// at the edges: what is off the plane by more than 2.5 standard deviations of a range is left out,
-/// unless that is most. Of none if no point is finite.
+/// again and again, unless that is most of what was left. Of none if no point is finite.
 /// @param points   a position_view of the cloud
 /// @param members  indices of the points of the segment
 /// Complexity: O(n).
@@ -116,8 +116,10 @@ struct depth_regression {
                                            const viewpoint_table& viewpoints, double sigma) {
     plane_sample sample;
     moments seen_from;
-    for (const point_index i : members) seen_from.add(viewpoints[i]);
-    sample.viewpoint = scaled(1.0 / static_cast<double>(members.size()), seen_from.sum);
+    for (const point_index i : members)
+        if (is_finite(viewpoints[i])) seen_from.add(viewpoints[i]);
+    if (seen_from.count > 0)
+        sample.viewpoint = scaled(1.0 / static_cast<double>(seen_from.count), seen_from.sum);
     const auto first = std::find_if(members.begin(), members.end(),
                                     [&](point_index i) { return is_finite(points[i]); });
     if (first == members.end()) return sample;
@@ -193,7 +195,7 @@ class plane_comparison {
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
         const bool is_speck = b_.spread.largest_eigenvalue() < 9.0 * variance;
-        return not_hidden * deviation + no_noise * sigma_ < max_offset &&
+        return offset < max_offset && not_hidden * deviation + no_noise * sigma_ < max_offset &&
                offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
     }
 

@@ -73,6 +73,7 @@ class plane_growth {
                 std::size_t count = 0;
                 for (const point_index j : graph_[i]) {
                     const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
+                    if (!std::isfinite(d)) continue;
                     roughness[i] += d * d;
                     ++count;
                 }
