@@ -73,8 +73,8 @@ TEST(lines_of_sight, tell_what_the_rays_about_a_place_tell) {
         const gnomon::angle azimuth = gnomon::degrees(degrees);
         return range * Eigen::Vector3d(cos(azimuth), sin(azimuth), 0.0);
     };
-    const auto between = [&](double right, double left) {
-        const clouds::cloud rays{place(-0.5, right), place(1.5, left)};
+    const auto between = [&](double right, double left, double away = 1.0) {
+        const clouds::cloud rays{place(0.5 - away, right), place(0.5 + away, left)};
         const gnomon::lines_of_sight sights(
             rays, {.pixel = gnomon::degrees(1), .pole = Eigen::Vector3d::UnitZ()});
         return sights.towards(place(0.5, 3.0));
@@ -86,6 +86,13 @@ TEST(lines_of_sight, tell_what_the_rays_about_a_place_tell) {
     EXPECT_EQ(between(3.0, 1.5), sighting::level);
     EXPECT_EQ(between(1.5, 5.0), sighting::unseen);
     EXPECT_EQ(between(5.0, 3.0), sighting::unseen);
+    // Lines of a scan that are far apart: what is hidden to both sides is hidden.
+    EXPECT_EQ(between(1.5, 1.5, 2.0), sighting::closer);
+    for (const double range : {1.5, 3.0, 5.0}) {
+        EXPECT_EQ(between(3.0, range, 2.0), sighting::unseen);
+        EXPECT_EQ(between(5.0, range, 2.0), sighting::unseen);
+    }
+    EXPECT_EQ(between(1.5, 1.5, 3.0), sighting::unseen);
 }
 
 /// Three sigma and what a surface may turn away within a pixel are no difference.

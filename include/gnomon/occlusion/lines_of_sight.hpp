@@ -228,8 +228,8 @@ class lines_of_sight {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected) || !image.may_show(place)) return sighting::unseen;
         const double margin = 3.0 * sigma_ + expected * pixel_;
-        const auto told_by = [&](const range_image::pixel& at) {
-            const double range = image.range(at);
+        const auto told_by = [&](const range_image::pixel& other) {
+            const double range = image.range(other);
             if (range < 0.0) return sighting::unseen;
             if (range < expected - margin) return sighting::closer;
             return range > expected + margin ? sighting::farther : sighting::level;
@@ -237,14 +237,24 @@ class lines_of_sight {
         const range_image::pixel at = image.pixel_of(place);
         const sighting here = told_by(at);
         if (here != sighting::unseen) return here;
-        // Rays are not spaced as evenly as pixels: what all pixels about it tell holds here, too.
-        // At an edge of what is in front of a surface some tell of that, and some of the surface:
-        // the place is not empty, nor certainly hidden.
+        // Rays are not spaced as evenly as pixels: what those about it tell holds here, too. Across
+        // the lines of a scan they may be two pixels away; of these only what hides is believed.
+        const sighting beside = told_about(at, 1, image, told_by);
+        const bool is_hidden =
+            beside == sighting::unseen && told_about(at, 2, image, told_by) == sighting::closer;
+        return is_hidden ? sighting::closer : beside;
+    }
+
+    /// What all pixels about one tell that tell anything. At an edge of what is in front of a
+    /// surface some tell of that, and some of the surface: the place is not empty, nor certainly
+    /// hidden.
+    [[nodiscard]] static sighting told_about(const range_image::pixel& at, std::size_t reach,
+                                             const range_image& image, const auto& told_by) {
         sighting about = sighting::unseen;
-        for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
-             e <= std::min(at.elevation + 1, image.height() - 1); ++e) {
-            for (std::size_t a = at.azimuth + image.width() - 1;
-                 a <= at.azimuth + image.width() + 1; ++a) {
+        for (std::size_t e = at.elevation - std::min(at.elevation, reach);
+             e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
+            for (std::size_t a = at.azimuth + image.width() - reach;
+                 a <= at.azimuth + image.width() + reach; ++a) {
                 const sighting s = told_by({a % image.width(), e});
                 if (s == sighting::unseen) continue;
                 if (about == sighting::unseen || s == about) {
