@@ -7,6 +7,7 @@ grows with the number of points; gnomon on one thread and on two, in turns with 
 instructions, which valgrind counts: these do not depend on who else uses the machine.
 """
 
+import itertools
 import pathlib
 import re
 import shutil
@@ -136,19 +137,19 @@ def gain(program, setting, part, cloud):
              "apart": [worker(1, [first]), worker(1, [last])]}
     seconds = {name: [] for name in teams}
     idle, turns_in_a_row = 3, 8
-    for _ in range(part.rounds):
-        for name, team in teams.items():
-            for turn in range(turns_in_a_row):
-                for one in team:
-                    one.begin()
-                for one in team:
-                    one.end()
-                    if one.failure:
-                        raise Refusal(one.failure)
-                if turn >= idle:
-                    seconds[name].append(max(one.seconds[-1] for one in team))
-    for team in teams.values():
-        for one in team:
+    try:
+        for _, (name, team), turn in itertools.product(
+                range(part.rounds), teams.items(), range(turns_in_a_row)):
+            for one in team:
+                one.begin()
+            for one in team:
+                one.end()
+                if one.failure:
+                    raise Refusal(one.failure)
+            if turn >= idle:
+                seconds[name].append(max(one.seconds[-1] for one in team))
+    finally:
+        for one in itertools.chain(*teams.values()):
             one.dismiss()
     median = {name: statistics.median(times) for name, times in seconds.items()}
     ratios = [a / b for a, b in zip(seconds["one"], seconds["two"])]

@@ -12,7 +12,8 @@ sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "peers")
 
 import tables  # noqa: E402
 from tables import (  # noqa: E402
-    GAIN, OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text, unique)
+    GAIN, OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text,
+    unique)
 from verdicts import extra_bytes, judged, ours_at, rows_at, table_of  # noqa: E402
 
 INTRODUCTION = """\

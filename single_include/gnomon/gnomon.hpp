@@ -10807,18 +10807,57 @@ template <class Segment, class Frame = std::identity>
     return pairs;
 }
 
-/// The segments of n points that consist of these members, vectors of their indices, numbered as
-/// usual. (As a template, it costs only those who use it the compilation of a sort.)
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+/// The segments of n points, numbered as usual. (As a template, it costs only those who use it the
+/// compilation of a sort.)
+/// @param groups   something of each segment
+/// @param members  the indices of its points, of that
+template <class Members = std::identity>
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups,
+                                          Members&& members = {}) {
     union_find sets(n);
     std::vector<bool> is_member(n, false);
-    for (const auto& members : groups) {
-        for (const point_index i : members) {
-            sets.unite(members.front(), i);
+    for (const auto& group : groups) {
+        const auto& own = std::invoke(members, group);
+        for (const point_index i : own) {
+            sets.unite(own.front(), i);
             is_member[i] = true;
         }
     }
     return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/gap_verdict.hpp ------------------------------------------------
+
+/// @file
+/// What a line across a gap says of it, by what was seen at its places (Klasing 2010, Sec. 4.3.5;
+/// specification of it, A19).
+
+namespace gnomon::detail {
+
+/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
+/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
+/// says.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
+    if (seen.total() == 0) return policy(sighting::unseen);
+    std::size_t in_favor = 0, against = 0;
+    for (const sighting s :
+         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
+        if (policy(s))
+            in_favor += seen[s];
+        else if (s != sighting::level)
+            against += seen[s];
+    }
+    return in_favor > against;
+}
+
+/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
+/// ever so much in front of the others.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
+    return seen[sighting::farther] > 0 && !policy(sighting::farther);
 }
 
 }  // namespace gnomon::detail
@@ -11082,30 +11121,6 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
-/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
-/// says.
-template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
-    if (seen.total() == 0) return policy(sighting::unseen);
-    std::size_t in_favor = 0, against = 0;
-    for (const sighting s :
-         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
-        if (policy(s))
-            in_favor += seen[s];
-        else if (s != sighting::level)
-            against += seen[s];
-    }
-    return in_favor > against;
-}
-
-/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
-/// ever so much in front of the others.
-template <merge_policy M>
-[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
-    return seen[sighting::farther] > 0 && !policy(sighting::farther);
-}
-
 /// One run of the algorithm.
 template <class R, merge_policy M, class Proj>
 class occlusion_merger {
@@ -11126,9 +11141,7 @@ class occlusion_merger {
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        std::vector<std::vector<point_index>> groups;
-        for (surface& s : surfaces_) groups.push_back(std::move(s.members));
-        return {segments_of_groups(points_.size(), groups), std::move(gaps_)};
+        return {segments_of_groups(points_.size(), surfaces_, &surface::members), std::move(gaps_)};
     }
 
   private:
@@ -11201,22 +11214,21 @@ class occlusion_merger {
 
     /// Makes one segment of each set.
     void gather(union_find& sets) {
-        std::vector<bool> grows(surfaces_.size(), false);
+        for (surface& s : surfaces_) s.is_new = false;
         for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const point_index root = sets.find(static_cast<point_index>(s));
             if (root == s) continue;
             auto &from = surfaces_[s].members, &to = surfaces_[root].members;
             to.insert(to.end(), from.begin(), from.end());
             from.clear();
-            grows[root] = true;
-        }
-        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-            surfaces_[s].is_new = false;
-            if (!grows[s]) continue;
-            std::sort(surfaces_[s].members.begin(), surfaces_[s].members.end());
-            surfaces_[s] = surface_of(std::move(surfaces_[s].members));
+            surfaces_[root].is_new = true;
         }
         std::erase_if(surfaces_, [](const surface& s) { return s.members.empty(); });
+        for (surface& s : surfaces_) {
+            if (!s.is_new) continue;
+            std::sort(s.members.begin(), s.members.end());
+            s = surface_of(std::move(s.members));
+        }
     }
 
     const R& range_;

@@ -119,42 +119,6 @@ TEST(merge_occluded, closes_no_gap_that_is_not_narrow) {
     }
 }
 
-/// Places where the surface is seen count for nobody.
-TEST(merge_occluded, weighs_the_places_of_a_line) {
-    const auto accepted = [](const auto& policy, std::size_t unseen, std::size_t closer,
-                             std::size_t level, std::size_t farther) {
-        return gnomon::detail::accepts(policy, {{unseen, closer, level, farther}});
-    };
-    EXPECT_TRUE(accepted(conservative{}, 0, 1, 8, 0));
-    EXPECT_TRUE(accepted(conservative{}, 3, 4, 0, 0));
-    EXPECT_FALSE(accepted(conservative{}, 4, 4, 0, 0)) << "more than half, not half";
-    EXPECT_FALSE(accepted(conservative{}, 0, 0, 5, 0));
-    EXPECT_TRUE(accepted(liberal{}, 4, 0, 0, 0));
-    EXPECT_FALSE(accepted(conservative{}, 0, 0, 0, 0));
-    EXPECT_TRUE(accepted(liberal{}, 0, 0, 0, 0));
-}
-
-/// One place that is seen through outweighs all others, for those who do not merge across a hole.
-TEST(merge_occluded, keeps_a_gap_open_that_is_seen_through_at_one_place) {
-    const auto kept = [](const auto& policy, std::size_t unseen, std::size_t closer,
-                         std::size_t level, std::size_t farther) {
-        return gnomon::detail::keeps_open(policy, {{unseen, closer, level, farther}});
-    };
-    const auto for_each_policy = [&](auto&& expect) {
-        expect([&](auto... seen) { return kept(conservative{}, seen...); });
-        expect([&](auto... seen) { return kept(liberal{}, seen...); });
-    };
-    for_each_policy([](const auto& stays_open) {
-        EXPECT_TRUE(stays_open(0u, 9u, 0u, 1u));
-        EXPECT_TRUE(stays_open(0u, 8u, 0u, 1u));
-        EXPECT_TRUE(stays_open(0u, 98u, 0u, 2u));
-        EXPECT_FALSE(stays_open(0u, 9u, 0u, 0u));
-        EXPECT_FALSE(stays_open(9u, 0u, 9u, 0u));
-    });
-    const auto always = [](gnomon::sighting) { return true; };
-    EXPECT_FALSE(kept(always, 0, 0, 0, 9));
-}
-
 /// A third of the gap is seen through, past the column.
 TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
     gnomon::scene world = looks::opened(0.9);

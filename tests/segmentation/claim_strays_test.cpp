@@ -70,6 +70,22 @@ TEST(claim_strays, leaves_what_only_seems_to_be_of_the_plane) {
     EXPECT_LE(cloud::share(c.claimed().labels(), first, c.points.size(), 0), 0.05);
 }
 
+/// Two of one cube, one just within three deviations: their mean is not, and nothing speaks for it.
+TEST(claim_strays, claims_nothing_on_no_evidence) {
+    cloud c;
+    for (int i = 0; i < 30; ++i) {
+        for (int j = 0; j < 30; ++j) {
+            c.points.emplace_back(0.01 * i, 0.01 * j, 0.005);
+            c.labels.push_back(0);
+        }
+    }
+    for (const double z : {0.0345, 0.0370}) {  // 2.95 and 3.2 deviations above
+        c.points.emplace_back(0.152, 0.152, z);
+        c.labels.push_back(unlabeled);
+    }
+    EXPECT_EQ(cloud::share(c.claimed().labels(), 900, 902, unlabeled), 1.0);
+}
+
 TEST(claim_strays, gives_each_to_the_nearest_plane) {
     cloud c;
     c.add_sheet(0.0, 0.0, 50, 60, 0.0, 0);

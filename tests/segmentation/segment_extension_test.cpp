@@ -81,6 +81,7 @@ TEST(extend_segments, leaves_what_segments_have_and_brings_edges_back) {
         before += found.labels()[i] != unlabeled;
         after += more.labels()[i] != unlabeled;
         if (found.labels()[i] == unlabeled) continue;
+        EXPECT_NE(more.labels()[i], unlabeled);
         had.push_back(found.labels()[i]);
         has.push_back(more.labels()[i]);
     }

@@ -29,6 +29,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
+#include <gnomon/occlusion/detail/gap_verdict.hpp>
 #include <gnomon/occlusion/detail/seen_plane.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/lines_of_sight.hpp>
@@ -68,30 +69,6 @@ struct merged_segments {
 
 namespace detail {
 
-/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
-/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
-/// says.
-template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
-    if (seen.total() == 0) return policy(sighting::unseen);
-    std::size_t in_favor = 0, against = 0;
-    for (const sighting s :
-         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
-        if (policy(s))
-            in_favor += seen[s];
-        else if (s != sighting::level)
-            against += seen[s];
-    }
-    return in_favor > against;
-}
-
-/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
-/// ever so much in front of the others.
-template <merge_policy M>
-[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
-    return seen[sighting::farther] > 0 && !policy(sighting::farther);
-}
-
 /// One run of the algorithm.
 template <class R, merge_policy M, class Proj>
 class occlusion_merger {
@@ -112,9 +89,7 @@ class occlusion_merger {
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        std::vector<std::vector<point_index>> groups;
-        for (surface& s : surfaces_) groups.push_back(std::move(s.members));
-        return {segments_of_groups(points_.size(), groups), std::move(gaps_)};
+        return {segments_of_groups(points_.size(), surfaces_, &surface::members), std::move(gaps_)};
     }
 
   private:
@@ -187,22 +162,21 @@ class occlusion_merger {
 
     /// Makes one segment of each set.
     void gather(union_find& sets) {
-        std::vector<bool> grows(surfaces_.size(), false);
+        for (surface& s : surfaces_) s.is_new = false;
         for (std::size_t s = 0; s < surfaces_.size(); ++s) {
             const point_index root = sets.find(static_cast<point_index>(s));
             if (root == s) continue;
             auto &from = surfaces_[s].members, &to = surfaces_[root].members;
             to.insert(to.end(), from.begin(), from.end());
             from.clear();
-            grows[root] = true;
-        }
-        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-            surfaces_[s].is_new = false;
-            if (!grows[s]) continue;
-            std::sort(surfaces_[s].members.begin(), surfaces_[s].members.end());
-            surfaces_[s] = surface_of(std::move(surfaces_[s].members));
+            surfaces_[root].is_new = true;
         }
         std::erase_if(surfaces_, [](const surface& s) { return s.members.empty(); });
+        for (surface& s : surfaces_) {
+            if (!s.is_new) continue;
+            std::sort(s.members.begin(), s.members.end());
+            s = surface_of(std::move(s.members));
+        }
     }
 
     const R& range_;

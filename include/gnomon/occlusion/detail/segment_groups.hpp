@@ -49,14 +49,19 @@ template <class Segment, class Frame = std::identity>
     return pairs;
 }
 
-/// The segments of n points that consist of these members, vectors of their indices, numbered as
-/// usual. (As a template, it costs only those who use it the compilation of a sort.)
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
+/// The segments of n points, numbered as usual. (As a template, it costs only those who use it the
+/// compilation of a sort.)
+/// @param groups   something of each segment
+/// @param members  the indices of its points, of that
+template <class Members = std::identity>
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups,
+                                          Members&& members = {}) {
     union_find sets(n);
     std::vector<bool> is_member(n, false);
-    for (const auto& members : groups) {
-        for (const point_index i : members) {
-            sets.unite(members.front(), i);
+    for (const auto& group : groups) {
+        const auto& own = std::invoke(members, group);
+        for (const point_index i : own) {
+            sets.unite(own.front(), i);
             is_member[i] = true;
         }
     }
