@@ -108,7 +108,7 @@ QUICK = [
 
 def gains(programs, clouds, quick):
     """Rows of how many times as long one thread takes as two."""
-    plan = [(SMALL, [10], 2)] if quick else [("kitchen", KS, 6), (OFFICE, KS, 6),
+    plan = [(SMALL, [10], 2)] if quick else [("kitchen", KS, 15), (OFFICE, KS, 8),
                                              ("kitchen_million", [30], 4)]
     rows = []
     for cloud_name, ks, rounds in plan:

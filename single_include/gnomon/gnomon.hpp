@@ -153,6 +153,127 @@ namespace detail {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/crew.hpp ------------------------------------------------------------
+
+/// @file
+/// Threads that stay between one step of an algorithm and the next. To start a thread, or to wake
+/// one, takes as long as many a step; so who has nothing to do looks out for work for a while
+/// before falling asleep, and nobody waits for who comes when the work is done.
+
+namespace gnomon::detail {
+
+/// The thread that calls, and helpers, who are started once there is work for them.
+class crew {
+  public:
+    /// Of so many at most, the calling one among them.
+    explicit crew(std::size_t size) : size_(size) {}
+    crew(const crew&) = delete;
+    crew& operator=(const crew&) = delete;
+    ~crew() {
+        dissolved_ = true;
+        call();
+    }
+
+    /// Calls work(c) as `threads` does. Not to be called by two threads at a time.
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) {
+        std::atomic<std::size_t> next{0};
+        std::atomic<std::size_t> failed{chunks};
+        std::exception_ptr failure;
+        std::mutex guard;
+        const auto drain = [&] {
+            for (std::size_t c = next++; c < failed; c = next++) {
+                try {
+                    work(c);
+                } catch (...) {
+                    const std::lock_guard lock(guard);
+                    if (c < failed) {
+                        failed = c;
+                        failure = std::current_exception();
+                    }
+                }
+            }
+        };
+        grow_to(std::min(size_, chunks));
+        share(drain);
+        if (failure) std::rethrow_exception(failure);
+    }
+
+  private:
+    /// The chunks are drained by the threads that a machine does not refuse.
+    void grow_to(std::size_t size) {
+        try {
+            while (helpers_.size() + 1 < size)
+                helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
+        } catch (const std::system_error&) {
+            size_ = helpers_.size() + 1;
+        }
+    }
+
+    /// Works together with the helpers that come before it is done.
+    template <class Work>
+    void share(const Work& work) {
+        if (helpers_.empty()) return work();
+        work_ = &work;
+        do_ = [](const void* w) { (*static_cast<const Work*>(w))(); };
+        inside_ -= closed;
+        call();
+        work();
+        inside_ += closed;
+        for (unsigned i = inside_; i != closed; i = inside_) wait_while(inside_, i);
+    }
+
+    void help(unsigned heard) {
+        for (;;) {
+            wait_while(calls_, heard);
+            heard = calls_;
+            if (dissolved_) return;
+            if (inside_++ < closed) do_(work_);
+            if (--inside_ == closed) inside_.notify_one();
+        }
+    }
+
+    void call() {
+        ++calls_;
+        calls_.notify_all();
+    }
+
+    static void wait_while(const std::atomic<unsigned>& value, unsigned old) {
+        using clock = std::chrono::steady_clock;
+        const auto end_of_patience = clock::now() + std::chrono::milliseconds(1);
+        while (value == old) {
+            if (clock::now() < end_of_patience)
+                std::this_thread::yield();
+            else
+                value.wait(old);
+        }
+    }
+
+    static constexpr unsigned closed = 1u << 31;
+
+    std::size_t size_;
+    std::atomic<unsigned> calls_{0};
+    std::atomic<unsigned> inside_{closed};  // helpers, plus `closed` while there is no work
+    std::atomic<bool> dissolved_{false};
+    const void* work_ = nullptr;
+    void (*do_)(const void*) = nullptr;
+    std::vector<std::jthread> helpers_;  // last: joined before what they use is gone
+};
+
+/// The execution by a crew that stays as long as this does.
+class staying_threads {
+  public:
+    explicit staying_threads(std::size_t size) : crew_(std::make_unique<crew>(size)) {}
+
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
+        (*crew_)(chunks, work);
+    }
+
+  private:
+    std::unique_ptr<crew> crew_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/execution.hpp --------------------------------------------------------------
 
 /// @file
@@ -183,35 +304,7 @@ struct threads {
     /// throw, the exception of the smallest such c is thrown on, after all threads came to rest;
     /// chunks after it may have been left out. A machine that refuses threads gets fewer of them.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        std::atomic<std::size_t> next{0};
-        std::atomic<std::size_t> failed{chunks};
-        std::exception_ptr failure;
-        std::mutex guard;
-        const auto drain = [&] {
-            for (std::size_t c = next++; c < failed; c = next++) {
-                try {
-                    work(c);
-                } catch (...) {
-                    const std::lock_guard lock(guard);
-                    if (c < failed) {
-                        failed = c;
-                        failure = std::current_exception();
-                    }
-                }
-            }
-        };
-        {
-            std::vector<std::jthread> helpers;
-            const std::size_t wanted = std::min<std::size_t>(count(), chunks);
-            helpers.reserve(wanted);
-            try {
-                while (helpers.size() + 1 < wanted) helpers.emplace_back(drain);
-            } catch (const std::system_error&) {
-                // The chunks are drained by the threads that did start.
-            }
-            drain();
-        }
-        if (failure) std::rethrow_exception(failure);
+        detail::crew{count()}(chunks, work);
     }
 };
 
@@ -219,6 +312,19 @@ struct threads {
 /// when all are done. Models: `sequential`, `threads`.
 template <class X>
 concept execution = requires(const X& x, void (*work)(std::size_t)) { x(std::size_t{}, work); };
+
+namespace detail {
+
+/// The same execution for an algorithm of several steps: threads stay from the first to the last.
+template <execution X>
+[[nodiscard]] const X& staying(const X& run) {
+    return run;
+}
+[[nodiscard]] inline staying_threads staying(const threads& run) {
+    return staying_threads(run.count());
+}
+
+}  // namespace detail
 
 /// Points per chunk of work: many enough to hide the handing out, few enough to balance it.
 inline constexpr std::size_t chunk_size = 1024;
@@ -4296,14 +4402,15 @@ template <class Policy, class R, execution X, class Proj>
 [[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
                                     Proj projection) {
     const std::size_t n = position_view<R, Proj>(points, projection).size();
+    const auto& team = staying(run);
     seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
-    if (!policy.sweep(points, run, projection, [&] { return ring_recorder(all); }))
-        return adjacency(policy.search(points, std::move(projection)), run);
+    if (!policy.sweep(points, team, projection, [&] { return ring_recorder(all); }))
+        return adjacency(policy.search(points, std::move(projection)), team);
 
     std::vector<std::uint64_t>& begin = all.size_before;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<point_index> indices(begin.back());
-    run(all.parts.size(), [&](std::size_t c) {
+    team(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
         for (const point_index i : all.parts[c].points) {
             const auto size = static_cast<std::ptrdiff_t>(begin[i + 1] - begin[i]);
@@ -5173,13 +5280,14 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
     const position_view<R, Proj> p(points, projection);
+    const auto& team = detail::staying(run);
     if constexpr (sweeping_neighborhood<N, R, Proj>) {
-        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), run);
+        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), team);
         const viewpoint_table viewpoints = viewpoints_of(points);
         const auto make_visitor = [&] {
             return detail::sweep_visitor(estimate, p, viewpoints, surface);
         };
-        if (policy.sweep(points, run, projection, make_visitor)) {
+        if (policy.sweep(points, team, projection, make_visitor)) {
             for (std::size_t i = 0; i < p.size(); ++i) {
                 if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
             }
@@ -5189,11 +5297,12 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const auto search = policy.search(points, projection);
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+        detail::estimate_at(team, p.size(), std::identity{}, p, viewpoints_of(points),
                             detail::found_rings(search), estimate, surface);
         return surface;
     } else {
-        return estimate_normals(points, policy(points, run, projection), estimate, run, projection);
+        return estimate_normals(points, policy(points, team, projection), estimate, team,
+                                projection);
     }
 }
 
@@ -8738,7 +8847,8 @@ class linker {
     /// way, link is not asked.
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
-        const leaf_tree tree(points_, run);
+        const auto& team = staying(run);
+        const leaf_tree tree(points_, team);
         const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
             const point_index i = tree.index()[place];
@@ -8749,7 +8859,7 @@ class linker {
                     root = sets_.unite(i, j);
             }
         };
-        search_all_groups(tree, run, make_search, [&] { return join; });
+        search_all_groups(tree, team, make_search, [&] { return join; });
     }
 
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
@@ -9633,10 +9743,11 @@ class component_walk {
 /// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
-    const leaf_tree tree(points, run);
-    union_find places = component_walk(tree, radius)(run);
+    const auto& team = staying(run);
+    const leaf_tree tree(points, team);
+    union_find places = component_walk(tree, radius)(team);
     union_find sets(points.size());
-    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
+    for_each_chunk(team, tree.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
     });

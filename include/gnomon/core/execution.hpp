@@ -6,14 +6,11 @@
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <concepts>
 #include <cstddef>
-#include <exception>
-#include <mutex>
-#include <system_error>
 #include <thread>
-#include <vector>
+
+#include <gnomon/core/detail/crew.hpp>
 
 namespace gnomon {
 
@@ -38,35 +35,7 @@ struct threads {
     /// throw, the exception of the smallest such c is thrown on, after all threads came to rest;
     /// chunks after it may have been left out. A machine that refuses threads gets fewer of them.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        std::atomic<std::size_t> next{0};
-        std::atomic<std::size_t> failed{chunks};
-        std::exception_ptr failure;
-        std::mutex guard;
-        const auto drain = [&] {
-            for (std::size_t c = next++; c < failed; c = next++) {
-                try {
-                    work(c);
-                } catch (...) {
-                    const std::lock_guard lock(guard);
-                    if (c < failed) {
-                        failed = c;
-                        failure = std::current_exception();
-                    }
-                }
-            }
-        };
-        {
-            std::vector<std::jthread> helpers;
-            const std::size_t wanted = std::min<std::size_t>(count(), chunks);
-            helpers.reserve(wanted);
-            try {
-                while (helpers.size() + 1 < wanted) helpers.emplace_back(drain);
-            } catch (const std::system_error&) {
-                // The chunks are drained by the threads that did start.
-            }
-            drain();
-        }
-        if (failure) std::rethrow_exception(failure);
+        detail::crew{count()}(chunks, work);
     }
 };
 
@@ -74,6 +43,19 @@ struct threads {
 /// when all are done. Models: `sequential`, `threads`.
 template <class X>
 concept execution = requires(const X& x, void (*work)(std::size_t)) { x(std::size_t{}, work); };
+
+namespace detail {
+
+/// The same execution for an algorithm of several steps: threads stay from the first to the last.
+template <execution X>
+[[nodiscard]] const X& staying(const X& run) {
+    return run;
+}
+[[nodiscard]] inline staying_threads staying(const threads& run) {
+    return staying_threads(run.count());
+}
+
+}  // namespace detail
 
 /// Points per chunk of work: many enough to hide the handing out, few enough to balance it.
 inline constexpr std::size_t chunk_size = 1024;

@@ -254,13 +254,14 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
     const position_view<R, Proj> p(points, projection);
+    const auto& team = detail::staying(run);
     if constexpr (sweeping_neighborhood<N, R, Proj>) {
-        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), run);
+        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), team);
         const viewpoint_table viewpoints = viewpoints_of(points);
         const auto make_visitor = [&] {
             return detail::sweep_visitor(estimate, p, viewpoints, surface);
         };
-        if (policy.sweep(points, run, projection, make_visitor)) {
+        if (policy.sweep(points, team, projection, make_visitor)) {
             for (std::size_t i = 0; i < p.size(); ++i) {
                 if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
             }
@@ -270,11 +271,12 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
     if constexpr (streaming_neighborhood<N, R, Proj>) {
         const auto search = policy.search(points, projection);
         std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
+        detail::estimate_at(team, p.size(), std::identity{}, p, viewpoints_of(points),
                             detail::found_rings(search), estimate, surface);
         return surface;
     } else {
-        return estimate_normals(points, policy(points, run, projection), estimate, run, projection);
+        return estimate_normals(points, policy(points, team, projection), estimate, team,
+                                projection);
     }
 }
 

@@ -58,14 +58,15 @@ template <class Policy, class R, execution X, class Proj>
 [[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
                                     Proj projection) {
     const std::size_t n = position_view<R, Proj>(points, projection).size();
+    const auto& team = staying(run);
     seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
-    if (!policy.sweep(points, run, projection, [&] { return ring_recorder(all); }))
-        return adjacency(policy.search(points, std::move(projection)), run);
+    if (!policy.sweep(points, team, projection, [&] { return ring_recorder(all); }))
+        return adjacency(policy.search(points, std::move(projection)), team);
 
     std::vector<std::uint64_t>& begin = all.size_before;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     std::vector<point_index> indices(begin.back());
-    run(all.parts.size(), [&](std::size_t c) {
+    team(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
         for (const point_index i : all.parts[c].points) {
             const auto size = static_cast<std::ptrdiff_t>(begin[i + 1] - begin[i]);

@@ -231,10 +231,11 @@ class component_walk {
 /// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
-    const leaf_tree tree(points, run);
-    union_find places = component_walk(tree, radius)(run);
+    const auto& team = staying(run);
+    const leaf_tree tree(points, team);
+    union_find places = component_walk(tree, radius)(team);
     union_find sets(points.size());
-    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
+    for_each_chunk(team, tree.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
     });

@@ -43,7 +43,8 @@ class linker {
     /// way, link is not asked.
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
-        const leaf_tree tree(points_, run);
+        const auto& team = staying(run);
+        const leaf_tree tree(points_, team);
         const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
             const point_index i = tree.index()[place];
@@ -54,7 +55,7 @@ class linker {
                     root = sets_.unite(i, j);
             }
         };
-        search_all_groups(tree, run, make_search, [&] { return join; });
+        search_all_groups(tree, team, make_search, [&] { return join; });
     }
 
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
