@@ -14,6 +14,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
+#include <limits>
 #include <span>
 #include <utility>
 #include <vector>
@@ -107,27 +109,65 @@ class occlusion_merger {
         return {std::move(members), frame, plane};
     }
 
+    /// A gap that may be closed.
+    struct link {
+        point_index first, second;  ///< the surfaces on both sides
+        double offset;              ///< of one from the plane of the other [m]
+        std::size_t gap;            ///< its number
+    };
+
     /// One round.
     /// @return whether it merged any
     bool merge_once() {
-        union_find sets(surfaces_.size());
-        bool any = false;
+        std::vector<link> links;
         for (const auto& [i, j] : pairs_to_compare(
                  surfaces_, options_.candidates, [this](const auto& f) { return is_flat(f); },
                  &surface::frame)) {
             const surface &a = surfaces_[i], &b = surfaces_[j];
-            if (!(a.is_new || b.is_new) || !are_of_one_plane(a, b)) continue;
+            if (!a.is_new && !b.is_new) continue;
+            const plane_comparison planes = planes_of(a, b);
+            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
                 boundary_pairs(points_, a.members, b.members, {a.frame.centroid, b.frame.centroid},
                                options_.boundary_pairs),
                 false};
-            gap.merged = is_closed(gap.lines);
-            if (gap.merged) sets.unite(i, j);
-            any = any || gap.merged;
+            if (is_closed(gap.lines)) links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
+        }
+        union_find sets(surfaces_.size());
+        bool any = false;
+        for (const link& l : without_bridges(links)) {
+            sets.unite(l.first, l.second);
+            gaps_[l.gap].merged = any = true;
         }
         if (any) gather(sets);
         return any;
+    }
+
+    /// A surface too small to tell its plane may be of one with two that are certainly of two: it
+    /// goes with that which its points are closer to.
+    [[nodiscard]] std::vector<link> without_bridges(const std::vector<link>& links) const {
+        std::vector<double> least(surfaces_.size(), std::numeric_limits<double>::infinity());
+        for (const link& l : links)
+            for (const point_index s : {l.first, l.second}) least[s] = std::min(least[s], l.offset);
+        std::vector<std::vector<point_index>> closest(surfaces_.size());
+        for (const link& l : links) {
+            if (l.offset == least[l.first]) closest[l.first].push_back(l.second);
+            if (l.offset == least[l.second]) closest[l.second].push_back(l.first);
+        }
+        const auto is_of_other = [&](point_index surface, point_index by_way_of) {
+            return std::any_of(closest[by_way_of].begin(), closest[by_way_of].end(),
+                               [&](point_index other) {
+                                   return other != surface &&
+                                          planes_of(surfaces_[surface], surfaces_[other])
+                                              .is_of_two(options_.max_angle, options_.max_offset);
+                               });
+        };
+        std::vector<link> kept;
+        std::copy_if(links.begin(), links.end(), std::back_inserter(kept), [&](const link& l) {
+            return !is_of_other(l.first, l.second) && !is_of_other(l.second, l.first);
+        });
+        return kept;
     }
 
     /// A segment no thicker than twice the noise is flat, whatever its variation.
@@ -136,11 +176,9 @@ class occlusion_merger {
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool are_of_one_plane(const surface& a, const surface& b) const {
+    [[nodiscard]] plane_comparison planes_of(const surface& a, const surface& b) const {
         const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
-        const plane_sample &wide = (first ? a : b).plane, &slim = (first ? b : a).plane;
-        return plane_comparison(wide, slim, options_.sigma)
-            .is_of_one(options_.max_angle, options_.max_offset);
+        return {(first ? a : b).plane, (first ? b : a).plane, options_.sigma};
     }
 
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
