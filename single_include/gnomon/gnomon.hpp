@@ -11110,14 +11110,43 @@ struct depth_regression {
 /// Two samples, and what noise lets them tell of whether they are of one plane.
 class plane_comparison {
   public:
+    /// Of none if one of them is.
     /// @param wide  that of the wider segment
     plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
-        : wide_(wide),
-          slim_(slim),
-          sigma_(sigma),
-          axes_(axes_towards(slim)),  // the slim one depends more on how the rays go
-          a_(wide, axes_),
-          b_(slim, axes_) {}
+        : sigma_(sigma), is_of_something_(wide.count > 0 && slim.count > 0) {
+        const sight_axes axes = axes_towards(slim);  // which depends more on how the rays go
+        const depth_regression a(wide, axes), b(slim, axes);
+        constexpr double square_of_two = 11.8;  // 99.7 % of chi-squared, of two numbers
+        const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
+        const matrix_across spread = spread_of_slope(wide, a) + spread_of_slope(slim, b);
+        parallel_ = dot(turn, spread.solved(turn)) <= square_of_two;
+        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
+        turned_ = std::atan2(length(cross(normal, other)), dot(normal, other));
+        turned_by_noise_ = std::atan(deviations * std::sqrt(spread.largest_eigenvalue()));
+
+        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
+        // more.
+        const matrix_across known_a = known(wide, a), known_b = known(slim, b);
+        const matrix_across sum = parallel_ ? known_a + known_b : known_a;
+        const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
+        const place_across slope =
+            parallel_ ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
+        const Eigen::Vector3d between = difference(slim.mean, wide.mean);
+        const place_across way{dot(axes.x, between), dot(axes.y, between)};
+        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
+        offset_ = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
+        const double variance = sigma * sigma;
+        offset_deviation_ = cosine * std::sqrt(variance / static_cast<double>(wide.count) +
+                                               variance / static_cast<double>(slim.count) +
+                                               dot(way, sum.solved(way)));
+        // What is hardly wider than noise became a segment by chance, and its points are no fair
+        // sample of the noise.
+        constexpr double chosen = 1.0;  // in standard deviations
+        no_offset_ = (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
+    }
+
+    /// How far the slim one is off the plane of both, or of the wide one [m].
+    [[nodiscard]] double offset() const { return offset_; }
 
     /// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and
     /// of what is no noise, such as round edges, a tenth of a standard deviation more; an angle
@@ -11125,38 +11154,19 @@ class plane_comparison {
     /// max_offset more often than one time in six.
     [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
         constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-        constexpr double square_of_two = 11.8;           // 99.7 % of chi-squared, of two numbers
-        if (wide_.count == 0 || slim_.count == 0) return false;
-        const place_across turn{a_.slope[0] - b_.slope[0], a_.slope[1] - b_.slope[1]};
-        const matrix_across spread = spread_of_slope(wide_, a_) + spread_of_slope(slim_, b_);
-        const bool parallel = dot(turn, spread.solved(turn)) <= square_of_two;
-        if (!parallel) {
-            const Eigen::Vector3d normal = a_.normal(axes_), other = b_.normal(axes_);
-            const double turned = std::atan2(length(cross(normal, other)), dot(normal, other));
-            if (!(turned <= max_angle.radians() && turns_less(spread, max_angle))) return false;
-        }
+        return is_of_something_ &&
+               (parallel_ || std::max(turned_, turned_by_noise_) <= max_angle.radians()) &&
+               offset_ < max_offset &&
+               not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
+               offset_ <= deviations * offset_deviation_ + no_offset_;
+    }
 
-        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
-        // more.
-        const matrix_across known_a = known(wide_, a_), known_b = known(slim_, b_);
-        const matrix_across sum = parallel ? known_a + known_b : known_a;
-        const place_across in_a = known_a * a_.slope, in_b = known_b * b_.slope;
-        const place_across slope =
-            parallel ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a_.slope;
-        const Eigen::Vector3d between = difference(slim_.mean, wide_.mean);
-        const place_across way{dot(axes_.x, between), dot(axes_.y, between)};
-        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
-        const double offset = cosine * std::abs(dot(axes_.along, between) - dot(slope, way));
-        const double variance = sigma_ * sigma_;
-        const double deviation = cosine * std::sqrt(variance / static_cast<double>(wide_.count) +
-                                                    variance / static_cast<double>(slim_.count) +
-                                                    dot(way, sum.solved(way)));
-        // What is hardly wider than noise became a segment by chance, and its points are no fair
-        // sample of the noise.
-        constexpr double chosen = 1.0;  // in standard deviations
-        const bool is_speck = b_.spread.largest_eigenvalue() < 9.0 * variance;
-        return offset < max_offset && not_hidden * deviation + no_noise * sigma_ < max_offset &&
-               offset <= deviations * deviation + (is_speck ? chosen : no_noise) * sigma_;
+    /// Whether their angle or their offset is greater, and would be whatever noise did. Of what is
+    /// neither of one nor of two, nothing is known.
+    [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
+        return is_of_something_ &&
+               ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
+                offset_ - deviations * offset_deviation_ > max_offset);
     }
 
   private:
@@ -11174,14 +11184,11 @@ class plane_comparison {
         const double more = no_noise * no_noise * static_cast<double>(sample.count);
         return (1.0 + more) * known(sample, r).inverse();
     }
-    [[nodiscard]] static bool turns_less(const matrix_across& spread, angle at_most) {
-        return std::atan(deviations * std::sqrt(spread.largest_eigenvalue())) <= at_most.radians();
-    }
 
-    const plane_sample &wide_, &slim_;
     double sigma_;
-    sight_axes axes_;
-    depth_regression a_, b_;  // of wide and slim
+    bool is_of_something_, parallel_;
+    double turned_, turned_by_noise_;               // [rad]
+    double offset_, offset_deviation_, no_offset_;  // [m]
 };
 
 }  // namespace gnomon::detail
@@ -11270,27 +11277,64 @@ class occlusion_merger {
         return {std::move(members), frame, plane};
     }
 
+    /// A gap that may be closed.
+    struct link {
+        point_index first, second;  ///< the surfaces on both sides
+        double offset;              ///< of one from the plane of the other [m]
+        std::size_t gap;            ///< its number
+    };
+
     /// One round.
     /// @return whether it merged any
     bool merge_once() {
-        union_find sets(surfaces_.size());
-        bool any = false;
+        std::vector<link> links;
         for (const auto& [i, j] : pairs_to_compare(
                  surfaces_, options_.candidates, [this](const auto& f) { return is_flat(f); },
                  &surface::frame)) {
             const surface &a = surfaces_[i], &b = surfaces_[j];
-            if (!(a.is_new || b.is_new) || !are_of_one_plane(a, b)) continue;
+            if (!a.is_new && !b.is_new) continue;
+            const plane_comparison planes = planes_of(a, b);
+            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
                 boundary_pairs(points_, a.members, b.members, {a.frame.centroid, b.frame.centroid},
                                options_.boundary_pairs),
                 false};
-            gap.merged = is_closed(gap.lines);
-            if (gap.merged) sets.unite(i, j);
-            any = any || gap.merged;
+            if (is_closed(gap.lines)) links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
+        }
+        union_find sets(surfaces_.size());
+        bool any = false;
+        for (const link& l : without_bridges(links)) {
+            sets.unite(l.first, l.second);
+            gaps_[l.gap].merged = any = true;
         }
         if (any) gather(sets);
         return any;
+    }
+
+    /// A surface too small to tell its plane may be of one with two that are certainly of two: it
+    /// goes with that which its points are closer to.
+    [[nodiscard]] std::vector<link> without_bridges(const std::vector<link>& links) const {
+        std::vector<double> least(surfaces_.size(), std::numeric_limits<double>::infinity());
+        for (const link& l : links)
+            for (const point_index s : {l.first, l.second}) least[s] = std::min(least[s], l.offset);
+        std::vector<std::vector<point_index>> closest(surfaces_.size());
+        for (const link& l : links) {
+            if (l.offset == least[l.first]) closest[l.first].push_back(l.second);
+            if (l.offset == least[l.second]) closest[l.second].push_back(l.first);
+        }
+        const auto is_apart_from_closest = [&](point_index one, point_index of) {
+            return std::any_of(closest[of].begin(), closest[of].end(), [&](point_index other) {
+                return other != one && planes_of(surfaces_[one], surfaces_[other])
+                                           .is_of_two(options_.max_angle, options_.max_offset);
+            });
+        };
+        std::vector<link> kept;
+        std::copy_if(links.begin(), links.end(), std::back_inserter(kept), [&](const link& l) {
+            return !is_apart_from_closest(l.first, l.second) &&
+                   !is_apart_from_closest(l.second, l.first);
+        });
+        return kept;
     }
 
     /// A segment no thicker than twice the noise is flat, whatever its variation.
@@ -11299,11 +11343,9 @@ class occlusion_merger {
                a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
     }
 
-    [[nodiscard]] bool are_of_one_plane(const surface& a, const surface& b) const {
+    [[nodiscard]] plane_comparison planes_of(const surface& a, const surface& b) const {
         const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
-        const plane_sample &wide = (first ? a : b).plane, &slim = (first ? b : a).plane;
-        return plane_comparison(wide, slim, options_.sigma)
-            .is_of_one(options_.max_angle, options_.max_offset);
+        return {(first ? a : b).plane, (first ? b : a).plane, options_.sigma};
     }
 
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,

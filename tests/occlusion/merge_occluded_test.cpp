@@ -166,6 +166,26 @@ TEST(merge_occluded, wants_planes_at_a_small_angle) {
     }
 }
 
+/// Where two walls meet stands a strip so slim that noise may have put it off either of them: it
+/// goes with the one that it is closer to, and joins them to nothing.
+TEST(merge_occluded, joins_no_two_planes_by_what_may_be_of_both) {
+    for (const auto& [x, closer] : {std::pair(3.0, 0u), {3.007, 1u}}) {
+        drawn corner;
+        corner.add({3, -0.5, 0}, 50, 50);
+        const gnomon::angle turned = gnomon::degrees(20);
+        corner.add({3 - 0.5 * sin(turned), 0.04 + 0.5 * cos(turned), 0}, 50, 50, 1, 20);
+        corner.add({x, 0.02, 0}, 2, 15, 1, 10);
+        const auto merged = corner.merged();
+        EXPECT_EQ(merged.gaps.size(), 2u);
+        EXPECT_EQ(merged.segments.size(), 2u);
+        const auto& labels = merged.segments.labels();
+        EXPECT_EQ(labels.back(), labels[closer * 2500]) << x;
+        EXPECT_EQ(std::count_if(merged.gaps.begin(), merged.gaps.end(),
+                                [](const auto& gap) { return gap.merged; }),
+                  1);
+    }
+}
+
 /// Something as thick as wide is no wall, be its middle in the wall's plane.
 TEST(merge_occluded, looks_only_at_flat_segments) {
     drawn wall;

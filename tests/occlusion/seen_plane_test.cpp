@@ -88,6 +88,27 @@ TEST(plane_comparison, takes_an_angle_up_to_the_largest) {
     EXPECT_EQ(found_in_one_plane(wide, wall(20.0)), 0);
 }
 
+/// What noise cannot have made of one plane is of two; of what is uncertain neither is said.
+TEST(plane_comparison, knows_what_is_certainly_of_two) {
+    const auto are_of_two = [](const seen_rectangle& wide, const seen_rectangle& slim) {
+        int found = 0;
+        for (std::uint64_t seed = 1; seed <= 100; ++seed) {
+            const auto a = sample_of(wide.points(2 * seed)),
+                       b = sample_of(slim.points(2 * seed + 1));
+            const plane_comparison both(a, b, sigma);
+            const bool of_two = both.is_of_two(gnomon::degrees(15), 0.05);
+            EXPECT_FALSE(of_two && both.is_of_one(gnomon::degrees(15), 0.05));
+            found += of_two ? 1 : 0;
+        }
+        return found;
+    };
+    EXPECT_EQ(are_of_two(seat, {{1.5, 0.6, -0.8}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
+    EXPECT_EQ(are_of_two(seat, {{1.5, 0.6, -0.77}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
+    EXPECT_GE(are_of_two(seat, {{1.5, 0.6, -0.68}, {0.4, 0, 0}, {0, 0.3, 0}}), 97);
+    EXPECT_GE(are_of_two(seat, {{1.7, 0.0, -0.6}, {0, 0.4, 0}, {0, 0, 0.4}}), 97);
+    EXPECT_EQ(are_of_two(seat, {{1.8, 0.0, -0.8}, {0.02, 0, 0}, {0, 0.02, 0}, 3}), 0);
+}
+
 /// Where noise would hide an offset, nothing is told.
 TEST(plane_comparison, does_not_reach_farther_than_it_knows) {
     const seen_rectangle tile{{3.0, 0.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6};
@@ -114,6 +135,7 @@ TEST(plane_comparison, of_no_points_is_nothing) {
     EXPECT_EQ(none.count, 0u);
     EXPECT_FALSE(are_of_one(some, none));
     EXPECT_FALSE(are_of_one(none, some));
+    EXPECT_FALSE(plane_comparison(some, none, sigma).is_of_two(gnomon::degrees(15), 0.05));
     EXPECT_EQ(sample_of({{clouds::nan, 0, 0}}).count, 0u);
 }
 

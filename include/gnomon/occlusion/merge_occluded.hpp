@@ -155,17 +155,16 @@ class occlusion_merger {
             if (l.offset == least[l.first]) closest[l.first].push_back(l.second);
             if (l.offset == least[l.second]) closest[l.second].push_back(l.first);
         }
-        const auto is_of_other = [&](point_index surface, point_index by_way_of) {
-            return std::any_of(closest[by_way_of].begin(), closest[by_way_of].end(),
-                               [&](point_index other) {
-                                   return other != surface &&
-                                          planes_of(surfaces_[surface], surfaces_[other])
-                                              .is_of_two(options_.max_angle, options_.max_offset);
-                               });
+        const auto is_apart_from_closest = [&](point_index one, point_index of) {
+            return std::any_of(closest[of].begin(), closest[of].end(), [&](point_index other) {
+                return other != one && planes_of(surfaces_[one], surfaces_[other])
+                                           .is_of_two(options_.max_angle, options_.max_offset);
+            });
         };
         std::vector<link> kept;
         std::copy_if(links.begin(), links.end(), std::back_inserter(kept), [&](const link& l) {
-            return !is_of_other(l.first, l.second) && !is_of_other(l.second, l.first);
+            return !is_apart_from_closest(l.first, l.second) &&
+                   !is_apart_from_closest(l.second, l.first);
         });
         return kept;
     }

@@ -204,8 +204,9 @@ class plane_comparison {
     /// Whether their angle or their offset is greater, and would be whatever noise did. Of what is
     /// neither of one nor of two, nothing is known.
     [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
-        return is_of_something_ && (turned_ - turned_by_noise_ > max_angle.radians() ||
-                                    offset_ - deviations * offset_deviation_ > max_offset);
+        return is_of_something_ &&
+               ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
+                offset_ - deviations * offset_deviation_ > max_offset);
     }
 
   private:
