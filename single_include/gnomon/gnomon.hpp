@@ -153,34 +153,35 @@ namespace detail {
 
 }  // namespace gnomon
 
-// -------- gnomon/core/detail/crew.hpp ------------------------------------------------------------
+// -------- gnomon/core/detail/thread_team.hpp -----------------------------------------------------
 
 /// @file
 /// Threads that stay between one step of an algorithm and the next. To start a thread, or to wake
-/// one, takes as long as many a step; so who has nothing to do looks out for work for a while
-/// before falling asleep, and nobody waits for who comes when the work is done.
+/// one, takes as long as many a step; so a thread without work looks out for some for a while
+/// before it falls asleep, and nobody waits for one that comes when the work is done.
 
 namespace gnomon::detail {
 
-/// The thread that calls, and helpers, who are started once there is work for them.
-class crew {
+/// The calling thread, and helpers, which are started when there first is work for them.
+class thread_team {
   public:
-    /// Of so many at most, the calling one among them.
-    explicit crew(std::size_t size) : size_(size) {}
-    crew(const crew&) = delete;
-    crew& operator=(const crew&) = delete;
-    ~crew() {
-        dissolved_ = true;
+    /// A team of at most `size` threads, the calling one among them.
+    explicit thread_team(std::size_t size) : size_(size) {}
+    thread_team(const thread_team&) = delete;
+    thread_team& operator=(const thread_team&) = delete;
+    ~thread_team() {
+        stopping_ = true;
         call();
     }
 
-    /// Calls work(c) as `threads` does. Not to be called by two threads at a time.
+    /// Calls work(c) once for each c in 0, ..., chunks - 1, as `threads` says. While the team is at
+    /// work, another call, be it from within that work, is done by the thread that makes it.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) {
         std::atomic<std::size_t> next{0};
         std::atomic<std::size_t> failed{chunks};
         std::exception_ptr failure;
         std::mutex guard;
-        const auto drain = [&] {
+        const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
                 try {
                     work(c);
@@ -193,26 +194,30 @@ class crew {
                 }
             }
         };
-        grow_to(std::min(size_, chunks));
-        share(drain);
+        if (chunks > 1 && size_ > 1 && !busy_.exchange(true)) {
+            grow_to(std::min(size_, chunks));
+            share(drain);
+            busy_ = false;
+        } else {
+            drain();
+        }
         if (failure) std::rethrow_exception(failure);
     }
 
   private:
-    /// The chunks are drained by the threads that a machine does not refuse.
-    void grow_to(std::size_t size) {
+    /// Where the machine refuses threads or memory, the team stays as small as it is.
+    void grow_to(std::size_t size) noexcept {
         try {
             while (helpers_.size() + 1 < size)
                 helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
-        } catch (const std::system_error&) {
-            size_ = helpers_.size() + 1;
+        } catch (const std::exception&) {
         }
     }
 
-    /// Works together with the helpers that come before it is done.
+    /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all
+    /// of them have left: from then on it may be gone.
     template <class Work>
-    void share(const Work& work) {
-        if (helpers_.empty()) return work();
+    void share(const Work& work) noexcept {
         work_ = &work;
         do_ = [](const void* w) { (*static_cast<const Work*>(w))(); };
         inside_ -= closed;
@@ -222,11 +227,12 @@ class crew {
         for (unsigned i = inside_; i != closed; i = inside_) wait_while(inside_, i);
     }
 
+    /// What a helper does; a work that it finds closed it does not touch.
     void help(unsigned heard) {
         for (;;) {
             wait_while(calls_, heard);
             heard = calls_;
-            if (dissolved_) return;
+            if (stopping_) return;
             if (inside_++ < closed) do_(work_);
             if (--inside_ == closed) inside_.notify_one();
         }
@@ -251,25 +257,26 @@ class crew {
     static constexpr unsigned closed = 1u << 31;
 
     std::size_t size_;
+    std::atomic<bool> busy_{false};
     std::atomic<unsigned> calls_{0};
     std::atomic<unsigned> inside_{closed};  // helpers, plus `closed` while there is no work
-    std::atomic<bool> dissolved_{false};
+    std::atomic<bool> stopping_{false};
     const void* work_ = nullptr;
     void (*do_)(const void*) = nullptr;
     std::vector<std::jthread> helpers_;  // last: joined before what they use is gone
 };
 
-/// The execution by a crew that stays as long as this does.
+/// The execution by a team that stays as long as this and its copies do.
 class staying_threads {
   public:
-    explicit staying_threads(std::size_t size) : crew_(std::make_unique<crew>(size)) {}
+    explicit staying_threads(std::size_t size) : team_(std::make_shared<thread_team>(size)) {}
 
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        (*crew_)(chunks, work);
+        (*team_)(chunks, work);
     }
 
   private:
-    std::unique_ptr<crew> crew_;
+    std::shared_ptr<thread_team> team_;
 };
 
 }  // namespace gnomon::detail
@@ -304,7 +311,7 @@ struct threads {
     /// throw, the exception of the smallest such c is thrown on, after all threads came to rest;
     /// chunks after it may have been left out. A machine that refuses threads gets fewer of them.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        detail::crew{count()}(chunks, work);
+        detail::thread_team{count()}(chunks, work);
     }
 };
 
@@ -4402,7 +4409,7 @@ template <class Policy, class R, execution X, class Proj>
 [[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
                                     Proj projection) {
     const std::size_t n = position_view<R, Proj>(points, projection).size();
-    const auto& team = staying(run);
+    const auto& team = detail::staying(run);
     seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
     if (!policy.sweep(points, team, projection, [&] { return ring_recorder(all); }))
         return adjacency(policy.search(points, std::move(projection)), team);
@@ -8847,7 +8854,7 @@ class linker {
     /// way, link is not asked.
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
-        const auto& team = staying(run);
+        const auto& team = detail::staying(run);
         const leaf_tree tree(points_, team);
         const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
@@ -9743,7 +9750,7 @@ class component_walk {
 /// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
-    const auto& team = staying(run);
+    const auto& team = detail::staying(run);
     const leaf_tree tree(points, team);
     union_find places = component_walk(tree, radius)(team);
     union_find sets(points.size());
@@ -11110,10 +11117,10 @@ struct depth_regression {
 /// Two samples, and what noise lets them tell of whether they are of one plane.
 class plane_comparison {
   public:
-    /// Of none if one of them is.
+    /// With a sample of no points nothing is of one plane, nor of two.
     /// @param wide  that of the wider segment
     plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
-        : sigma_(sigma), is_of_something_(wide.count > 0 && slim.count > 0) {
+        : sigma_(sigma), both_have_points_(wide.count > 0 && slim.count > 0) {
         const sight_axes axes = axes_towards(slim);  // which depends more on how the rays go
         const depth_regression a(wide, axes), b(slim, axes);
         constexpr double square_of_two = 11.8;  // 99.7 % of chi-squared, of two numbers
@@ -11142,7 +11149,8 @@ class plane_comparison {
         // What is hardly wider than noise became a segment by chance, and its points are no fair
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
-        no_offset_ = (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
+        tolerated_offset_ =
+            (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
     }
 
     /// How far the slim one is off the plane of both, or of the wide one [m].
@@ -11154,19 +11162,20 @@ class plane_comparison {
     /// max_offset more often than one time in six.
     [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
         constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-        return is_of_something_ &&
-               (parallel_ || std::max(turned_, turned_by_noise_) <= max_angle.radians()) &&
+        return both_have_points_ &&
+               (parallel_ ||
+                (turned_ <= max_angle.radians() && turned_by_noise_ <= max_angle.radians())) &&
                offset_ < max_offset &&
                not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
-               offset_ <= deviations * offset_deviation_ + no_offset_;
+               offset_ <= deviations * offset_deviation_ + tolerated_offset_;
     }
 
-    /// Whether their angle or their offset is greater, and would be whatever noise did. Of what is
-    /// neither of one nor of two, nothing is known.
+    /// Whether their angle is greater than max_angle, or their offset than max_offset, by more than
+    /// three standard deviations. Of what is neither of one plane nor of two, nothing is known.
     [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
-        return is_of_something_ &&
+        return both_have_points_ &&
                ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
-                offset_ - deviations * offset_deviation_ > max_offset);
+                offset_ - deviations * offset_deviation_ - tolerated_offset_ > max_offset);
     }
 
   private:
@@ -11186,9 +11195,9 @@ class plane_comparison {
     }
 
     double sigma_;
-    bool is_of_something_, parallel_;
-    double turned_, turned_by_noise_;               // [rad]
-    double offset_, offset_deviation_, no_offset_;  // [m]
+    bool both_have_points_, parallel_;
+    double turned_, turned_by_noise_;                      // [rad]
+    double offset_, offset_deviation_, tolerated_offset_;  // [m]
 };
 
 }  // namespace gnomon::detail
@@ -11200,11 +11209,11 @@ class plane_comparison {
 /// what was seen in the gap between them speaks for it.
 ///
 /// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
-/// judges all pairs with a new segment and merges those that are accepted, until none is. A
-/// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
-/// is (specification of it, A15 to A19); and whether two segments are in one plane is asked of
-/// their ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the
-/// letter.
+/// judges all pairs with a new segment and merges those that are accepted, until none is; but what
+/// is certainly of two planes is not joined by way of a third segment that may be of both. A narrow
+/// gap, which the thesis closes whatever is seen in it, stays open where something farther is
+/// (specification of it, A15 to A19); and whether two segments are in one plane is asked of their
+/// ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the letter.
 
 namespace gnomon {
 
@@ -11302,39 +11311,33 @@ class occlusion_merger {
             if (is_closed(gap.lines)) links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
         }
-        union_find sets(surfaces_.size());
-        bool any = false;
-        for (const link& l : without_bridges(links)) {
-            sets.unite(l.first, l.second);
-            gaps_[l.gap].merged = any = true;
-        }
-        if (any) gather(sets);
-        return any;
+        if (links.empty()) return false;
+        union_find sets = sets_of(links);
+        for (const link& l : links) gaps_[l.gap].merged = sets.find(l.first) == sets.find(l.second);
+        gather(sets);
+        return true;
     }
 
-    /// A surface too small to tell its plane may be of one with two that are certainly of two: it
-    /// goes with that which its points are closer to.
-    [[nodiscard]] std::vector<link> without_bridges(const std::vector<link>& links) const {
-        std::vector<double> least(surfaces_.size(), std::numeric_limits<double>::infinity());
-        for (const link& l : links)
-            for (const point_index s : {l.first, l.second}) least[s] = std::min(least[s], l.offset);
-        std::vector<std::vector<point_index>> closest(surfaces_.size());
-        for (const link& l : links) {
-            if (l.offset == least[l.first]) closest[l.first].push_back(l.second);
-            if (l.offset == least[l.second]) closest[l.second].push_back(l.first);
-        }
-        const auto is_apart_from_closest = [&](point_index one, point_index of) {
-            return std::any_of(closest[of].begin(), closest[of].end(), [&](point_index other) {
-                return other != one && planes_of(surfaces_[one], surfaces_[other])
-                                           .is_of_two(options_.max_angle, options_.max_offset);
-            });
-        };
-        std::vector<link> kept;
-        std::copy_if(links.begin(), links.end(), std::back_inserter(kept), [&](const link& l) {
-            return !is_apart_from_closest(l.first, l.second) &&
-                   !is_apart_from_closest(l.second, l.first);
+    /// What the links join, the closest planes first. A surface that tells little of its plane may
+    /// be of one with two that are certainly of two: it does not join these, each set being judged
+    /// by its largest surface.
+    [[nodiscard]] union_find sets_of(std::vector<link>& links) const {
+        std::sort(links.begin(), links.end(), [this](const link& a, const link& b) {
+            if (a.offset != b.offset) return a.offset < b.offset;
+            return coplanar_distance(gaps_[a.gap].lines) < coplanar_distance(gaps_[b.gap].lines);
         });
-        return kept;
+        union_find sets(surfaces_.size());
+        std::vector<point_index> largest(surfaces_.size());
+        std::iota(largest.begin(), largest.end(), point_index{0});
+        for (const link& l : links) {
+            const point_index a = largest[sets.find(l.first)], b = largest[sets.find(l.second)];
+            if (planes_of(surfaces_[a], surfaces_[b])
+                    .is_of_two(options_.max_angle, options_.max_offset))
+                continue;
+            const bool first = surfaces_[a].members.size() >= surfaces_[b].members.size();
+            largest[sets.unite(l.first, l.second)] = first ? a : b;
+        }
+        return sets;
     }
 
     /// A segment no thicker than twice the noise is flat, whatever its variation.

@@ -186,6 +186,23 @@ TEST(merge_occluded, joins_no_two_planes_by_what_may_be_of_both) {
     }
 }
 
+/// Nor by two such strips that may be of one plane with each other.
+TEST(merge_occluded, joins_no_two_planes_by_a_chain) {
+    drawn corner;
+    corner.add({3, -0.5, 0}, 50, 50);
+    const gnomon::angle turned = gnomon::degrees(20);
+    corner.add({3 - 0.5 * sin(turned), 0.04 + 0.5 * cos(turned), 0}, 50, 50, 1, 20);
+    corner.add({3.0, 0.02, -0.15}, 2, 15, 1, 10);
+    corner.add({3.007, 0.02, 0.15}, 2, 15, 1, 10);
+    const auto merged = corner.merged();
+    EXPECT_EQ(merged.gaps.size(), 5u);
+    EXPECT_EQ(merged.segments.size(), 2u);
+    EXPECT_NE(merged.segments.labels()[0], merged.segments.labels()[2500]);
+    const auto again =
+        merge_occluded(corner.points, merged.segments, lines_of_sight(corner.points));
+    EXPECT_EQ(again.segments, merged.segments);
+}
+
 /// Something as thick as wide is no wall, be its middle in the wall's plane.
 TEST(merge_occluded, looks_only_at_flat_segments) {
     drawn wall;

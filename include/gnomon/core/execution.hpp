@@ -10,7 +10,7 @@
 #include <cstddef>
 #include <thread>
 
-#include <gnomon/core/detail/crew.hpp>
+#include <gnomon/core/detail/thread_team.hpp>
 
 namespace gnomon {
 
@@ -35,7 +35,7 @@ struct threads {
     /// throw, the exception of the smallest such c is thrown on, after all threads came to rest;
     /// chunks after it may have been left out. A machine that refuses threads gets fewer of them.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        detail::crew{count()}(chunks, work);
+        detail::thread_team{count()}(chunks, work);
     }
 };
 

@@ -4,18 +4,17 @@
 /// what was seen in the gap between them speaks for it.
 ///
 /// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that depends on no order: in rounds, each of which
-/// judges all pairs with a new segment and merges those that are accepted, until none is. A
-/// narrow gap, which the thesis closes whatever is seen in it, stays open where something farther
-/// is (specification of it, A15 to A19); and whether two segments are in one plane is asked of
-/// their ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the
-/// letter.
+/// judges all pairs with a new segment and merges those that are accepted, until none is; but what
+/// is certainly of two planes is not joined by way of a third segment that may be of both. A narrow
+/// gap, which the thesis closes whatever is seen in it, stays open where something farther is
+/// (specification of it, A15 to A19); and whether two segments are in one plane is asked of their
+/// ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the letter.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <iterator>
-#include <limits>
+#include <numeric>
 #include <span>
 #include <utility>
 #include <vector>
@@ -134,39 +133,33 @@ class occlusion_merger {
             if (is_closed(gap.lines)) links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
         }
-        union_find sets(surfaces_.size());
-        bool any = false;
-        for (const link& l : without_bridges(links)) {
-            sets.unite(l.first, l.second);
-            gaps_[l.gap].merged = any = true;
-        }
-        if (any) gather(sets);
-        return any;
+        if (links.empty()) return false;
+        union_find sets = sets_of(links);
+        for (const link& l : links) gaps_[l.gap].merged = sets.find(l.first) == sets.find(l.second);
+        gather(sets);
+        return true;
     }
 
-    /// A surface too small to tell its plane may be of one with two that are certainly of two: it
-    /// goes with that which its points are closer to.
-    [[nodiscard]] std::vector<link> without_bridges(const std::vector<link>& links) const {
-        std::vector<double> least(surfaces_.size(), std::numeric_limits<double>::infinity());
-        for (const link& l : links)
-            for (const point_index s : {l.first, l.second}) least[s] = std::min(least[s], l.offset);
-        std::vector<std::vector<point_index>> closest(surfaces_.size());
-        for (const link& l : links) {
-            if (l.offset == least[l.first]) closest[l.first].push_back(l.second);
-            if (l.offset == least[l.second]) closest[l.second].push_back(l.first);
-        }
-        const auto is_apart_from_closest = [&](point_index one, point_index of) {
-            return std::any_of(closest[of].begin(), closest[of].end(), [&](point_index other) {
-                return other != one && planes_of(surfaces_[one], surfaces_[other])
-                                           .is_of_two(options_.max_angle, options_.max_offset);
-            });
-        };
-        std::vector<link> kept;
-        std::copy_if(links.begin(), links.end(), std::back_inserter(kept), [&](const link& l) {
-            return !is_apart_from_closest(l.first, l.second) &&
-                   !is_apart_from_closest(l.second, l.first);
+    /// What the links join, the closest planes first. A surface that tells little of its plane may
+    /// be of one with two that are certainly of two: it does not join these, each set being judged
+    /// by its largest surface.
+    [[nodiscard]] union_find sets_of(std::vector<link>& links) const {
+        std::sort(links.begin(), links.end(), [this](const link& a, const link& b) {
+            if (a.offset != b.offset) return a.offset < b.offset;
+            return coplanar_distance(gaps_[a.gap].lines) < coplanar_distance(gaps_[b.gap].lines);
         });
-        return kept;
+        union_find sets(surfaces_.size());
+        std::vector<point_index> largest(surfaces_.size());
+        std::iota(largest.begin(), largest.end(), point_index{0});
+        for (const link& l : links) {
+            const point_index a = largest[sets.find(l.first)], b = largest[sets.find(l.second)];
+            if (planes_of(surfaces_[a], surfaces_[b])
+                    .is_of_two(options_.max_angle, options_.max_offset))
+                continue;
+            const bool first = surfaces_[a].members.size() >= surfaces_[b].members.size();
+            largest[sets.unite(l.first, l.second)] = first ? a : b;
+        }
+        return sets;
     }
 
     /// A segment no thicker than twice the noise is flat, whatever its variation.

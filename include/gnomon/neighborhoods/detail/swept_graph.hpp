@@ -58,7 +58,7 @@ template <class Policy, class R, execution X, class Proj>
 [[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
                                     Proj projection) {
     const std::size_t n = position_view<R, Proj>(points, projection).size();
-    const auto& team = staying(run);
+    const auto& team = detail::staying(run);
     seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
     if (!policy.sweep(points, team, projection, [&] { return ring_recorder(all); }))
         return adjacency(policy.search(points, std::move(projection)), team);

@@ -150,10 +150,10 @@ struct depth_regression {
 /// Two samples, and what noise lets them tell of whether they are of one plane.
 class plane_comparison {
   public:
-    /// Of none if one of them is.
+    /// With a sample of no points nothing is of one plane, nor of two.
     /// @param wide  that of the wider segment
     plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
-        : sigma_(sigma), is_of_something_(wide.count > 0 && slim.count > 0) {
+        : sigma_(sigma), both_have_points_(wide.count > 0 && slim.count > 0) {
         const sight_axes axes = axes_towards(slim);  // which depends more on how the rays go
         const depth_regression a(wide, axes), b(slim, axes);
         constexpr double square_of_two = 11.8;  // 99.7 % of chi-squared, of two numbers
@@ -182,7 +182,8 @@ class plane_comparison {
         // What is hardly wider than noise became a segment by chance, and its points are no fair
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
-        no_offset_ = (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
+        tolerated_offset_ =
+            (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
     }
 
     /// How far the slim one is off the plane of both, or of the wide one [m].
@@ -194,19 +195,20 @@ class plane_comparison {
     /// max_offset more often than one time in six.
     [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
         constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-        return is_of_something_ &&
-               (parallel_ || std::max(turned_, turned_by_noise_) <= max_angle.radians()) &&
+        return both_have_points_ &&
+               (parallel_ ||
+                (turned_ <= max_angle.radians() && turned_by_noise_ <= max_angle.radians())) &&
                offset_ < max_offset &&
                not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
-               offset_ <= deviations * offset_deviation_ + no_offset_;
+               offset_ <= deviations * offset_deviation_ + tolerated_offset_;
     }
 
-    /// Whether their angle or their offset is greater, and would be whatever noise did. Of what is
-    /// neither of one nor of two, nothing is known.
+    /// Whether their angle is greater than max_angle, or their offset than max_offset, by more than
+    /// three standard deviations. Of what is neither of one plane nor of two, nothing is known.
     [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
-        return is_of_something_ &&
+        return both_have_points_ &&
                ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
-                offset_ - deviations * offset_deviation_ > max_offset);
+                offset_ - deviations * offset_deviation_ - tolerated_offset_ > max_offset);
     }
 
   private:
@@ -226,9 +228,9 @@ class plane_comparison {
     }
 
     double sigma_;
-    bool is_of_something_, parallel_;
-    double turned_, turned_by_noise_;               // [rad]
-    double offset_, offset_deviation_, no_offset_;  // [m]
+    bool both_have_points_, parallel_;
+    double turned_, turned_by_noise_;                      // [rad]
+    double offset_, offset_deviation_, tolerated_offset_;  // [m]
 };
 
 }  // namespace gnomon::detail

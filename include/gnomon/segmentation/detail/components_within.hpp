@@ -231,7 +231,7 @@ class component_walk {
 /// not negative.
 template <class Points, execution X>
 [[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
-    const auto& team = staying(run);
+    const auto& team = detail::staying(run);
     const leaf_tree tree(points, team);
     union_find places = component_walk(tree, radius)(team);
     union_find sets(points.size());

@@ -43,7 +43,7 @@ class linker {
     /// way, link is not asked.
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
-        const auto& team = staying(run);
+        const auto& team = detail::staying(run);
         const leaf_tree tree(points_, team);
         const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {

@@ -13,16 +13,15 @@
 
 namespace {
 
-using gnomon::detail::crew;
-using gnomon::detail::staying;
+using gnomon::detail::staying, gnomon::detail::thread_team;
 
 static_assert(gnomon::execution<gnomon::detail::staying_threads>);
 
-/// Law: whatever the crew did before, each call does its own work, all of it and once. The work
+/// Law: whatever the team did before, each call does its own work, all of it and once. The work
 /// lies on the stack, so that a helper who came too late would be seen to touch it.
-TEST(crew, does_each_of_many_works_once) {
+TEST(thread_team, does_each_of_many_works_once) {
     for (const std::size_t size : {0u, 1u, 2u, 4u, 9u}) {
-        crew team(size);
+        thread_team team(size);
         for (std::size_t call = 0; call < 3000; ++call) {
             const std::size_t chunks = call % 7 * (call % 3);
             std::vector<int> visits(chunks, 0);
@@ -33,9 +32,9 @@ TEST(crew, does_each_of_many_works_once) {
 }
 
 /// Law: what one step wrote, every thread of the next step sees.
-TEST(crew, shows_each_step_what_the_last_one_wrote) {
+TEST(thread_team, shows_each_step_what_the_last_one_wrote) {
     constexpr std::size_t n = 64;
-    crew team(4);
+    thread_team team(4);
     std::vector<int> now(n, 0), next(n);
     for (int step = 1; step <= 2000; ++step) {
         team(n, [&](std::size_t c) { next[c] = now[c * 7 % n] + 1; });
@@ -44,8 +43,8 @@ TEST(crew, shows_each_step_what_the_last_one_wrote) {
     }
 }
 
-TEST(crew, goes_on_after_a_failure) {
-    crew team(3);
+TEST(thread_team, goes_on_after_a_failure) {
+    thread_team team(3);
     for (std::size_t call = 0; call < 100; ++call) {
         std::string what;
         try {
@@ -63,9 +62,9 @@ TEST(crew, goes_on_after_a_failure) {
 }
 
 /// Each chunk waits for all others, so that none ends unless all threads come.
-TEST(crew, comes_as_a_whole_awake_or_asleep) {
+TEST(thread_team, comes_as_a_whole_awake_or_asleep) {
     constexpr std::size_t size = 4;
-    crew team(size);
+    thread_team team(size);
     for (int call = 0; call < 200; ++call) {
         if (call % 40 == 0) std::this_thread::sleep_for(std::chrono::milliseconds(5));
         std::atomic<std::size_t> come{0};
@@ -77,8 +76,8 @@ TEST(crew, comes_as_a_whole_awake_or_asleep) {
     }
 }
 
-TEST(crew, is_waited_for_however_long_it_takes) {
-    crew team(4);
+TEST(thread_team, is_waited_for_however_long_it_takes) {
+    thread_team team(4);
     const auto caller = std::this_thread::get_id();
     for (int call = 0; call < 10; ++call) {
         std::atomic<int> come{0}, done{0};
@@ -93,17 +92,38 @@ TEST(crew, is_waited_for_however_long_it_takes) {
     }
 }
 
-TEST(crew, may_be_idle_and_may_work_within_another) {
-    { const crew idle(4); }
+TEST(thread_team, may_be_idle_and_may_work_within_another) {
+    { const thread_team idle(4); }
     std::atomic<int> done{0};
     const auto team = staying(gnomon::threads{3});
     team(4, [&](std::size_t) { gnomon::threads{2}(5, [&](std::size_t) { ++done; }); });
     EXPECT_EQ(done, 20);
 }
 
-TEST(crew, is_no_other_execution_for_who_has_one_thread) {
+/// As `threads` may, from within its own work and from several threads.
+TEST(thread_team, may_be_called_while_it_works) {
+    for (const unsigned n : {1u, 2u, 4u}) {
+        const auto team = staying(gnomon::threads{n});
+        const auto copy = team;
+        std::atomic<int> done{0};
+        {
+            std::vector<std::jthread> callers;
+            for (int caller = 0; caller < 3; ++caller)
+                callers.emplace_back([&] {
+                    for (int call = 0; call < 100; ++call)
+                        team(4, [&](std::size_t) { copy(5, [&](std::size_t) { ++done; }); });
+                });
+        }
+        EXPECT_EQ(done, 3 * 100 * 20);
+    }
+}
+
+TEST(thread_team, is_only_for_who_has_threads) {
     const gnomon::sequential one;
     EXPECT_EQ(&staying(one), &one);
+    std::atomic<int> done{0};
+    staying(gnomon::threads{1})(7, [&](std::size_t) { ++done; });
+    EXPECT_EQ(done, 7);
 }
 
 }  // namespace
