@@ -312,7 +312,7 @@ def _(tables):
 
 @relation("merge_policies", "4.p.2", "the same where every pair counts once, of all trajectories "
           "together: precision of 0.98", "(not measured)",
-          "two thirds of what is merged wrongly lies in planes that noise does not tell apart: seats and "
+          "three in five that are merged wrongly lie in planes that noise does not tell apart: seats and "
           "tables of the same height behind one another, and the back of a chair and its legs, 10 mm "
           "behind, seen past the seat, where 30 to 70 points with 15 mm of noise stand against it; the "
           "rest are joints of furniture where fragments of 30 to 60 points are hardly wider than noise "
