@@ -58,7 +58,7 @@ METHOD = """\
   find the same number of clusters.
 - Gains of two threads: one thread, two threads, and two programs side by side take eight turns
   each, of which the first three do not count, as a core that was idle takes some time to run at full
-  speed; and again, fifteen times over (eight for the office, four for 1,000,000 points).
+  speed; and again, several times over: the table says how many turns count.
 - Memory: how far the resident set rose during the warm-up. Instructions: of the program doing the
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
 - A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
