@@ -53,7 +53,7 @@ target_link_libraries(single_headers PRIVATE single_settings)
 target_precompile_headers(single_headers PRIVATE ${precompiled} <gnomon/gnomon.hpp>)
 
 # Compiled and linked as all others, but run against the headers only.
-set(slow_when_unoptimised neighborhoods normals segmentation occlusion simulation scans)
+set(slow_when_unoptimised neighborhoods normals occlusion simulation scans)
 
 foreach(floor IN LISTS floors)
     file(GLOB sources CONFIGURE_DEPENDS ${floor}/*_test.cpp)

@@ -316,8 +316,9 @@ def _(tables):
           "tables of the same height behind one another, and the back of a chair and its legs, 10 mm "
           "behind, seen past the seat, where 30 to 70 points with 15 mm of noise stand against it; the "
           "rest are joints of furniture where fragments of 30 to 60 points are hardly wider than noise "
-          "and adjoin, most of rotational scans: to want of two only that one is known was no better, "
-          "and left specks of one wall apart")
+          "and adjoin, most of rotational scans: to want of two only that one is known gave 0.96 when "
+          "chains still joined planes (0.94 without), at a recall of 0.93, and left specks of one wall "
+          "apart")
 def _(tables):
     precision, _ = pooled(tables, "conservative")
     apart, _ = pooled(tables, "conservative", "of two objects in one plane",
