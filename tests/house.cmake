@@ -18,7 +18,6 @@ add_style_test(snippets Python3::Interpreter ${tools}/check_snippets.py)
 add_style_test(format sh ${tools}/check_format.sh)
 add_style_test(include_budget
     Python3::Interpreter ${tools}/include_budget.py "${check_syntax}")
-set_tests_properties(style.include_budget PROPERTIES RUN_SERIAL ON)
 
 # ---- Single header: every test once more, with only the generated file on the include path -------
 

@@ -1463,18 +1463,29 @@ inline namespace GNOMON_LANES {}
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Eight numbers.
-class pack {
-  public:
-    static constexpr std::size_t size = 8;
+/// The bytes of a vector: as many as the instructions have.
+inline constexpr std::size_t vector_bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
 
-    pack() = default;
-    [[gnu::always_inline]] explicit(false) pack(double x) {
+/// N numbers, a multiple of those of a vector.
+template <std::size_t N>
+class packed {
+  public:
+    using pack = packed;
+    static constexpr std::size_t size = N;
+
+    packed() = default;
+    [[gnu::always_inline]] explicit(false) packed(double x) {
         for (vector& v : at_) v = x - vector{};
     }
     /// Those from `first` on.
-    [[gnu::always_inline]] explicit pack(const double* first) {
+    [[gnu::always_inline]] explicit packed(const double* first) {
         std::memcpy(at_, first, sizeof at_);
+    }
+
+    /// Those at some places.
+    [[gnu::always_inline]] packed(const double* first, const std::uint32_t* places) {
+        for (std::size_t v = 0; v < size / width; ++v)
+            at_[v] = gather(first, places + v * width, std::make_index_sequence<width>{});
     }
 
     [[nodiscard]] double operator[](std::size_t l) const { return at_[l / width][l % width]; }
@@ -1544,9 +1555,14 @@ class pack {
     }
 
   private:
-    static constexpr std::size_t bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
-    static constexpr std::size_t width = bytes / sizeof(double);
-    using vector [[gnu::vector_size(bytes)]] = double;
+    static constexpr std::size_t width = vector_bytes / sizeof(double);
+    using vector [[gnu::vector_size(vector_bytes)]] = double;
+
+    template <std::size_t... L>
+    [[gnu::always_inline]] static vector gather(const double* first, const std::uint32_t* places,
+                                                std::index_sequence<L...>) {
+        return vector{first[places[L]]...};
+    }
 
     [[gnu::always_inline]] static pack of(auto&& each) {
         pack p;
@@ -1574,6 +1590,10 @@ class pack {
 
     vector at_[size / width];
 };
+
+using pack = packed<8>;
+/// As many as one vector has: where there are more sums than fit into the registers otherwise.
+using slim_pack = packed<vector_bytes / sizeof(double)>;
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
@@ -2095,8 +2115,8 @@ concept streaming_neighborhood =
 /// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
 /// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
 /// not, for the points are such that this would take too long, no visitor was called. What was
-/// found tells its ring by `sort_into(ring)`, and without that `moments_about_point()` and
-/// `mean_distance()`.
+/// found tells its ring by `sort_into(ring)`, and without that, by `summed()`, its moments
+/// `about_point` and its `mean_distance`.
 template <class N, class R, class Proj = std::identity>
 concept sweeping_neighborhood =
     streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
@@ -3227,6 +3247,31 @@ struct lane_boxes {
     }
 };
 
+/// The k-th least of the first n numbers, behind which there is infinity. Compares all with all, in
+/// the vectors that compilers have built in.
+/// Precondition: 0 < k <= n <= 32
+[[nodiscard, gnu::always_inline]] inline float kth_least(const lanes& a, std::size_t n,
+                                                         std::size_t k) {
+    constexpr std::size_t width = 8;
+    using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
+    using integers [[gnu::vector_size(4 * width)]] = int;
+    floats least = std::numeric_limits<float>::infinity() - floats{};
+    for (std::size_t v = 0; v < n; v += width) {
+        const floats these = reinterpret_cast<const floats&>(a.at[v]);
+        integers at_most = {};  // these; counted downwards, as a comparison gives 0 or -1
+        for (std::size_t j = 0; j < n; j += 4) {
+            at_most += a.at[j] <= these;
+            at_most += a.at[j + 1] <= these;
+            at_most += a.at[j + 2] <= these;
+            at_most += a.at[j + 3] <= these;
+        }
+        least = at_most <= -static_cast<int>(k) && these < least ? these : least;
+    }
+    float kth = least[0];
+    for (std::size_t l = 1; l < width; ++l) kth = std::min(kth, least[l]);
+    return kth;
+}
+
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
@@ -3258,11 +3303,11 @@ struct plain_instructions {
         return n;
     }
 
-    /// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to
-    /// 32 in all, may be overwritten; `out` may be `numbers`, or before.
+    /// Writes those of 32 numbers, of 32 bits each, that bits are set for, one after the other.
+    /// What follows them, up to 32 in all, may be overwritten; `out` may be `numbers`, or before.
     /// @return the end of what was written
-    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
-                                   std::uint32_t* out) {
+    template <class T>
+    static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
         return out;
     }
@@ -3314,8 +3359,8 @@ class avx2_instructions {
         return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
     }
 
-    [[GNOMON_WITH_AVX2]] static std::uint32_t* compress(const std::uint32_t* numbers,
-                                                        std::uint32_t bits, std::uint32_t* out) {
+    template <class T>
+    [[GNOMON_WITH_AVX2]] static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 8, bits >>= 8) {
             integers kept;
             std::memcpy(&kept, numbers + l, sizeof kept);
@@ -3386,8 +3431,8 @@ struct avx512_instructions {
         return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
     }
 
-    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
-                                   std::uint32_t* out) {
+    template <class T>
+    static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 16, bits >>= 16) {
             const auto set = static_cast<__mmask16>(bits);
             const __m512i all = _mm512_loadu_si512(numbers + l);
@@ -3826,12 +3871,30 @@ class leaf_list {
         return {distance_[0].at, candidates_};
     }
 
-    /// How many of the candidates are within a limit.
-    [[nodiscard, gnu::always_inline]] std::size_t count(auto instructions, float limit) const {
-        std::size_t within = 0;
-        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            within += instructions.count_at_most(distance_[b], limit);
-        return within;
+    /// How many of the candidates are within each of two limits.
+    [[nodiscard, gnu::always_inline]] std::pair<std::size_t, std::size_t> count(auto instructions,
+                                                                                float a,
+                                                                                float b) const {
+        std::size_t within_a = 0, within_b = 0;
+        for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
+            within_a += instructions.count_at_most(distance_[c], a);
+            within_b += instructions.count_at_most(distance_[c], b);
+        }
+        return {within_a, within_b};
+    }
+
+    /// The squared distances of those beyond `below` and within `above`, and after them infinity.
+    /// Precondition: there are at most 32.
+    [[nodiscard, gnu::always_inline]] const lanes& between(auto instructions, float below,
+                                                           float above) {
+        float* end = between_[0].at;
+        for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
+            const std::uint32_t bits = instructions.at_most(distance_[c], above) &
+                                       ~instructions.at_most(distance_[c], below);
+            end = instructions.compress(distance_[c].at, bits, end);
+        }
+        std::fill(end, between_[0].at + lane_count, far_);
+        return between_[0];
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
@@ -3919,6 +3982,7 @@ class leaf_list {
     std::size_t candidates_ = 0;                             // how many points
     std::vector<lanes> distance_;                            // squared ones of the candidates
     std::vector<std::uint32_t> candidate_;                   // their places
+    std::array<lanes, 2> between_;                           // a few of the distances
 };
 
 }  // namespace GNOMON_LANES
@@ -3933,8 +3997,9 @@ class leaf_list {
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
 ///     bit more than that of the points before)? About twice as many points as needed pass.
-///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
-///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  2. Which is the k-th? Distances on surfaces are nearly evenly spread in their squares, so two
+///     limits are soon found between which it is with a few others, and these are compared all with
+///     all, without a branch.
 ///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
 ///     distances, those in doubt are told apart by their canonical distances in double.
 ///
@@ -3993,6 +4058,9 @@ class leaf_search {
     }
 
   private:
+    /// So many are compared with each other sooner than narrowed down.
+    static constexpr std::size_t few = 16;
+
     /// Visits all that are waiting.
     template <class Visit>
     void find_waiting(Visit&& visit) {
@@ -4074,37 +4142,50 @@ class leaf_search {
     /// How many candidates are beyond `below` and within `above`.
     [[nodiscard]] std::size_t in_doubt(float below, float above) const {
         return with_widest([&](auto instructions) {
-            return list_.count(instructions, above) - list_.count(instructions, below);
+            const auto [nearer, all] = list_.count(instructions, below, above);
+            return all - nearer;
         });
     }
 
-    /// A limit that k of the candidates are within, or more if floats cannot tell them apart.
+    /// The k-th of the candidates' squared distances.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
         return with_widest([&](auto instructions) { return kth(instructions, high); });
     }
     [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
-        const auto candidates = list_.squared_distances();
-        float low = 0.0f;
-        auto below = 0.0f, within = static_cast<float>(candidates.size());
-        const auto wanted = static_cast<float>(k_);
-        for (int i = 0; i < 5 && candidates.size() > k_; ++i) {
-            const float limit =
-                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
-            const std::size_t c = list_.count(instructions, limit);
-            if (c == k_) return limit;
-            if (c < k_)
-                low = limit, below = static_cast<float>(c);
-            else
-                high = limit, within = static_cast<float>(c);
+        std::size_t below = 0, within = list_.squared_distances().size();
+        if (within == k_) return high;
+        // It is beyond `low` and within `high`, with some others.
+        float low = -1.0f;
+        for (int i = 0; i < 5 && within - below > few; ++i) {
+            // Were they evenly spread, it would hardly be beyond these two.
+            const auto rank = static_cast<float>(k_ - below),
+                       all = static_cast<float>(within - below);
+            const float margin = 1.0f + std::sqrt(std::min(rank, all - rank));
+            const float from = std::max(low, 0.0f), step = (high - from) / (all + 1.0f);
+            const float a = std::max(from, from + step * (rank - margin));
+            const float b = std::min(high, from + step * (rank + margin));
+            const auto [within_a, within_b] = list_.count(instructions, a, b);
+            if (within_a >= k_) {
+                high = a, within = within_a;
+            } else {
+                low = a, below = within_a;
+                if (within_b >= k_)
+                    high = b, within = within_b;
+                else
+                    low = b, below = within_b;
+            }
         }
-        // Several are about as far.
+        if (within - below <= lane_count)
+            return kth_least(list_.between(instructions, low, high), within - below, k_ - below);
+        // Many are about as far.
         between_.clear();
-        list_.for_each_between(below > 0.0f ? low : -1.0f, high,
+        const auto candidates = list_.squared_distances();
+        list_.for_each_between(low, high,
                                [&](std::size_t c) { between_.push_back(candidates[c]); });
-        const auto last = between_.begin() + static_cast<std::ptrdiff_t>(wanted - below) - 1;
-        std::nth_element(between_.begin(), last, between_.end());
-        return *last;
+        const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - below) - 1;
+        std::nth_element(between_.begin(), nth, between_.end());
+        return *nth;
     }
 
     /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
@@ -4116,7 +4197,7 @@ class leaf_search {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below);
+        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below, above).first;
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {
@@ -4155,96 +4236,62 @@ class leaf_search {
 // -------- gnomon/neighborhoods/detail/found_neighbors.hpp ----------------------------------------
 
 /// @file
-/// What a sweep has found of one point: its neighbors as arrays, from which moments and mean
-/// distance come eight neighbors at a time, and the ring in canonical order if somebody asks.
+/// What a sweep has found of one point: where its neighbors lie in the tree. From there come their
+/// moments and mean distance, in one pass over vectors of neighbors that stores nothing, and the
+/// ring in canonical order if somebody asks.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
-/// offsets with zeros.
+/// Of the neighbors of a point.
+struct ring_sums {
+    moments about_point;
+    double mean_distance = 0.0;  // from it [m]; 0 if there are none
+};
+
+/// A view of the neighbors of one point, in no particular order. (Over templates of trees, so that
+/// only who searches compiles it.)
+template <class Tree>
 class found_neighbors {
   public:
-    [[nodiscard]] std::size_t size() const { return count_; }
-    /// Coordinate `axis` of their offsets from the point [m].
-    [[nodiscard]] const double* offset(std::size_t axis) const {
-        return numbers_.data() + axis * capacity_;
-    }
-    /// Canonical squared distances [m^2].
-    [[nodiscard]] const double* squared_distance() const { return offset(3); }
-    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    /// The points at `places` of the tree, seen from that at `from`.
+    found_neighbors(const Tree& tree, std::size_t from, std::span<const std::uint32_t> places)
+        : tree_(tree), from_(from), places_(places) {}
 
-    /// Of them about the point.
-    [[nodiscard]] moments moments_about_point() const {
-        pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
-        pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
-        for (std::size_t j = 0; j < filled(); j += pack::size) {
-            const pack x(offset(0) + j), y(offset(1) + j), z(offset(2) + j);
-            x_sum += x;
-            y_sum += y;
-            z_sum += z;
-            xx += x * x;
-            xy += x * y;
-            xz += x * z;
-            yy += y * y;
-            yz += y * z;
-            zz += z * z;
+    [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+    [[nodiscard]] ring_sums summed() const {
+        sums all;
+        const std::size_t whole = size() / slim_pack::size * slim_pack::size;
+        for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
+        if (whole < size()) {
+            std::array<std::uint32_t, slim_pack::size> last;
+            last.fill(static_cast<std::uint32_t>(from_));  // adds zeros
+            std::copy(places_.begin() + static_cast<std::ptrdiff_t>(whole), places_.end(),
+                      last.begin());
+            add(all, last.data());
         }
-        moments m;
-        m.count = count_;
-        m.sum = {x_sum.sum(), y_sum.sum(), z_sum.sum()};
-        m.outer(0, 0) = xx.sum();
-        m.outer(1, 0) = xy.sum();
-        m.outer(2, 0) = xz.sum();
-        m.outer(1, 1) = yy.sum();
-        m.outer(2, 1) = yz.sum();
-        m.outer(2, 2) = zz.sum();
-        return m;
-    }
-
-    /// The mean distance from the point [m]; 0 if there are none.
-    [[nodiscard]] double mean_distance() const {
-        if (count_ == 0) return 0.0;
-        pack sum(0.0);
-        for (std::size_t j = 0; j < filled(); j += pack::size)
-            sum += root(pack(squared_distance() + j));
-        return sum.sum() / static_cast<double>(count_);
+        ring_sums r;
+        r.about_point.count = size();
+        r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
+        r.about_point.outer(0, 0) = all.xx.sum();
+        r.about_point.outer(1, 0) = all.xy.sum();
+        r.about_point.outer(2, 0) = all.xz.sum();
+        r.about_point.outer(1, 1) = all.yy.sum();
+        r.about_point.outer(2, 1) = all.yz.sum();
+        r.about_point.outer(2, 2) = all.zz.sum();
+        if (size() > 0) r.mean_distance = all.distance.sum() / static_cast<double>(size());
+        return r;
     }
 
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
-        ring.resize(count_);
-        if (count_ <= few) {
+        ring.resize(size());
+        if (size() <= few) {
             rank_into(ring);
         } else {
-            for (std::size_t j = 0; j < count_; ++j) ring[j] = at(j);
+            for (std::size_t j = 0; j < size(); ++j) ring[j] = at(j);
             std::sort(ring.begin(), ring.end());
-        }
-    }
-
-    /// Replaces them by the points at the given places of the tree, seen from that at `from`.
-    void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
-        resize(places.size());
-        const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
-        const point_index* all_indices = tree.index();
-        const double px = all_x[from], py = all_y[from], pz = all_z[from];
-        double* offset_x = numbers_.data();
-        double* offset_y = offset_x + capacity_;
-        double* offset_z = offset_y + capacity_;
-        point_index* index = index_.data();
-        for (std::size_t j = 0; j < count_; ++j) {
-            const std::size_t at = places[j];
-            offset_x[j] = all_x[at] - px;
-            offset_y[j] = all_y[at] - py;
-            offset_z[j] = all_z[at] - pz;
-            index[j] = all_indices[at];
-        }
-        const double *x = offset(0), *y = offset(1), *z = offset(2);
-        for (std::size_t j = 0; j < filled(); j += pack::size) {
-            std::array<double, pack::size> d2;
-            for (std::size_t l = 0; l < pack::size; ++l)
-                d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
-            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
     }
 
@@ -4252,47 +4299,60 @@ class found_neighbors {
     /// Beyond so many, comparing all with all takes longer than sorting.
     static constexpr std::size_t few = 128;
 
-    [[nodiscard]] neighbor at(std::size_t j) const { return {squared_distance()[j], index_[j]}; }
+    struct sums {
+        slim_pack x = 0.0, y = 0.0, z = 0.0;
+        slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+        slim_pack distance = 0.0;
+    };
+
+    [[gnu::always_inline]] void add(sums& all, const std::uint32_t* places) const {
+        const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
+        const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
+        const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
+        const slim_pack xx = x * x, yy = y * y, zz = z * z;
+        all.x += x;
+        all.y += y;
+        all.z += z;
+        all.xx += xx;
+        all.xy += x * y;
+        all.xz += x * z;
+        all.yy += yy;
+        all.yz += y * z;
+        all.zz += zz;
+        all.distance += root(xx + yy + zz);
+    }
+
+    [[nodiscard]] neighbor at(std::size_t j) const {
+        return {tree_.squared_distance(from_, places_[j]), tree_.index()[places_[j]]};
+    }
 
     /// Puts each where as many are nearer, for which all are compared with all, eight at a time;
     /// then sets ties right.
     void rank_into(std::vector<neighbor>& ring) const {
-        const std::size_t not_there = filled() - count_;  // zeros, as near as anything
-        std::array<std::uint8_t, few> ties{};             // found up to now, by their last place
-        for (std::size_t j = 0; j < count_; ++j) {
-            const pack d2(squared_distance()[j]);
+        std::array<double, few> squared;  // distances
+        for (std::size_t j = 0; j < size(); ++j)
+            squared[j] = tree_.squared_distance(from_, places_[j]);
+        const std::size_t filled = (size() + pack::size - 1) / pack::size * pack::size;
+        const std::size_t not_there = filled - size();  // zeros, as near as anything
+        std::fill_n(squared.data() + size(), not_there, 0.0);
+        std::array<std::uint8_t, few> ties{};  // found up to now, by their last place
+        for (std::size_t j = 0; j < size(); ++j) {
+            const pack d2(squared[j]);
             pack not_farther(0.0);
-            for (std::size_t i = 0; i < filled(); i += pack::size)
-                not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
+            for (std::size_t i = 0; i < filled; i += pack::size)
+                not_farther += where_at_least(d2, pack(squared.data() + i), 1.0, 0.0);
             const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
-            ring[last - ties[last]++] = at(j);
+            ring[last - ties[last]++] = {squared[j], tree_.index()[places_[j]]};
         }
-        for (std::size_t last = 0; last < count_; ++last) {
+        for (std::size_t last = 0; last < size(); ++last) {
             const auto end = ring.begin() + static_cast<std::ptrdiff_t>(last) + 1;
             if (ties[last] > 1) std::sort(end - ties[last], end);
         }
     }
 
-    void resize(std::size_t count) {
-        count_ = count;
-        if (filled() > capacity_) {
-            capacity_ = filled();
-            index_.resize(capacity_);
-            numbers_.resize(4 * capacity_);
-        }
-        for (std::size_t a = 0; a < 3; ++a)
-            std::fill(numbers_.data() + a * capacity_ + count_,
-                      numbers_.data() + a * capacity_ + filled(), 0.0);
-    }
-
-    [[nodiscard]] std::size_t filled() const {
-        return (count_ + pack::size - 1) / pack::size * pack::size;
-    }
-
-    std::size_t count_ = 0;
-    std::size_t capacity_ = 0;
-    std::vector<point_index> index_;
-    std::vector<double> numbers_;  // x, y, z and squared distance
+    const Tree& tree_;
+    std::size_t from_;
+    std::span<const std::uint32_t> places_;
 };
 
 }  // namespace GNOMON_LANES
@@ -4330,8 +4390,7 @@ class place_visitor {
     place_visitor(const leaf_tree& tree, Visit visit) : tree_(tree), visit_(std::move(visit)) {}
 
     void operator()(std::size_t place, std::span<const std::uint32_t> places) {
-        found_.look_up(tree_, place, places);
-        visit_(tree_.index()[place], std::as_const(found_));
+        visit_(tree_.index()[place], found_neighbors(tree_, place, places));
     }
 
     void finish() {
@@ -4341,7 +4400,6 @@ class place_visitor {
   private:
     const leaf_tree& tree_;
     Visit visit_;
-    found_neighbors found_;
 };
 
 /// The sweep of a `sweeping_neighborhood`: visit(i, found_neighbors) for all points i of the tree
@@ -5193,13 +5251,15 @@ class sweep_visitor {
 
     void operator()(std::size_t i, const auto& found) {
         if constexpr (batch_estimator<E>) {
+            const auto sums = found.summed();
             waiting_[count_] = i;
-            moments_[count_] = found.moments_about_point();
-            mean_distances_[count_] = found.mean_distance();
+            moments_[count_] = sums.about_point;
+            mean_distances_[count_] = sums.mean_distance;
             if (++count_ == batch) finish();
         } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
-            surface_[i] = make_.finished(i, std::invoke(estimate_, found.moments_about_point()),
-                                         found.size(), found.mean_distance());
+            const auto sums = found.summed();
+            surface_[i] = make_.finished(i, std::invoke(estimate_, sums.about_point), found.size(),
+                                         sums.mean_distance);
         } else {
             surface_[i] = make_.from_sweep(i, found);
         }

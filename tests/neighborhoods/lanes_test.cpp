@@ -3,6 +3,8 @@
 /// instructions, see tests/CMakeLists.txt.
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <vector>
 
 #include <gtest/gtest.h>
 
@@ -34,6 +36,23 @@ TEST(lanes, measure_points_and_boxes) {
             const float gx = std::max(0.0f, std::abs(dx) - 0.25f);
             const float gy = std::max(0.0f, std::abs(dy) - 0.5f);
             ASSERT_NEAR(gap2[l], 4 * (gx * gx + gy * gy + dz * dz), 4e-6);
+        }
+    }
+}
+
+/// The k-th least of few numbers, many of them equal, against sorting.
+TEST(lanes, tell_the_kth_least) {
+    gnomon::random_stream random(4);
+    for (std::size_t n = 1; n <= lane_count; ++n) {
+        for (const double kinds : {1.0, 3.0, 1e6}) {
+            lanes a;
+            std::fill(a.at, a.at + lane_count, std::numeric_limits<float>::infinity());
+            for (std::size_t l = 0; l < n; ++l)
+                a[l] = static_cast<float>(std::floor(kinds * random.uniform()));
+            std::vector<float> sorted(a.at, a.at + n);
+            std::sort(sorted.begin(), sorted.end());
+            for (std::size_t k = 1; k <= n; ++k)
+                ASSERT_EQ(gnomon::detail::kth_least(a, n, k), sorted[k - 1]) << k << " of " << n;
         }
     }
 }

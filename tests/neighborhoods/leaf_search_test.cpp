@@ -18,7 +18,8 @@
 namespace {
 
 using gnomon::knn, gnomon::knn_backend, gnomon::tie_rule;
-using gnomon::detail::found_neighbors, gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
+using gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
+using found_neighbors = gnomon::detail::found_neighbors<leaf_tree>;
 using gnomon::detail::place_visitor;
 
 void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k,
@@ -75,13 +76,13 @@ TEST(leaf_search, is_what_was_tried) {
 
 /// What one search finds for point i, by point, in the order of the tree.
 struct finding {
-    std::vector<gnomon::point_index> neighbors;
-    gnomon::moments moments;
-    double mean_distance;
+    std::vector<gnomon::neighbor> neighbors;
+    gnomon::detail::ring_sums sums;
 
     friend bool operator==(const finding& a, const finding& b) {
-        return a.neighbors == b.neighbors && a.moments.sum == b.moments.sum &&
-               a.moments.outer == b.moments.outer && a.mean_distance == b.mean_distance;
+        return a.neighbors == b.neighbors && a.sums.about_point.sum == b.sums.about_point.sum &&
+               a.sums.about_point.outer == b.sums.about_point.outer &&
+               a.sums.mean_distance == b.sums.mean_distance;
     }
 };
 
@@ -96,9 +97,8 @@ TEST(leaf_search, does_not_depend_on_what_was_found_before) {
             const auto into = [&tree](std::vector<finding>& all) {
                 return place_visitor(tree, [&all](std::size_t i, const found_neighbors& found) {
                     EXPECT_TRUE(all[i].neighbors.empty()) << "visited twice";
-                    all[i] = {{found.index(), found.index() + found.size()},
-                              found.moments_about_point(),
-                              found.mean_distance()};
+                    all[i].sums = found.summed();
+                    found.sort_into(all[i].neighbors);
                 });
             };
             leaf_search learning(tree, {k});
@@ -118,17 +118,19 @@ TEST(leaf_search, sums_up_what_it_finds) {
             ASSERT_EQ(found.size(), k);
             gnomon::moments expected;
             double distance = 0.0;
-            for (std::size_t j = 0; j < k; ++j) {
-                const Eigen::Vector3d& q = points[found.index()[j]];
-                ASSERT_EQ(found.squared_distance()[j], gnomon::squared_distance(points[i], q));
+            std::vector<gnomon::neighbor> ring;
+            found.sort_into(ring);
+            for (const gnomon::neighbor& neighbor : ring) {
+                const Eigen::Vector3d& q = points[neighbor.index];
+                ASSERT_EQ(neighbor.squared_distance, gnomon::squared_distance(points[i], q));
                 expected.add(q - points[i]);
                 distance += (q - points[i]).norm() / static_cast<double>(k);
             }
-            const gnomon::moments m = found.moments_about_point();
+            const auto [m, mean_distance] = found.summed();
             ASSERT_EQ(m.count, k);
             ASSERT_LE((m.sum - expected.sum).norm(), 1e-14 * distance * double(k));
             ASSERT_LE((m.outer - expected.outer).norm(), 1e-14 * expected.outer.norm());
-            ASSERT_NEAR(found.mean_distance(), distance, 1e-14 * distance);
+            ASSERT_NEAR(mean_distance, distance, 1e-14 * distance);
         };
         leaf_search search(tree, {k});
         place_visitor show(tree, visit);

@@ -160,13 +160,15 @@ class sweep_visitor {
 
     void operator()(std::size_t i, const auto& found) {
         if constexpr (batch_estimator<E>) {
+            const auto sums = found.summed();
             waiting_[count_] = i;
-            moments_[count_] = found.moments_about_point();
-            mean_distances_[count_] = found.mean_distance();
+            moments_[count_] = sums.about_point;
+            mean_distances_[count_] = sums.mean_distance;
             if (++count_ == batch) finish();
         } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
-            surface_[i] = make_.finished(i, std::invoke(estimate_, found.moments_about_point()),
-                                         found.size(), found.mean_distance());
+            const auto sums = found.summed();
+            surface_[i] = make_.finished(i, std::invoke(estimate_, sums.about_point), found.size(),
+                                         sums.mean_distance);
         } else {
             surface_[i] = make_.from_sweep(i, found);
         }

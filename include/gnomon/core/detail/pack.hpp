@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <utility>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
@@ -15,18 +16,29 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Eight numbers.
-class pack {
-  public:
-    static constexpr std::size_t size = 8;
+/// The bytes of a vector: as many as the instructions have.
+inline constexpr std::size_t vector_bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
 
-    pack() = default;
-    [[gnu::always_inline]] explicit(false) pack(double x) {
+/// N numbers, a multiple of those of a vector.
+template <std::size_t N>
+class packed {
+  public:
+    using pack = packed;
+    static constexpr std::size_t size = N;
+
+    packed() = default;
+    [[gnu::always_inline]] explicit(false) packed(double x) {
         for (vector& v : at_) v = x - vector{};
     }
     /// Those from `first` on.
-    [[gnu::always_inline]] explicit pack(const double* first) {
+    [[gnu::always_inline]] explicit packed(const double* first) {
         std::memcpy(at_, first, sizeof at_);
+    }
+
+    /// Those at some places.
+    [[gnu::always_inline]] packed(const double* first, const std::uint32_t* places) {
+        for (std::size_t v = 0; v < size / width; ++v)
+            at_[v] = gather(first, places + v * width, std::make_index_sequence<width>{});
     }
 
     [[nodiscard]] double operator[](std::size_t l) const { return at_[l / width][l % width]; }
@@ -96,9 +108,14 @@ class pack {
     }
 
   private:
-    static constexpr std::size_t bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
-    static constexpr std::size_t width = bytes / sizeof(double);
-    using vector [[gnu::vector_size(bytes)]] = double;
+    static constexpr std::size_t width = vector_bytes / sizeof(double);
+    using vector [[gnu::vector_size(vector_bytes)]] = double;
+
+    template <std::size_t... L>
+    [[gnu::always_inline]] static vector gather(const double* first, const std::uint32_t* places,
+                                                std::index_sequence<L...>) {
+        return vector{first[places[L]]...};
+    }
 
     [[gnu::always_inline]] static pack of(auto&& each) {
         pack p;
@@ -126,6 +143,10 @@ class pack {
 
     vector at_[size / width];
 };
+
+using pack = packed<8>;
+/// As many as one vector has: where there are more sums than fit into the registers otherwise.
+using slim_pack = packed<vector_bytes / sizeof(double)>;
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

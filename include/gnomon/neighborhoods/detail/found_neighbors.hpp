@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a sweep has found of one point: its neighbors as arrays, from which moments and mean
-/// distance come eight neighbors at a time, and the ring in canonical order if somebody asks.
+/// What a sweep has found of one point: where its neighbors lie in the tree. From there come their
+/// moments and mean distance, in one pass over vectors of neighbors that stores nothing, and the
+/// ring in canonical order if somebody asks.
 #pragma once
 
 #include <algorithm>
@@ -20,90 +21,55 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The neighbors of one point, in no particular order. All arrays are filled up to whole packs: the
-/// offsets with zeros.
+/// Of the neighbors of a point.
+struct ring_sums {
+    moments about_point;
+    double mean_distance = 0.0;  // from it [m]; 0 if there are none
+};
+
+/// A view of the neighbors of one point, in no particular order. (Over templates of trees, so that
+/// only who searches compiles it.)
+template <class Tree>
 class found_neighbors {
   public:
-    [[nodiscard]] std::size_t size() const { return count_; }
-    /// Coordinate `axis` of their offsets from the point [m].
-    [[nodiscard]] const double* offset(std::size_t axis) const {
-        return numbers_.data() + axis * capacity_;
-    }
-    /// Canonical squared distances [m^2].
-    [[nodiscard]] const double* squared_distance() const { return offset(3); }
-    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    /// The points at `places` of the tree, seen from that at `from`.
+    found_neighbors(const Tree& tree, std::size_t from, std::span<const std::uint32_t> places)
+        : tree_(tree), from_(from), places_(places) {}
 
-    /// Of them about the point.
-    [[nodiscard]] moments moments_about_point() const {
-        pack x_sum(0.0), y_sum(0.0), z_sum(0.0);
-        pack xx(0.0), xy(0.0), xz(0.0), yy(0.0), yz(0.0), zz(0.0);
-        for (std::size_t j = 0; j < filled(); j += pack::size) {
-            const pack x(offset(0) + j), y(offset(1) + j), z(offset(2) + j);
-            x_sum += x;
-            y_sum += y;
-            z_sum += z;
-            xx += x * x;
-            xy += x * y;
-            xz += x * z;
-            yy += y * y;
-            yz += y * z;
-            zz += z * z;
+    [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+    [[nodiscard]] ring_sums summed() const {
+        sums all;
+        const std::size_t whole = size() / slim_pack::size * slim_pack::size;
+        for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
+        if (whole < size()) {
+            std::array<std::uint32_t, slim_pack::size> last;
+            last.fill(static_cast<std::uint32_t>(from_));  // adds zeros
+            std::copy(places_.begin() + static_cast<std::ptrdiff_t>(whole), places_.end(),
+                      last.begin());
+            add(all, last.data());
         }
-        moments m;
-        m.count = count_;
-        m.sum = {x_sum.sum(), y_sum.sum(), z_sum.sum()};
-        m.outer(0, 0) = xx.sum();
-        m.outer(1, 0) = xy.sum();
-        m.outer(2, 0) = xz.sum();
-        m.outer(1, 1) = yy.sum();
-        m.outer(2, 1) = yz.sum();
-        m.outer(2, 2) = zz.sum();
-        return m;
-    }
-
-    /// The mean distance from the point [m]; 0 if there are none.
-    [[nodiscard]] double mean_distance() const {
-        if (count_ == 0) return 0.0;
-        pack sum(0.0);
-        for (std::size_t j = 0; j < filled(); j += pack::size)
-            sum += root(pack(squared_distance() + j));
-        return sum.sum() / static_cast<double>(count_);
+        ring_sums r;
+        r.about_point.count = size();
+        r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
+        r.about_point.outer(0, 0) = all.xx.sum();
+        r.about_point.outer(1, 0) = all.xy.sum();
+        r.about_point.outer(2, 0) = all.xz.sum();
+        r.about_point.outer(1, 1) = all.yy.sum();
+        r.about_point.outer(2, 1) = all.yz.sum();
+        r.about_point.outer(2, 2) = all.zz.sum();
+        if (size() > 0) r.mean_distance = all.distance.sum() / static_cast<double>(size());
+        return r;
     }
 
     /// Replaces the content of `ring` by them in canonical order.
     void sort_into(std::vector<neighbor>& ring) const {
-        ring.resize(count_);
-        if (count_ <= few) {
+        ring.resize(size());
+        if (size() <= few) {
             rank_into(ring);
         } else {
-            for (std::size_t j = 0; j < count_; ++j) ring[j] = at(j);
+            for (std::size_t j = 0; j < size(); ++j) ring[j] = at(j);
             std::sort(ring.begin(), ring.end());
-        }
-    }
-
-    /// Replaces them by the points at the given places of the tree, seen from that at `from`.
-    void look_up(const leaf_tree& tree, std::size_t from, std::span<const std::uint32_t> places) {
-        resize(places.size());
-        const double *all_x = tree.at(0), *all_y = tree.at(1), *all_z = tree.at(2);
-        const point_index* all_indices = tree.index();
-        const double px = all_x[from], py = all_y[from], pz = all_z[from];
-        double* offset_x = numbers_.data();
-        double* offset_y = offset_x + capacity_;
-        double* offset_z = offset_y + capacity_;
-        point_index* index = index_.data();
-        for (std::size_t j = 0; j < count_; ++j) {
-            const std::size_t at = places[j];
-            offset_x[j] = all_x[at] - px;
-            offset_y[j] = all_y[at] - py;
-            offset_z[j] = all_z[at] - pz;
-            index[j] = all_indices[at];
-        }
-        const double *x = offset(0), *y = offset(1), *z = offset(2);
-        for (std::size_t j = 0; j < filled(); j += pack::size) {
-            std::array<double, pack::size> d2;
-            for (std::size_t l = 0; l < pack::size; ++l)
-                d2[l] = x[j + l] * x[j + l] + y[j + l] * y[j + l] + z[j + l] * z[j + l];
-            std::copy(d2.begin(), d2.end(), numbers_.data() + 3 * capacity_ + j);
         }
     }
 
@@ -111,47 +77,60 @@ class found_neighbors {
     /// Beyond so many, comparing all with all takes longer than sorting.
     static constexpr std::size_t few = 128;
 
-    [[nodiscard]] neighbor at(std::size_t j) const { return {squared_distance()[j], index_[j]}; }
+    struct sums {
+        slim_pack x = 0.0, y = 0.0, z = 0.0;
+        slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+        slim_pack distance = 0.0;
+    };
+
+    [[gnu::always_inline]] void add(sums& all, const std::uint32_t* places) const {
+        const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
+        const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
+        const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
+        const slim_pack xx = x * x, yy = y * y, zz = z * z;
+        all.x += x;
+        all.y += y;
+        all.z += z;
+        all.xx += xx;
+        all.xy += x * y;
+        all.xz += x * z;
+        all.yy += yy;
+        all.yz += y * z;
+        all.zz += zz;
+        all.distance += root(xx + yy + zz);
+    }
+
+    [[nodiscard]] neighbor at(std::size_t j) const {
+        return {tree_.squared_distance(from_, places_[j]), tree_.index()[places_[j]]};
+    }
 
     /// Puts each where as many are nearer, for which all are compared with all, eight at a time;
     /// then sets ties right.
     void rank_into(std::vector<neighbor>& ring) const {
-        const std::size_t not_there = filled() - count_;  // zeros, as near as anything
-        std::array<std::uint8_t, few> ties{};             // found up to now, by their last place
-        for (std::size_t j = 0; j < count_; ++j) {
-            const pack d2(squared_distance()[j]);
+        std::array<double, few> squared;  // distances
+        for (std::size_t j = 0; j < size(); ++j)
+            squared[j] = tree_.squared_distance(from_, places_[j]);
+        const std::size_t filled = (size() + pack::size - 1) / pack::size * pack::size;
+        const std::size_t not_there = filled - size();  // zeros, as near as anything
+        std::fill_n(squared.data() + size(), not_there, 0.0);
+        std::array<std::uint8_t, few> ties{};  // found up to now, by their last place
+        for (std::size_t j = 0; j < size(); ++j) {
+            const pack d2(squared[j]);
             pack not_farther(0.0);
-            for (std::size_t i = 0; i < filled(); i += pack::size)
-                not_farther += where_at_least(d2, pack(squared_distance() + i), 1.0, 0.0);
+            for (std::size_t i = 0; i < filled; i += pack::size)
+                not_farther += where_at_least(d2, pack(squared.data() + i), 1.0, 0.0);
             const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
-            ring[last - ties[last]++] = at(j);
+            ring[last - ties[last]++] = {squared[j], tree_.index()[places_[j]]};
         }
-        for (std::size_t last = 0; last < count_; ++last) {
+        for (std::size_t last = 0; last < size(); ++last) {
             const auto end = ring.begin() + static_cast<std::ptrdiff_t>(last) + 1;
             if (ties[last] > 1) std::sort(end - ties[last], end);
         }
     }
 
-    void resize(std::size_t count) {
-        count_ = count;
-        if (filled() > capacity_) {
-            capacity_ = filled();
-            index_.resize(capacity_);
-            numbers_.resize(4 * capacity_);
-        }
-        for (std::size_t a = 0; a < 3; ++a)
-            std::fill(numbers_.data() + a * capacity_ + count_,
-                      numbers_.data() + a * capacity_ + filled(), 0.0);
-    }
-
-    [[nodiscard]] std::size_t filled() const {
-        return (count_ + pack::size - 1) / pack::size * pack::size;
-    }
-
-    std::size_t count_ = 0;
-    std::size_t capacity_ = 0;
-    std::vector<point_index> index_;
-    std::vector<double> numbers_;  // x, y, z and squared distance
+    const Tree& tree_;
+    std::size_t from_;
+    std::span<const std::uint32_t> places_;
 };
 
 }  // namespace GNOMON_LANES

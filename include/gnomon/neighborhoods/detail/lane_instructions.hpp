@@ -35,11 +35,11 @@ struct plain_instructions {
         return n;
     }
 
-    /// Writes those of 32 numbers whose bits are set, one after the other. What follows them, up to
-    /// 32 in all, may be overwritten; `out` may be `numbers`, or before.
+    /// Writes those of 32 numbers, of 32 bits each, that bits are set for, one after the other.
+    /// What follows them, up to 32 in all, may be overwritten; `out` may be `numbers`, or before.
     /// @return the end of what was written
-    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
-                                   std::uint32_t* out) {
+    template <class T>
+    static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
         return out;
     }
@@ -91,8 +91,8 @@ class avx2_instructions {
         return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
     }
 
-    [[GNOMON_WITH_AVX2]] static std::uint32_t* compress(const std::uint32_t* numbers,
-                                                        std::uint32_t bits, std::uint32_t* out) {
+    template <class T>
+    [[GNOMON_WITH_AVX2]] static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 8, bits >>= 8) {
             integers kept;
             std::memcpy(&kept, numbers + l, sizeof kept);
@@ -163,8 +163,8 @@ struct avx512_instructions {
         return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
     }
 
-    static std::uint32_t* compress(const std::uint32_t* numbers, std::uint32_t bits,
-                                   std::uint32_t* out) {
+    template <class T>
+    static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 16, bits >>= 16) {
             const auto set = static_cast<__mmask16>(bits);
             const __m512i all = _mm512_loadu_si512(numbers + l);

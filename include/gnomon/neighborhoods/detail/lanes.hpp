@@ -4,8 +4,10 @@
 /// fixed length, which compilers turn into vector instructions at -O2 already.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
@@ -66,6 +68,31 @@ struct lane_boxes {
         return d2;
     }
 };
+
+/// The k-th least of the first n numbers, behind which there is infinity. Compares all with all, in
+/// the vectors that compilers have built in.
+/// Precondition: 0 < k <= n <= 32
+[[nodiscard, gnu::always_inline]] inline float kth_least(const lanes& a, std::size_t n,
+                                                         std::size_t k) {
+    constexpr std::size_t width = 8;
+    using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
+    using integers [[gnu::vector_size(4 * width)]] = int;
+    floats least = std::numeric_limits<float>::infinity() - floats{};
+    for (std::size_t v = 0; v < n; v += width) {
+        const floats these = reinterpret_cast<const floats&>(a.at[v]);
+        integers at_most = {};  // these; counted downwards, as a comparison gives 0 or -1
+        for (std::size_t j = 0; j < n; j += 4) {
+            at_most += a.at[j] <= these;
+            at_most += a.at[j + 1] <= these;
+            at_most += a.at[j + 2] <= these;
+            at_most += a.at[j + 3] <= these;
+        }
+        least = at_most <= -static_cast<int>(k) && these < least ? these : least;
+    }
+    float kth = least[0];
+    for (std::size_t l = 1; l < width; ++l) kth = std::min(kth, least[l]);
+    return kth;
+}
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

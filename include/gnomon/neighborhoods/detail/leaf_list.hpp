@@ -126,12 +126,30 @@ class leaf_list {
         return {distance_[0].at, candidates_};
     }
 
-    /// How many of the candidates are within a limit.
-    [[nodiscard, gnu::always_inline]] std::size_t count(auto instructions, float limit) const {
-        std::size_t within = 0;
-        for (std::size_t b = 0; b * lane_count < candidates_; ++b)
-            within += instructions.count_at_most(distance_[b], limit);
-        return within;
+    /// How many of the candidates are within each of two limits.
+    [[nodiscard, gnu::always_inline]] std::pair<std::size_t, std::size_t> count(auto instructions,
+                                                                                float a,
+                                                                                float b) const {
+        std::size_t within_a = 0, within_b = 0;
+        for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
+            within_a += instructions.count_at_most(distance_[c], a);
+            within_b += instructions.count_at_most(distance_[c], b);
+        }
+        return {within_a, within_b};
+    }
+
+    /// The squared distances of those beyond `below` and within `above`, and after them infinity.
+    /// Precondition: there are at most 32.
+    [[nodiscard, gnu::always_inline]] const lanes& between(auto instructions, float below,
+                                                           float above) {
+        float* end = between_[0].at;
+        for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
+            const std::uint32_t bits = instructions.at_most(distance_[c], above) &
+                                       ~instructions.at_most(distance_[c], below);
+            end = instructions.compress(distance_[c].at, bits, end);
+        }
+        std::fill(end, between_[0].at + lane_count, far_);
+        return between_[0];
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
@@ -219,6 +237,7 @@ class leaf_list {
     std::size_t candidates_ = 0;                             // how many points
     std::vector<lanes> distance_;                            // squared ones of the candidates
     std::vector<std::uint32_t> candidate_;                   // their places
+    std::array<lanes, 2> between_;                           // a few of the distances
 };
 
 }  // namespace GNOMON_LANES

@@ -6,8 +6,9 @@
 ///
 ///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
 ///     bit more than that of the points before)? About twice as many points as needed pass.
-///  2. Where is the limit that exactly k of these are within? Distances on surfaces are nearly
-///     evenly spread in their squares, so interpolation finds it in three or four counts.
+///  2. Which is the k-th? Distances on surfaces are nearly evenly spread in their squares, so two
+///     limits are soon found between which it is with a few others, and these are compared all with
+///     all, without a branch.
 ///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
 ///     distances, those in doubt are told apart by their canonical distances in double.
 ///
@@ -84,6 +85,9 @@ class leaf_search {
     }
 
   private:
+    /// So many are compared with each other sooner than narrowed down.
+    static constexpr std::size_t few = 16;
+
     /// Visits all that are waiting.
     template <class Visit>
     void find_waiting(Visit&& visit) {
@@ -165,37 +169,50 @@ class leaf_search {
     /// How many candidates are beyond `below` and within `above`.
     [[nodiscard]] std::size_t in_doubt(float below, float above) const {
         return with_widest([&](auto instructions) {
-            return list_.count(instructions, above) - list_.count(instructions, below);
+            const auto [nearer, all] = list_.count(instructions, below, above);
+            return all - nearer;
         });
     }
 
-    /// A limit that k of the candidates are within, or more if floats cannot tell them apart.
+    /// The k-th of the candidates' squared distances.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
         return with_widest([&](auto instructions) { return kth(instructions, high); });
     }
     [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
-        const auto candidates = list_.squared_distances();
-        float low = 0.0f;
-        auto below = 0.0f, within = static_cast<float>(candidates.size());
-        const auto wanted = static_cast<float>(k_);
-        for (int i = 0; i < 5 && candidates.size() > k_; ++i) {
-            const float limit =
-                low + (high - low) * (wanted + 0.5f - below) / (within - below + 0.5f);
-            const std::size_t c = list_.count(instructions, limit);
-            if (c == k_) return limit;
-            if (c < k_)
-                low = limit, below = static_cast<float>(c);
-            else
-                high = limit, within = static_cast<float>(c);
+        std::size_t below = 0, within = list_.squared_distances().size();
+        if (within == k_) return high;
+        // It is beyond `low` and within `high`, with some others.
+        float low = -1.0f;
+        for (int i = 0; i < 5 && within - below > few; ++i) {
+            // Were they evenly spread, it would hardly be beyond these two.
+            const auto rank = static_cast<float>(k_ - below),
+                       all = static_cast<float>(within - below);
+            const float margin = 1.0f + std::sqrt(std::min(rank, all - rank));
+            const float from = std::max(low, 0.0f), step = (high - from) / (all + 1.0f);
+            const float a = std::max(from, from + step * (rank - margin));
+            const float b = std::min(high, from + step * (rank + margin));
+            const auto [within_a, within_b] = list_.count(instructions, a, b);
+            if (within_a >= k_) {
+                high = a, within = within_a;
+            } else {
+                low = a, below = within_a;
+                if (within_b >= k_)
+                    high = b, within = within_b;
+                else
+                    low = b, below = within_b;
+            }
         }
-        // Several are about as far.
+        if (within - below <= lane_count)
+            return kth_least(list_.between(instructions, low, high), within - below, k_ - below);
+        // Many are about as far.
         between_.clear();
-        list_.for_each_between(below > 0.0f ? low : -1.0f, high,
+        const auto candidates = list_.squared_distances();
+        list_.for_each_between(low, high,
                                [&](std::size_t c) { between_.push_back(candidates[c]); });
-        const auto last = between_.begin() + static_cast<std::ptrdiff_t>(wanted - below) - 1;
-        std::nth_element(between_.begin(), last, between_.end());
-        return *last;
+        const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - below) - 1;
+        std::nth_element(between_.begin(), nth, between_.end());
+        return *nth;
     }
 
     /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
@@ -207,7 +224,7 @@ class leaf_search {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below);
+        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below, above).first;
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {

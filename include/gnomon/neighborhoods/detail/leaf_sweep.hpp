@@ -42,8 +42,7 @@ class place_visitor {
     place_visitor(const leaf_tree& tree, Visit visit) : tree_(tree), visit_(std::move(visit)) {}
 
     void operator()(std::size_t place, std::span<const std::uint32_t> places) {
-        found_.look_up(tree_, place, places);
-        visit_(tree_.index()[place], std::as_const(found_));
+        visit_(tree_.index()[place], found_neighbors(tree_, place, places));
     }
 
     void finish() {
@@ -53,7 +52,6 @@ class place_visitor {
   private:
     const leaf_tree& tree_;
     Visit visit_;
-    found_neighbors found_;
 };
 
 /// The sweep of a `sweeping_neighborhood`: visit(i, found_neighbors) for all points i of the tree
