@@ -50,13 +50,17 @@ def confine(to):
 
 
 def cpu():
-    """The name of the processor."""
+    """The name of the processor, and the widest vectors that it has."""
     info = pathlib.Path("/proc/cpuinfo")
+    told = {}
     if info.exists():
         for line in info.read_text(encoding="utf-8").splitlines():
-            if line.startswith("model name"):
-                return line.split(":", 1)[1].strip()
-    return platform.processor() or platform.machine()
+            name, _, value = line.partition(":")
+            told.setdefault(name.strip(), value.strip())
+    vectors = [told_as for flag, told_as in (("avx512f", "AVX-512"), ("avx2", "AVX2"))
+               if flag in told.get("flags", "").split()]
+    name = told.get("model name") or platform.processor() or platform.machine()
+    return ", ".join([name, *vectors[:1]])
 
 
 def busy_cores():
