@@ -1468,22 +1468,21 @@ inline constexpr std::size_t vector_bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_
 
 /// N numbers, a multiple of those of a vector.
 template <std::size_t N>
-class packed {
+class pack_of {
   public:
-    using pack = packed;
     static constexpr std::size_t size = N;
 
-    packed() = default;
-    [[gnu::always_inline]] explicit(false) packed(double x) {
+    pack_of() = default;
+    [[gnu::always_inline]] explicit(false) pack_of(double x) {
         for (vector& v : at_) v = x - vector{};
     }
     /// Those from `first` on.
-    [[gnu::always_inline]] explicit packed(const double* first) {
+    [[gnu::always_inline]] explicit pack_of(const double* first) {
         std::memcpy(at_, first, sizeof at_);
     }
 
     /// Those at some places.
-    [[gnu::always_inline]] packed(const double* first, const std::uint32_t* places) {
+    [[gnu::always_inline]] pack_of(const double* first, const std::uint32_t* places) {
         for (std::size_t v = 0; v < size / width; ++v)
             at_[v] = gather(first, places + v * width, std::make_index_sequence<width>{});
     }
@@ -1496,40 +1495,41 @@ class packed {
         return all;
     }
 
-    [[gnu::always_inline]] friend pack operator+(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator+(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] + b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator-(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] - b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator*(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator*(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] * b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator/(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator/(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] / b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator-(const pack& a) {
+    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a) {
         return of([&](std::size_t v) { return -a.at_[v]; });
     }
-    [[gnu::always_inline]] pack& operator+=(const pack& b) { return *this = *this + b; }
+    [[gnu::always_inline]] pack_of& operator+=(const pack_of& b) { return *this = *this + b; }
 
-    [[gnu::always_inline]] friend pack magnitude(const pack& a) {
+    [[gnu::always_inline]] friend pack_of magnitude(const pack_of& a) {
         return of([&](std::size_t v) { return a.at_[v] < 0.0 ? -a.at_[v] : a.at_[v]; });
     }
     /// a where x >= y, and b elsewhere.
-    [[gnu::always_inline]] friend pack where_at_least(const pack& x, const pack& y, const pack& a,
-                                                      const pack& b) {
+    [[gnu::always_inline]] friend pack_of where_at_least(const pack_of& x, const pack_of& y,
+                                                         const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
     /// The nearest from low to high. Precondition: low <= high.
-    [[gnu::always_inline]] friend pack clamp(const pack& a, const pack& low, const pack& high) {
+    [[gnu::always_inline]] friend pack_of clamp(const pack_of& a, const pack_of& low,
+                                                const pack_of& high) {
         return of([&](std::size_t v) {
             const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
             return high.at_[v] < x ? high.at_[v] : x;
         });
     }
     /// Bit l of the result tells whether a[l] <= limit.
-    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack& a, double limit) {
+    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack_of& a, double limit) {
         std::uint32_t bits = 0;
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v)
@@ -1537,7 +1537,7 @@ class packed {
         return bits;
     }
     /// The square roots.
-    [[gnu::always_inline]] friend pack root(const pack& a) {
+    [[gnu::always_inline]] friend pack_of root(const pack_of& a) {
         return of([&](std::size_t v) {
         // std::sqrt, which may have to set errno, would be called one by one.
 #if GNOMON_LANE_BITS == 512
@@ -1556,6 +1556,7 @@ class packed {
 
   private:
     static constexpr std::size_t width = vector_bytes / sizeof(double);
+    static_assert(N > 0 && N % width == 0 && N <= 32);
     using vector [[gnu::vector_size(vector_bytes)]] = double;
 
     template <std::size_t... L>
@@ -1564,8 +1565,8 @@ class packed {
         return vector{first[places[L]]...};
     }
 
-    [[gnu::always_inline]] static pack of(auto&& each) {
-        pack p;
+    [[gnu::always_inline]] static pack_of of(auto&& each) {
+        pack_of p;
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
         return p;
@@ -1591,9 +1592,9 @@ class packed {
     vector at_[size / width];
 };
 
-using pack = packed<8>;
+using pack = pack_of<8>;
 /// As many as one vector has: where there are more sums than fit into the registers otherwise.
-using slim_pack = packed<vector_bytes / sizeof(double)>;
+using slim_pack = pack_of<vector_bytes / sizeof(double)>;
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
@@ -2115,8 +2116,8 @@ concept streaming_neighborhood =
 /// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
 /// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
 /// not, for the points are such that this would take too long, no visitor was called. What was
-/// found tells its ring by `sort_into(ring)`, and without that, by `summed()`, its moments
-/// `about_point` and its `mean_distance`.
+/// found tells, during the call, its `size()`, its ring by `sort_into(ring)`, and without that, by
+/// `summed()`, its moments `about_point` and its `mean_distance`.
 template <class N, class R, class Proj = std::identity>
 concept sweeping_neighborhood =
     streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
@@ -3187,8 +3188,9 @@ ring_note delaunay::find(const kd_tree& tree, const auto& points, std::size_t i,
 // -------- gnomon/neighborhoods/detail/lanes.hpp --------------------------------------------------
 
 /// @file
-/// Thirty-two points, or boxes, side by side, and their distances from a point. Plain loops of
-/// fixed length, which compilers turn into vector instructions at -O2 already.
+/// Thirty-two points, or boxes, side by side, and their distances from a point: plain loops of
+/// fixed length, which compilers turn into vector instructions at -O2 already. And which of a few
+/// distances is the k-th, which they would not.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -3247,23 +3249,23 @@ struct lane_boxes {
     }
 };
 
-/// The k-th least of the first n numbers, behind which there is infinity. Compares all with all, in
-/// the vectors that compilers have built in.
-/// Precondition: 0 < k <= n <= 32
-[[nodiscard, gnu::always_inline]] inline float kth_least(const lanes& a, std::size_t n,
+/// The k-th least of n numbers: compares all with all, in vectors of eight that compilers have
+/// built in. O(n^2). Precondition: 0 < k <= n; `a` is aligned for such vectors, and in its last one
+/// infinity follows.
+[[nodiscard, gnu::always_inline]] inline float kth_least(const float* a, std::size_t n,
                                                          std::size_t k) {
     constexpr std::size_t width = 8;
     using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
     using integers [[gnu::vector_size(4 * width)]] = int;
     floats least = std::numeric_limits<float>::infinity() - floats{};
     for (std::size_t v = 0; v < n; v += width) {
-        const floats these = reinterpret_cast<const floats&>(a.at[v]);
+        const floats these = reinterpret_cast<const floats&>(a[v]);
         integers at_most = {};  // these; counted downwards, as a comparison gives 0 or -1
         for (std::size_t j = 0; j < n; j += 4) {
-            at_most += a.at[j] <= these;
-            at_most += a.at[j + 1] <= these;
-            at_most += a.at[j + 2] <= these;
-            at_most += a.at[j + 3] <= these;
+            at_most += a[j] <= these;
+            at_most += a[j + 1] <= these;
+            at_most += a[j + 2] <= these;
+            at_most += a[j + 3] <= these;
         }
         least = at_most <= -static_cast<int>(k) && these < least ? these : least;
     }
@@ -3307,6 +3309,7 @@ struct plain_instructions {
     /// What follows them, up to 32 in all, may be overwritten; `out` may be `numbers`, or before.
     /// @return the end of what was written
     template <class T>
+        requires(sizeof(T) == 4)
     static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
         return out;
@@ -3360,6 +3363,7 @@ class avx2_instructions {
     }
 
     template <class T>
+        requires(sizeof(T) == 4)
     [[GNOMON_WITH_AVX2]] static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 8, bits >>= 8) {
             integers kept;
@@ -3432,6 +3436,7 @@ struct avx512_instructions {
     }
 
     template <class T>
+        requires(sizeof(T) == 4)
     static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 16, bits >>= 16) {
             const auto set = static_cast<__mmask16>(bits);
@@ -3885,16 +3890,16 @@ class leaf_list {
 
     /// The squared distances of those beyond `below` and within `above`, and after them infinity.
     /// Precondition: there are at most 32.
-    [[nodiscard, gnu::always_inline]] const lanes& between(auto instructions, float below,
+    [[nodiscard, gnu::always_inline]] const float* between(auto instructions, float below,
                                                            float above) {
-        float* end = between_[0].at;
+        float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             const std::uint32_t bits = instructions.at_most(distance_[c], above) &
                                        ~instructions.at_most(distance_[c], below);
             end = instructions.compress(distance_[c].at, bits, end);
         }
-        std::fill(end, between_[0].at + lane_count, far_);
-        return between_[0];
+        std::fill(end, few_.data() + lane_count, far_);
+        return few_.data();
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
@@ -3982,7 +3987,7 @@ class leaf_list {
     std::size_t candidates_ = 0;                             // how many points
     std::vector<lanes> distance_;                            // squared ones of the candidates
     std::vector<std::uint32_t> candidate_;                   // their places
-    std::array<lanes, 2> between_;                           // a few of the distances
+    alignas(lanes) std::array<float, 2 * lane_count> few_;   // of the distances, with room to write
 };
 
 }  // namespace GNOMON_LANES
@@ -4058,7 +4063,7 @@ class leaf_search {
     }
 
   private:
-    /// So many are compared with each other sooner than narrowed down.
+    /// So many are sooner compared with each other than narrowed down.
     static constexpr std::size_t few = 16;
 
     /// Visits all that are waiting.
@@ -4103,8 +4108,10 @@ class leaf_search {
                 const float d2 = kth(limit);
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
-                    selected_ = in_doubt(below, above) > 1 ? settle(p, below, above)
-                                                           : list_.take_within(d2);
+                    const auto [nearer, all] = with_widest(
+                        [&](auto instructions) { return list_.count(instructions, below, above); });
+                    selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
+                                                 : list_.take_within(d2);
                     drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
@@ -4139,14 +4146,6 @@ class leaf_search {
         return std::sqrt(squared);
     }
 
-    /// How many candidates are beyond `below` and within `above`.
-    [[nodiscard]] std::size_t in_doubt(float below, float above) const {
-        return with_widest([&](auto instructions) {
-            const auto [nearer, all] = list_.count(instructions, below, above);
-            return all - nearer;
-        });
-    }
-
     /// The k-th of the candidates' squared distances.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
@@ -4154,13 +4153,12 @@ class leaf_search {
     }
     [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
-        if (within == k_) return high;
         // It is beyond `low` and within `high`, with some others.
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {
-            // Were they evenly spread, it would hardly be beyond these two.
-            const auto rank = static_cast<float>(k_ - below),
-                       all = static_cast<float>(within - below);
+            // If they are evenly spread, it lies between these two, nine times in ten.
+            const auto rank = static_cast<float>(k_ - below);
+            const auto all = static_cast<float>(within - below);
             const float margin = 1.0f + std::sqrt(std::min(rank, all - rank));
             const float from = std::max(low, 0.0f), step = (high - from) / (all + 1.0f);
             const float a = std::max(from, from + step * (rank - margin));
@@ -4189,15 +4187,15 @@ class leaf_search {
     }
 
     /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
-    /// `above`, among which floats cannot tell the k-th from the next, the nearest by canonical
-    /// distances.
-    std::span<std::uint32_t> settle(std::size_t from, float below, float above) {
+    /// `above`, among which floats cannot tell the k-th from the next, the `wanted` nearest by
+    /// canonical distances.
+    std::span<std::uint32_t> settle(std::size_t from, std::size_t wanted, float below,
+                                    float above) {
         doubtful_.clear();
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below, above).first;
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {
@@ -4243,14 +4241,14 @@ class leaf_search {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Of the neighbors of a point.
+/// Sums over the neighbors of a point.
 struct ring_sums {
     moments about_point;
     double mean_distance = 0.0;  // from it [m]; 0 if there are none
 };
 
-/// A view of the neighbors of one point, in no particular order. (Over templates of trees, so that
-/// only who searches compiles it.)
+/// A view of the neighbors of one point, in no particular order, until the search goes on to the
+/// next. (A template, so that only who searches compiles it.)
 template <class Tree>
 class found_neighbors {
   public:
@@ -4260,8 +4258,9 @@ class found_neighbors {
 
     [[nodiscard]] std::size_t size() const { return places_.size(); }
 
+    /// O(k).
     [[nodiscard]] ring_sums summed() const {
-        sums all;
+        vector_sums all;
         const std::size_t whole = size() / slim_pack::size * slim_pack::size;
         for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
         if (whole < size()) {
@@ -4284,7 +4283,7 @@ class found_neighbors {
         return r;
     }
 
-    /// Replaces the content of `ring` by them in canonical order.
+    /// Replaces the content of `ring` by them in canonical order. O(k log k), of a few O(k^2).
     void sort_into(std::vector<neighbor>& ring) const {
         ring.resize(size());
         if (size() <= few) {
@@ -4299,13 +4298,14 @@ class found_neighbors {
     /// Beyond so many, comparing all with all takes longer than sorting.
     static constexpr std::size_t few = 128;
 
-    struct sums {
+    struct vector_sums {
         slim_pack x = 0.0, y = 0.0, z = 0.0;
         slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
         slim_pack distance = 0.0;
     };
 
-    [[gnu::always_inline]] void add(sums& all, const std::uint32_t* places) const {
+    /// As many neighbors as a vector has numbers.
+    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
         const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
         const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
         const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
@@ -10521,21 +10521,21 @@ class range_image {
         detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
         const position_view<R, Proj> p(points, std::move(projection));
-        turn(format.pole ? *format.pole : least_seen(p));
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        struct sight {
-            pixel at;
-            view what;
-        };
         std::vector<sight> sights;
         sights.reserve(p.size());
-        std::size_t lowest = height_, highest = 0;
         for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            const pixel at = pixel_of(p[i]);
-            sights.push_back({at, {distance_to(p[i]), static_cast<point_index>(i)}});
-            lowest = std::min(lowest, at.elevation);
-            highest = std::max(highest, at.elevation);
+            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+            const double range = detail::length(d);
+            if (std::isfinite(range) && range > 0.0)
+                sights.push_back({d, {range, static_cast<point_index>(i)}});
+        }
+        turn(format.pole ? *format.pole : least_seen(sights));
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::size_t lowest = height_, highest = 0;
+        for (sight& s : sights) {
+            s.at = pixel_towards(s.offset);
+            lowest = std::min(lowest, s.at.elevation);
+            highest = std::max(highest, s.at.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -10545,9 +10545,9 @@ class range_image {
         lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (const auto& [at, what] : sights) {
-            view& v = seen_[place_of(at)];
-            if (v.range < 0.0 || what.range < v.range) v = what;
+        for (const sight& s : sights) {
+            view& v = seen_[place_of(s.at)];
+            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
         }
     }
 
@@ -10558,13 +10558,7 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        const std::array<double, 3> d = turned(p);
-        const double azimuth = std::atan2(d[1], d[0]) / (2.0 * std::numbers::pi) + 0.5;
-        const double elevation =
-            std::atan2(d[2], std::sqrt(d[0] * d[0] + d[1] * d[1])) / std::numbers::pi + 0.5;
-        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
-                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
-                         height_ - 1)};
+        return pixel_towards(detail::difference(p, viewpoint_));
     }
 
     /// The distance of the nearest point in a pixel [m], or `nothing`.
@@ -10578,7 +10572,7 @@ class range_image {
 
     /// The distance of a point from the view point [m].
     [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
-        return std::sqrt(squared_distance(p, viewpoint_));
+        return detail::length(detail::difference(p, viewpoint_));
     }
 
     /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
@@ -10594,10 +10588,12 @@ class range_image {
         point_index index = 0;
     };
 
-    [[nodiscard]] bool is_visible(const Eigen::Vector3d& p) const {
-        const double squared = squared_distance(p, viewpoint_);
-        return std::isfinite(squared) && squared > 0.0;
-    }
+    /// A point that is seen.
+    struct sight {
+        Eigen::Vector3d offset;  // from the view point [m]
+        view what;
+        pixel at = {};
+    };
 
     [[nodiscard]] view view_of(const pixel& at) const {
         if (at.elevation < first_row_) return {};
@@ -10609,19 +10605,21 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    /// From the view point to p, in the frame of the image.
-    [[nodiscard]] std::array<double, 3> turned(const Eigen::Vector3d& p) const {
-        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
-        return {detail::dot(x_, d), detail::dot(y_, d), detail::dot(z_, d)};
+    [[nodiscard]] pixel pixel_towards(const Eigen::Vector3d& offset) const {
+        const double x = detail::dot(x_, offset), y = detail::dot(y_, offset);
+        const double azimuth = std::atan2(y, x) / (2.0 * std::numbers::pi) + 0.5;
+        const double elevation =
+            std::atan2(detail::dot(z_, offset), std::sqrt(x * x + y * y)) / std::numbers::pi + 0.5;
+        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
+                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
+                         height_ - 1)};
     }
 
     /// The axis along which the directions to the points spread least; z where there are none.
-    template <class Points>
-    [[nodiscard]] Eigen::Vector3d least_seen(const Points& p) const {
+    [[nodiscard]] static Eigen::Vector3d least_seen(const std::vector<sight>& sights) {
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+        for (const sight& s : sights) {
+            const Eigen::Vector3d& d = s.offset;
             const double weight = 1.0 / detail::dot(d, d);
             for (int r = 0; r < 3; ++r)
                 for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
@@ -10697,11 +10695,11 @@ namespace detail {
     std::vector<Eigen::Vector3d> directions;
     directions.reserve(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i]) || !is_finite(viewpoints[i])) continue;
-        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
+        const Eigen::Vector3d at = p[i], from = viewpoints[i];
+        if (!is_finite(at) || !is_finite(from)) continue;
+        const Eigen::Vector3d d = difference(at, from);
         const double range = length(d);
-        if (range > 0.0 && std::isfinite(range))
-            directions.emplace_back(d[0] / range, d[1] / range, d[2] / range);
+        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
     }
     if (directions.size() <= neighbors) return radians(most);
 

@@ -36,6 +36,26 @@ TEST(pack, compares_each_with_the_limit) {
     }
 }
 
+template <class Pack>
+void gathers() {
+    std::array<double, 100> numbers{};
+    for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = 0.5 * static_cast<double>(i);
+    std::array<std::uint32_t, Pack::size> places{};
+    for (std::uint32_t l = 0; l < Pack::size; ++l) places[l] = (37 * l + 99) % 100;
+    const Pack gathered(numbers.data(), places.data());
+    double sum = 0.0;
+    for (std::size_t l = 0; l < Pack::size; ++l) {
+        EXPECT_EQ(gathered[l], numbers[places[l]]);
+        sum += numbers[places[l]];
+    }
+    EXPECT_EQ(gathered.sum(), sum);
+}
+
+TEST(pack, gathers_from_places) {
+    gathers<pack>();
+    gathers<gnomon::detail::slim_pack>();
+}
+
 TEST(pack, clamps_each) {
     const std::array<double, pack::size> a{-unbounded, -2.0, -0.5, 0.0, 0.25, 0.5, 1.0, unbounded};
     const pack clamped = clamp(pack(a.data()), -0.5, 0.5);

@@ -82,10 +82,16 @@ void sweep_agrees(const N& policy, const clouds::cloud& points) {
         found.sort_into(ring);
         EXPECT_EQ(ring, expected) << "point " << i;
         const auto sums = found.summed();
-        EXPECT_EQ(sums.about_point.count, expected.size());
+        gnomon::moments moments;
         double distance = 0.0;
-        for (const gnomon::neighbor& q : expected)
+        for (const gnomon::neighbor& q : expected) {
+            moments.add(points[q.index] - points[i]);
             distance += std::sqrt(q.squared_distance) / static_cast<double>(expected.size());
+        }
+        EXPECT_EQ(sums.about_point.count, expected.size());
+        const double n = static_cast<double>(expected.size());
+        EXPECT_LE((sums.about_point.sum - moments.sum).norm(), 1e-12 * n * distance);
+        EXPECT_LE((sums.about_point.outer - moments.outer).norm(), 1e-12 * moments.outer.norm());
         EXPECT_NEAR(sums.mean_distance, distance, 1e-12 * distance);
     };
     if (!policy.sweep(points, gnomon::sequential{}, std::identity{}, [&] { return visit; })) return;

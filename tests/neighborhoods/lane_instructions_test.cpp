@@ -77,6 +77,10 @@ void expect_compression(auto instructions) {
         ASSERT_EQ(n, expected_values.size());
         ASSERT_EQ(std::vector(kept.data(), end), expected_numbers);
         EXPECT_TRUE(kept[32] == 9 && places[32] == 9 && kept_values[32] == -1.0f);
+        std::vector<float> values_alone(lane_count + 1, -1.0f);
+        auto* const last = instructions.compress(values.at, set, values_alone.data());
+        ASSERT_EQ(std::vector(values_alone.data(), last), expected_values);
+        EXPECT_EQ(values_alone[32], -1.0f);
         kept_values.resize(n);
         places.resize(n);
         ASSERT_EQ(kept_values, expected_values);

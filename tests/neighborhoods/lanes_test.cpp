@@ -52,7 +52,7 @@ TEST(lanes, tell_the_kth_least) {
             std::vector<float> sorted(a.at, a.at + n);
             std::sort(sorted.begin(), sorted.end());
             for (std::size_t k = 1; k <= n; ++k)
-                ASSERT_EQ(gnomon::detail::kth_least(a, n, k), sorted[k - 1]) << k << " of " << n;
+                ASSERT_EQ(gnomon::detail::kth_least(a.at, n, k), sorted[k - 1]) << k << " of " << n;
         }
     }
 }

@@ -34,7 +34,7 @@ void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k,
 TEST(leaf_search, finds_what_nanoflann_finds) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         SCOPED_TRACE(name);
-        for (const std::size_t k : {1u, 8u, 26u, 130u}) expect_the_same_neighbors(points, k);
+        for (const std::size_t k : {1u, 8u, 19u, 26u, 130u}) expect_the_same_neighbors(points, k);
     }
 }
 
@@ -42,6 +42,28 @@ TEST(leaf_search, keeps_the_ties_that_nanoflann_keeps) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 17u}) expect_the_same_neighbors(points, k, tie_rule::all);
+    }
+}
+
+/// As few as are compared all with all, one more, and many: all as far from one point, for they are
+/// whole numbers whose squares have the same sum.
+TEST(leaf_search, tells_apart_what_is_as_far) {
+    clouds::cloud shell;
+    for (int x = -12; x <= 12; ++x)
+        for (int y = -12; y <= 12; ++y)
+            for (int z = -12; z <= 12; ++z)
+                if (x * x + y * y + z * z == 146) shell.emplace_back(x, y, z);
+    ASSERT_EQ(shell.size(), 192u);
+    for (const std::ptrdiff_t many : {16, 17, 31, 32, 33, 192}) {
+        clouds::cloud points(shell.begin(), shell.begin() + many);
+        for (int i = 0; i < 12; ++i) points.emplace_back(i, 0, 0);
+        for (int i = 0; i < 300; ++i) points.emplace_back(20 + i, i % 7, i % 5);
+        const auto last = static_cast<std::size_t>(many) + 11;
+        SCOPED_TRACE(std::to_string(many) + " as far");
+        for (const std::size_t k : {std::size_t{11}, std::size_t{12}, last / 2, last - 1, last}) {
+            expect_the_same_neighbors(points, k);
+            expect_the_same_neighbors(points, k, tie_rule::all);
+        }
     }
 }
 

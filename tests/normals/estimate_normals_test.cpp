@@ -151,7 +151,7 @@ TEST(estimate_normals, sweeps_over_the_rings_of_the_graph) {
     }
 }
 
-/// What is summed up on the way, in another order and eight at a time, is the same but for
+/// What is summed up on the way, in another order and a vector at a time, is the same but for
 /// rounding.
 TEST(estimate_normals, of_a_sweep_are_those_of_the_graph) {
     for (const auto& [name, points] : swept_clouds()) {

@@ -138,8 +138,8 @@ concept streaming_neighborhood =
 /// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
 /// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
 /// not, for the points are such that this would take too long, no visitor was called. What was
-/// found tells its ring by `sort_into(ring)`, and without that, by `summed()`, its moments
-/// `about_point` and its `mean_distance`.
+/// found tells, during the call, its `size()`, its ring by `sort_into(ring)`, and without that, by
+/// `summed()`, its moments `about_point` and its `mean_distance`.
 template <class N, class R, class Proj = std::identity>
 concept sweeping_neighborhood =
     streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {

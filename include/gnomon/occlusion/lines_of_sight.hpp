@@ -62,11 +62,11 @@ namespace detail {
     std::vector<Eigen::Vector3d> directions;
     directions.reserve(p.size());
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i]) || !is_finite(viewpoints[i])) continue;
-        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
+        const Eigen::Vector3d at = p[i], from = viewpoints[i];
+        if (!is_finite(at) || !is_finite(from)) continue;
+        const Eigen::Vector3d d = difference(at, from);
         const double range = length(d);
-        if (range > 0.0 && std::isfinite(range))
-            directions.emplace_back(d[0] / range, d[1] / range, d[2] / range);
+        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
     }
     if (directions.size() <= neighbors) return radians(most);
 

@@ -8,7 +8,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -59,21 +58,21 @@ class range_image {
         detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
         const position_view<R, Proj> p(points, std::move(projection));
-        turn(format.pole ? *format.pole : least_seen(p));
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        struct sight {
-            pixel at;
-            view what;
-        };
         std::vector<sight> sights;
         sights.reserve(p.size());
-        std::size_t lowest = height_, highest = 0;
         for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            const pixel at = pixel_of(p[i]);
-            sights.push_back({at, {distance_to(p[i]), static_cast<point_index>(i)}});
-            lowest = std::min(lowest, at.elevation);
-            highest = std::max(highest, at.elevation);
+            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+            const double range = detail::length(d);
+            if (std::isfinite(range) && range > 0.0)
+                sights.push_back({d, {range, static_cast<point_index>(i)}});
+        }
+        turn(format.pole ? *format.pole : least_seen(sights));
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::size_t lowest = height_, highest = 0;
+        for (sight& s : sights) {
+            s.at = pixel_towards(s.offset);
+            lowest = std::min(lowest, s.at.elevation);
+            highest = std::max(highest, s.at.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -83,9 +82,9 @@ class range_image {
         lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
         if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (const auto& [at, what] : sights) {
-            view& v = seen_[place_of(at)];
-            if (v.range < 0.0 || what.range < v.range) v = what;
+        for (const sight& s : sights) {
+            view& v = seen_[place_of(s.at)];
+            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
         }
     }
 
@@ -96,13 +95,7 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        const std::array<double, 3> d = turned(p);
-        const double azimuth = std::atan2(d[1], d[0]) / (2.0 * std::numbers::pi) + 0.5;
-        const double elevation =
-            std::atan2(d[2], std::sqrt(d[0] * d[0] + d[1] * d[1])) / std::numbers::pi + 0.5;
-        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
-                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
-                         height_ - 1)};
+        return pixel_towards(detail::difference(p, viewpoint_));
     }
 
     /// The distance of the nearest point in a pixel [m], or `nothing`.
@@ -116,7 +109,7 @@ class range_image {
 
     /// The distance of a point from the view point [m].
     [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
-        return std::sqrt(squared_distance(p, viewpoint_));
+        return detail::length(detail::difference(p, viewpoint_));
     }
 
     /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
@@ -132,10 +125,12 @@ class range_image {
         point_index index = 0;
     };
 
-    [[nodiscard]] bool is_visible(const Eigen::Vector3d& p) const {
-        const double squared = squared_distance(p, viewpoint_);
-        return std::isfinite(squared) && squared > 0.0;
-    }
+    /// A point that is seen.
+    struct sight {
+        Eigen::Vector3d offset;  // from the view point [m]
+        view what;
+        pixel at = {};
+    };
 
     [[nodiscard]] view view_of(const pixel& at) const {
         if (at.elevation < first_row_) return {};
@@ -147,19 +142,21 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    /// From the view point to p, in the frame of the image.
-    [[nodiscard]] std::array<double, 3> turned(const Eigen::Vector3d& p) const {
-        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
-        return {detail::dot(x_, d), detail::dot(y_, d), detail::dot(z_, d)};
+    [[nodiscard]] pixel pixel_towards(const Eigen::Vector3d& offset) const {
+        const double x = detail::dot(x_, offset), y = detail::dot(y_, offset);
+        const double azimuth = std::atan2(y, x) / (2.0 * std::numbers::pi) + 0.5;
+        const double elevation =
+            std::atan2(detail::dot(z_, offset), std::sqrt(x * x + y * y)) / std::numbers::pi + 0.5;
+        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
+                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
+                         height_ - 1)};
     }
 
     /// The axis along which the directions to the points spread least; z where there are none.
-    template <class Points>
-    [[nodiscard]] Eigen::Vector3d least_seen(const Points& p) const {
+    [[nodiscard]] static Eigen::Vector3d least_seen(const std::vector<sight>& sights) {
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_visible(p[i])) continue;
-            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
+        for (const sight& s : sights) {
+            const Eigen::Vector3d& d = s.offset;
             const double weight = 1.0 / detail::dot(d, d);
             for (int r = 0; r < 3; ++r)
                 for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];

@@ -21,22 +21,21 @@ inline constexpr std::size_t vector_bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_
 
 /// N numbers, a multiple of those of a vector.
 template <std::size_t N>
-class packed {
+class pack_of {
   public:
-    using pack = packed;
     static constexpr std::size_t size = N;
 
-    packed() = default;
-    [[gnu::always_inline]] explicit(false) packed(double x) {
+    pack_of() = default;
+    [[gnu::always_inline]] explicit(false) pack_of(double x) {
         for (vector& v : at_) v = x - vector{};
     }
     /// Those from `first` on.
-    [[gnu::always_inline]] explicit packed(const double* first) {
+    [[gnu::always_inline]] explicit pack_of(const double* first) {
         std::memcpy(at_, first, sizeof at_);
     }
 
     /// Those at some places.
-    [[gnu::always_inline]] packed(const double* first, const std::uint32_t* places) {
+    [[gnu::always_inline]] pack_of(const double* first, const std::uint32_t* places) {
         for (std::size_t v = 0; v < size / width; ++v)
             at_[v] = gather(first, places + v * width, std::make_index_sequence<width>{});
     }
@@ -49,40 +48,41 @@ class packed {
         return all;
     }
 
-    [[gnu::always_inline]] friend pack operator+(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator+(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] + b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator-(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] - b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator*(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator*(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] * b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator/(const pack& a, const pack& b) {
+    [[gnu::always_inline]] friend pack_of operator/(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] / b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack operator-(const pack& a) {
+    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a) {
         return of([&](std::size_t v) { return -a.at_[v]; });
     }
-    [[gnu::always_inline]] pack& operator+=(const pack& b) { return *this = *this + b; }
+    [[gnu::always_inline]] pack_of& operator+=(const pack_of& b) { return *this = *this + b; }
 
-    [[gnu::always_inline]] friend pack magnitude(const pack& a) {
+    [[gnu::always_inline]] friend pack_of magnitude(const pack_of& a) {
         return of([&](std::size_t v) { return a.at_[v] < 0.0 ? -a.at_[v] : a.at_[v]; });
     }
     /// a where x >= y, and b elsewhere.
-    [[gnu::always_inline]] friend pack where_at_least(const pack& x, const pack& y, const pack& a,
-                                                      const pack& b) {
+    [[gnu::always_inline]] friend pack_of where_at_least(const pack_of& x, const pack_of& y,
+                                                         const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
     /// The nearest from low to high. Precondition: low <= high.
-    [[gnu::always_inline]] friend pack clamp(const pack& a, const pack& low, const pack& high) {
+    [[gnu::always_inline]] friend pack_of clamp(const pack_of& a, const pack_of& low,
+                                                const pack_of& high) {
         return of([&](std::size_t v) {
             const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
             return high.at_[v] < x ? high.at_[v] : x;
         });
     }
     /// Bit l of the result tells whether a[l] <= limit.
-    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack& a, double limit) {
+    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack_of& a, double limit) {
         std::uint32_t bits = 0;
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v)
@@ -90,7 +90,7 @@ class packed {
         return bits;
     }
     /// The square roots.
-    [[gnu::always_inline]] friend pack root(const pack& a) {
+    [[gnu::always_inline]] friend pack_of root(const pack_of& a) {
         return of([&](std::size_t v) {
         // std::sqrt, which may have to set errno, would be called one by one.
 #if GNOMON_LANE_BITS == 512
@@ -109,6 +109,7 @@ class packed {
 
   private:
     static constexpr std::size_t width = vector_bytes / sizeof(double);
+    static_assert(N > 0 && N % width == 0 && N <= 32);
     using vector [[gnu::vector_size(vector_bytes)]] = double;
 
     template <std::size_t... L>
@@ -117,8 +118,8 @@ class packed {
         return vector{first[places[L]]...};
     }
 
-    [[gnu::always_inline]] static pack of(auto&& each) {
-        pack p;
+    [[gnu::always_inline]] static pack_of of(auto&& each) {
+        pack_of p;
 #pragma GCC unroll 4
         for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
         return p;
@@ -144,9 +145,9 @@ class packed {
     vector at_[size / width];
 };
 
-using pack = packed<8>;
+using pack = pack_of<8>;
 /// As many as one vector has: where there are more sums than fit into the registers otherwise.
-using slim_pack = packed<vector_bytes / sizeof(double)>;
+using slim_pack = pack_of<vector_bytes / sizeof(double)>;
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

@@ -21,14 +21,14 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Of the neighbors of a point.
+/// Sums over the neighbors of a point.
 struct ring_sums {
     moments about_point;
     double mean_distance = 0.0;  // from it [m]; 0 if there are none
 };
 
-/// A view of the neighbors of one point, in no particular order. (Over templates of trees, so that
-/// only who searches compiles it.)
+/// A view of the neighbors of one point, in no particular order, until the search goes on to the
+/// next. (A template, so that only who searches compiles it.)
 template <class Tree>
 class found_neighbors {
   public:
@@ -38,8 +38,9 @@ class found_neighbors {
 
     [[nodiscard]] std::size_t size() const { return places_.size(); }
 
+    /// O(k).
     [[nodiscard]] ring_sums summed() const {
-        sums all;
+        vector_sums all;
         const std::size_t whole = size() / slim_pack::size * slim_pack::size;
         for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
         if (whole < size()) {
@@ -62,7 +63,7 @@ class found_neighbors {
         return r;
     }
 
-    /// Replaces the content of `ring` by them in canonical order.
+    /// Replaces the content of `ring` by them in canonical order. O(k log k), of a few O(k^2).
     void sort_into(std::vector<neighbor>& ring) const {
         ring.resize(size());
         if (size() <= few) {
@@ -77,13 +78,14 @@ class found_neighbors {
     /// Beyond so many, comparing all with all takes longer than sorting.
     static constexpr std::size_t few = 128;
 
-    struct sums {
+    struct vector_sums {
         slim_pack x = 0.0, y = 0.0, z = 0.0;
         slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
         slim_pack distance = 0.0;
     };
 
-    [[gnu::always_inline]] void add(sums& all, const std::uint32_t* places) const {
+    /// As many neighbors as a vector has numbers.
+    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
         const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
         const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
         const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];

@@ -39,6 +39,7 @@ struct plain_instructions {
     /// What follows them, up to 32 in all, may be overwritten; `out` may be `numbers`, or before.
     /// @return the end of what was written
     template <class T>
+        requires(sizeof(T) == 4)
     static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (; bits != 0; bits &= bits - 1) *out++ = numbers[std::countr_zero(bits)];
         return out;
@@ -92,6 +93,7 @@ class avx2_instructions {
     }
 
     template <class T>
+        requires(sizeof(T) == 4)
     [[GNOMON_WITH_AVX2]] static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 8, bits >>= 8) {
             integers kept;
@@ -164,6 +166,7 @@ struct avx512_instructions {
     }
 
     template <class T>
+        requires(sizeof(T) == 4)
     static T* compress(const T* numbers, std::uint32_t bits, T* out) {
         for (int l = 0; l < 32; l += 16, bits >>= 16) {
             const auto set = static_cast<__mmask16>(bits);

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Thirty-two points, or boxes, side by side, and their distances from a point. Plain loops of
-/// fixed length, which compilers turn into vector instructions at -O2 already.
+/// Thirty-two points, or boxes, side by side, and their distances from a point: plain loops of
+/// fixed length, which compilers turn into vector instructions at -O2 already. And which of a few
+/// distances is the k-th, which they would not.
 #pragma once
 
 #include <algorithm>
@@ -69,23 +70,23 @@ struct lane_boxes {
     }
 };
 
-/// The k-th least of the first n numbers, behind which there is infinity. Compares all with all, in
-/// the vectors that compilers have built in.
-/// Precondition: 0 < k <= n <= 32
-[[nodiscard, gnu::always_inline]] inline float kth_least(const lanes& a, std::size_t n,
+/// The k-th least of n numbers: compares all with all, in vectors of eight that compilers have
+/// built in. O(n^2). Precondition: 0 < k <= n; `a` is aligned for such vectors, and in its last one
+/// infinity follows.
+[[nodiscard, gnu::always_inline]] inline float kth_least(const float* a, std::size_t n,
                                                          std::size_t k) {
     constexpr std::size_t width = 8;
     using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
     using integers [[gnu::vector_size(4 * width)]] = int;
     floats least = std::numeric_limits<float>::infinity() - floats{};
     for (std::size_t v = 0; v < n; v += width) {
-        const floats these = reinterpret_cast<const floats&>(a.at[v]);
+        const floats these = reinterpret_cast<const floats&>(a[v]);
         integers at_most = {};  // these; counted downwards, as a comparison gives 0 or -1
         for (std::size_t j = 0; j < n; j += 4) {
-            at_most += a.at[j] <= these;
-            at_most += a.at[j + 1] <= these;
-            at_most += a.at[j + 2] <= these;
-            at_most += a.at[j + 3] <= these;
+            at_most += a[j] <= these;
+            at_most += a[j + 1] <= these;
+            at_most += a[j + 2] <= these;
+            at_most += a[j + 3] <= these;
         }
         least = at_most <= -static_cast<int>(k) && these < least ? these : least;
     }

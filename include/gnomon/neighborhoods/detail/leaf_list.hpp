@@ -140,16 +140,16 @@ class leaf_list {
 
     /// The squared distances of those beyond `below` and within `above`, and after them infinity.
     /// Precondition: there are at most 32.
-    [[nodiscard, gnu::always_inline]] const lanes& between(auto instructions, float below,
+    [[nodiscard, gnu::always_inline]] const float* between(auto instructions, float below,
                                                            float above) {
-        float* end = between_[0].at;
+        float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             const std::uint32_t bits = instructions.at_most(distance_[c], above) &
                                        ~instructions.at_most(distance_[c], below);
             end = instructions.compress(distance_[c].at, bits, end);
         }
-        std::fill(end, between_[0].at + lane_count, far_);
-        return between_[0];
+        std::fill(end, few_.data() + lane_count, far_);
+        return few_.data();
     }
 
     /// Calls visit(candidate) for those beyond `below` and within `above`.
@@ -237,7 +237,7 @@ class leaf_list {
     std::size_t candidates_ = 0;                             // how many points
     std::vector<lanes> distance_;                            // squared ones of the candidates
     std::vector<std::uint32_t> candidate_;                   // their places
-    std::array<lanes, 2> between_;                           // a few of the distances
+    alignas(lanes) std::array<float, 2 * lane_count> few_;   // of the distances, with room to write
 };
 
 }  // namespace GNOMON_LANES

@@ -85,7 +85,7 @@ class leaf_search {
     }
 
   private:
-    /// So many are compared with each other sooner than narrowed down.
+    /// So many are sooner compared with each other than narrowed down.
     static constexpr std::size_t few = 16;
 
     /// Visits all that are waiting.
@@ -130,8 +130,10 @@ class leaf_search {
                 const float d2 = kth(limit);
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
-                    selected_ = in_doubt(below, above) > 1 ? settle(p, below, above)
-                                                           : list_.take_within(d2);
+                    const auto [nearer, all] = with_widest(
+                        [&](auto instructions) { return list_.count(instructions, below, above); });
+                    selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
+                                                 : list_.take_within(d2);
                     drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
@@ -166,14 +168,6 @@ class leaf_search {
         return std::sqrt(squared);
     }
 
-    /// How many candidates are beyond `below` and within `above`.
-    [[nodiscard]] std::size_t in_doubt(float below, float above) const {
-        return with_widest([&](auto instructions) {
-            const auto [nearer, all] = list_.count(instructions, below, above);
-            return all - nearer;
-        });
-    }
-
     /// The k-th of the candidates' squared distances.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
@@ -181,13 +175,12 @@ class leaf_search {
     }
     [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
-        if (within == k_) return high;
         // It is beyond `low` and within `high`, with some others.
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {
-            // Were they evenly spread, it would hardly be beyond these two.
-            const auto rank = static_cast<float>(k_ - below),
-                       all = static_cast<float>(within - below);
+            // If they are evenly spread, it lies between these two, nine times in ten.
+            const auto rank = static_cast<float>(k_ - below);
+            const auto all = static_cast<float>(within - below);
             const float margin = 1.0f + std::sqrt(std::min(rank, all - rank));
             const float from = std::max(low, 0.0f), step = (high - from) / (all + 1.0f);
             const float a = std::max(from, from + step * (rank - margin));
@@ -216,15 +209,15 @@ class leaf_search {
     }
 
     /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
-    /// `above`, among which floats cannot tell the k-th from the next, the nearest by canonical
-    /// distances.
-    std::span<std::uint32_t> settle(std::size_t from, float below, float above) {
+    /// `above`, among which floats cannot tell the k-th from the next, the `wanted` nearest by
+    /// canonical distances.
+    std::span<std::uint32_t> settle(std::size_t from, std::size_t wanted, float below,
+                                    float above) {
         doubtful_.clear();
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
         });
-        const std::size_t wanted = k_ - list_.count(compiled_instructions{}, below, above).first;
         const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
         const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
         if (most < doubtful_.size()) {
