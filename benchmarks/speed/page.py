@@ -180,9 +180,8 @@ greatest ratio of any turn. Beside it what the two cores are worth at that time:
 of one thread each, side by side, get done in the time of one alone. More than this no program can
 gain; on a machine that is shared with others it is not always 2.
 
-What is lost was looked at once, in the kitchen at k = 20: one millisecond of twenty. A call starts its
-second thread a dozen times, which takes some 40 microseconds each; the first levels of the tree have
-too few parts to share; and the room for results is made by one thread.
+What is lost: the first levels of the tree have too few parts to share, one thread makes the room for
+the results, and the second is started anew by each call, though only once.
 """
 
 
