@@ -9,14 +9,13 @@
 #include <gtest/gtest.h>
 
 #include "laws/ray_caster_laws.hpp"
+#include "shared_file.hpp"
 #include <gnomon/adapters/assimp_scene.hpp>
 #include <gnomon/adapters/embree_caster.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/simulate.hpp>
 
 namespace {
-
-const std::filesystem::path shared = GNOMON_SHARED_DATA;
 
 std::string written(const std::string& name, const std::string& text) {
     const std::string path = testing::TempDir() + "assimp_scene_" + name;
@@ -112,10 +111,10 @@ TEST(assimp_scene, refuses_missing_and_broken_files) {
 }
 
 TEST(assimp_scene, every_piece_of_furniture_can_be_scanned) {
-    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "needs shared data";
+    if (shared_file("furniture").empty()) GTEST_SKIP() << "needs shared data";
     std::size_t files = 0;
     for (const char* folder : {"furniture", "normals_truth"}) {
-        for (const auto& entry : std::filesystem::directory_iterator(shared / folder)) {
+        for (const auto& entry : std::filesystem::directory_iterator(shared_file(folder))) {
             SCOPED_TRACE(entry.path().filename());
             const auto world =
                 gnomon::read_scene(entry.path().string(), gnomon::mesh_groups::parts);
@@ -137,11 +136,11 @@ TEST(assimp_scene, every_piece_of_furniture_can_be_scanned) {
 
 /// The rooms of the AWS house: the same hits by both casters; every object has its name.
 TEST(assimp_scene, rooms_can_be_scanned) {
-    if (!std::filesystem::exists(shared)) GTEST_SKIP() << "needs shared data";
+    if (shared_file("scenes").empty()) GTEST_SKIP() << "needs shared data";
     for (const auto& [file, objects, door] :
          {std::tuple{"aws_house_kitchen_dining.obj", 20u, "Refrigerator_01_001"},
           {"aws_house_living_room.obj", 30u, "AirconditionerB_01_001"}}) {
-        const auto world = gnomon::read_scene((shared / "scenes" / file).string());
+        const auto world = gnomon::read_scene(shared_file(std::string("scenes/") + file));
         EXPECT_EQ(world.objects().size(), objects);
         EXPECT_NE(std::find(world.objects().begin(), world.objects().end(), door),
                   world.objects().end());

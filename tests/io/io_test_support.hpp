@@ -115,13 +115,4 @@ void check_mutation(Parser parser, const std::string& bytes, int rounds = 3000) 
     }
 }
 
-/// The path of a file of the shared data, or nothing where they are not at hand.
-[[nodiscard]] inline std::string shared_file([[maybe_unused]] const std::string& name) {
-#ifdef GNOMON_SHARED_DATA
-    std::string path = std::string(GNOMON_SHARED_DATA) + "/" + name;
-    if (exists(path)) return path;
-#endif
-    return {};
-}
-
 }  // namespace io_test

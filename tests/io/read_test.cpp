@@ -9,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include "io_test_support.hpp"
+#include "shared_file.hpp"
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/scan.hpp>
@@ -88,10 +89,10 @@ TEST(io_read, counts_the_points_of_real_files) {
         {"scans/box_caixa2.ply", 16145, 16145},
         {"segmentation_truth/synpeb_test_100.pcd", 10000, 10000, {"intensity"}},
         {"segmentation_truth/tum_office_room1_parts.pcd", 237907, 237907, {"label"}}};
-    if (io_test::shared_file(files.front().name).empty()) GTEST_SKIP() << "needs shared data";
+    if (shared_file(files.front().name).empty()) GTEST_SKIP() << "needs shared data";
     for (const known_file& file : files) {
         SCOPED_TRACE(file.name);
-        const gnomon::scan s = gnomon::io::read(io_test::shared_file(file.name), file.fields);
+        const gnomon::scan s = gnomon::io::read(shared_file(file.name), file.fields);
         std::size_t finite = 0;
         for (const Eigen::Vector3d& p : s) finite += gnomon::is_finite(p) ? 1 : 0;
         EXPECT_EQ(s.size(), file.points);

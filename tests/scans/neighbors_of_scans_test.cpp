@@ -3,7 +3,6 @@
 /// of real ones are missing, only simulated ones are tried. Compiled once more for each set of
 /// instructions, see tests/CMakeLists.txt.
 #include <algorithm>
-#include <cstdio>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -11,6 +10,7 @@
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
 #include "normals/dense_oracles.hpp"
+#include "shared_file.hpp"
 #include <gnomon/io/read.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
@@ -60,10 +60,8 @@ TEST(neighbors_of_scans, of_all_kinds_of_scanners) {
     for (const char* name : {"lms400_table_scene_1cm.pcd", "pcl_room_scan1.pcd", "box_caixa.ply",
                              "pcl_office1_kinect.pcd", "pcl_table_mug_stereo.pcd"}) {
         SCOPED_TRACE(name);
-        const std::string path = std::string(GNOMON_SHARED_DATA "/scans/") + name;
-        std::FILE* file = std::fopen(path.c_str(), "rb");
-        if (file == nullptr) GTEST_SKIP() << "needs shared data";
-        std::fclose(file);
+        const std::string path = shared_file(std::string("scans/") + name);
+        if (path.empty()) GTEST_SKIP() << "needs shared data";
         expect_both_ways_agree(gnomon::io::read(path));
     }
 }

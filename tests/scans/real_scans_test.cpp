@@ -3,7 +3,6 @@
 /// missing these tests, and no others, are passed over.
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -12,6 +11,7 @@
 
 #include "laws/clouds.hpp"
 #include "laws/partitions.hpp"
+#include "shared_file.hpp"
 #include <gnomon/io/read.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/anisotropy.hpp>
@@ -24,14 +24,9 @@ namespace {
 
 using gnomon::knn, gnomon::plane_pca, gnomon::threads;
 
-bool have_scans() {
-    std::FILE* file = std::fopen(GNOMON_SHARED_DATA "/MANIFEST.tsv", "rb");
-    return file != nullptr && std::fclose(file) == 0;
-}
+bool have_scans() { return !shared_file("MANIFEST.tsv").empty(); }
 
-gnomon::scan read_scan(const std::string& name) {
-    return gnomon::io::read(GNOMON_SHARED_DATA "/" + name);
-}
+gnomon::scan read_scan(const std::string& name) { return gnomon::io::read(shared_file(name)); }
 
 /// The chain with the thesis's parameters.
 gnomon::segments segment(const clouds::cloud& points, const knn& neighbors = {}) {
