@@ -8,6 +8,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -18,6 +19,8 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/part_of_turn.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
@@ -69,10 +72,17 @@ class range_image {
         turn(format.pole ? *format.pole : least_seen(sights));
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
-        for (sight& s : sights) {
-            s.at = pixel_towards(s.offset);
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
+        for (std::size_t s = 0; s < sights.size(); s += offsets{}.size()) {
+            const std::size_t count = std::min(offsets{}.size(), sights.size() - s);
+            offsets to;
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = sights[s + std::min(l, count - 1)].offset;
+            const pixels at = pixels_towards(to);
+            for (std::size_t l = 0; l < count; ++l) {
+                sights[s + l].at = at[l];
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -95,7 +105,9 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        return pixel_towards(detail::difference(p, viewpoint_));
+        offsets to;
+        to.fill(detail::difference(p, viewpoint_));
+        return pixels_towards(to)[0];
     }
 
     /// The distance of the nearest point in a pixel [m], or `nothing`.
@@ -142,14 +154,28 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    [[nodiscard]] pixel pixel_towards(const Eigen::Vector3d& offset) const {
-        const double x = detail::dot(x_, offset), y = detail::dot(y_, offset);
-        const double azimuth = std::atan2(y, x) / (2.0 * std::numbers::pi) + 0.5;
-        const double elevation =
-            std::atan2(detail::dot(z_, offset), std::sqrt(x * x + y * y)) / std::numbers::pi + 0.5;
-        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
-                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
-                         height_ - 1)};
+    /// Offsets from the view point that are looked at side by side [m], and their pixels.
+    using offsets = std::array<Eigen::Vector3d, detail::pack::size>;
+    using pixels = std::array<pixel, detail::pack::size>;
+
+    /// Where what lies there is seen.
+    [[nodiscard]] pixels pixels_towards(const offsets& to) const {
+        using detail::pack;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, pack::size> a;
+            for (std::size_t l = 0; l < a.size(); ++l) a[l] = detail::dot(axis, to[l]);
+            return pack(a.data());
+        };
+        const pack x = along(x_), y = along(y_), z = along(z_);
+        const pack azimuth = detail::part_of_turn(y, x) + 0.5;
+        const pack elevation = 2.0 * detail::part_of_turn(z, root(x * x + y * y)) + 0.5;
+        pixels at;
+        for (std::size_t l = 0; l < at.size(); ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width_)) % width_,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height_)),
+                              height_ - 1)};
+        }
+        return at;
     }
 
     /// The axis along which the directions to the points spread least; z where there are none.
