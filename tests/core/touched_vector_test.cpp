@@ -30,6 +30,14 @@ TEST(touched_vector, holds_n_default_values) {
     }
 }
 
+TEST(touched_vector, may_hold_nothing_in_particular) {
+    for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{1'000'000}}) {
+        const auto values = gnomon::detail::touched_array<double>(n, gnomon::threads{3});
+        std::fill_n(values.get(), n, 13.0);
+        ASSERT_EQ(std::count(values.get(), values.get() + n, 13.0), static_cast<std::ptrdiff_t>(n));
+    }
+}
+
 /// As standard libraries do that tell AddressSanitizer how much of its memory a vector uses.
 TEST(touched_vector, touches_memory_that_nobody_may_use_yet) {
     std::vector<std::byte> memory(10'000, std::byte{1});

@@ -264,9 +264,10 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
             return detail::sweep_visitor(estimate, p, viewpoints, surface);
         };
         if (policy.sweep(points, team, projection, make_visitor)) {
-            for (std::size_t i = 0; i < p.size(); ++i) {
-                if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
-            }
+            for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
+            });
             return surface;
         }
     }

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <memory>
 #include <vector>
 
 #include <gnomon/core/execution.hpp>
@@ -19,18 +20,33 @@ namespace gnomon::detail {
     for (; begin < end; begin += std::min(page, end - begin)) *begin = std::byte{};
 }
 
-/// A vector of n values T{}. The system hands out memory when it is first written to, page after
-/// page, which for large results takes longer than the writing: here each thread asks for its part.
+/// Touches the memory of n values. The system hands out memory when it is first written to, page
+/// after page, which for large results takes longer than the writing: here each thread asks for its
+/// part.
 template <class T, execution X>
-[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
+void touch_all(T* values, std::size_t n, const X& run) {
     constexpr std::size_t chunk = 1 << 20;  // [bytes]
-    std::vector<T> values;
-    values.reserve(n);
-    auto* const bytes = reinterpret_cast<volatile std::byte*>(values.data());
+    auto* const bytes = reinterpret_cast<volatile std::byte*>(values);
     const std::size_t size = n * sizeof(T);
     run((size + chunk - 1) / chunk,
         [&](std::size_t c) { touch(bytes + c * chunk, bytes + std::min(size, (c + 1) * chunk)); });
+}
+
+/// A vector of n values T{}.
+template <class T, execution X>
+[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
+    std::vector<T> values;
+    values.reserve(n);
+    touch_all(values.data(), n, run);
     values.resize(n);
+    return values;
+}
+
+/// An array of n numbers, or the like, that all are to be written before they are read.
+template <class T, execution X>
+[[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
+    auto values = std::make_unique_for_overwrite<T[]>(n);
+    touch_all(values.get(), n, run);
     return values;
 }
 

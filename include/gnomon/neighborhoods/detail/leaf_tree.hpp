@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <numeric>
 #include <span>
 #include <vector>
@@ -58,18 +59,21 @@ class leaf_tree {
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
     leaf_tree(const Points& points, const X& run) {
-        std::vector<entry> entries = finite(points, run);
+        const auto entries = finite(points, run);
         if (size_ == 0) return;
         leaves_ = (size_ + leaf_size - 1) / leaf_size;
         const std::size_t places = leaves_ * leaf_size;
-        for (auto& c : at_) c = touched_vector<double>(places, run);
-        index_ = touched_vector<point_index>(places, run);
+        for (auto& c : at_) {
+            c = touched_array<double>(places, run);
+            std::fill(c.get() + size_, c.get() + places, 0.0);
+        }
+        index_ = touched_array<point_index>(places, run);
         boxes_.resize(2 * leaves() - 1);
-        build(entries, run);
+        build({entries.get(), size_}, run);
         for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
             const std::size_t first = l * leaf_size;
             crowded_ = std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
-                return std::all_of(c.data() + first, c.data() + first + leaf_size,
+                return std::all_of(c.get() + first, c.get() + first + leaf_size,
                                    [&](double x) { return x == c[first]; });
             });
         }
@@ -82,9 +86,9 @@ class leaf_tree {
         return (leaves_ + leaves_per_group - 1) / leaves_per_group;
     }
     /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
-    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
+    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].get(); }
     /// The numbers of the points in the cloud, in the same order.
-    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    [[nodiscard]] const point_index* index() const { return index_.get(); }
     [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
         return {at_[0][place], at_[1][place], at_[2][place]};
     }
@@ -152,7 +156,7 @@ class leaf_tree {
 
     /// Counts the finite points, and gathers them.
     template <class Points, execution X>
-    std::vector<entry> finite(const Points& points, const X& run) {
+    std::unique_ptr<entry[]> finite(const Points& points, const X& run) {
         std::vector<std::size_t> ends(chunk_count(points.size()));
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
             std::size_t count = 0;
@@ -161,9 +165,9 @@ class leaf_tree {
         });
         std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
         size_ = ends.empty() ? 0 : ends.back();
-        auto entries = touched_vector<entry>(size_, run);
+        auto entries = touched_array<entry>(size_, run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            entry* to = entries.data() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
+            entry* to = entries.get() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
             for (std::size_t i = begin; i < end; ++i) {
                 const Eigen::Vector3d p = points[i];
                 if (is_finite(p)) *to++ = {{p[0], p[1], p[2]}, static_cast<point_index>(i)};
@@ -235,8 +239,8 @@ class leaf_tree {
     std::size_t size_ = 0;
     std::size_t leaves_ = 0;
     bool crowded_ = false;
-    std::array<std::vector<double>, 3> at_;
-    std::vector<point_index> index_;
+    std::array<std::unique_ptr<double[]>, 3> at_;
+    std::unique_ptr<point_index[]> index_;
     std::vector<leaf_box> boxes_;  // of the nodes, in preorder
 };
 
