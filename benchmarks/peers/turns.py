@@ -57,10 +57,12 @@ def cpu():
         for line in info.read_text(encoding="utf-8").splitlines():
             name, _, value = line.partition(":")
             told.setdefault(name.strip(), value.strip())
-    vectors = [told_as for flag, told_as in (("avx512f", "AVX-512"), ("avx2", "AVX2"))
-               if flag in told.get("flags", "").split()]
     name = told.get("model name") or platform.processor() or platform.machine()
-    return ", ".join([name, *vectors[:1]])
+    flags = told.get("flags", "").split()
+    for flag, vectors in (("avx512f", "AVX-512"), ("avx2", "AVX2")):
+        if flag in flags:
+            return f"{name}, {vectors}"
+    return name
 
 
 def busy_cores():

@@ -2026,8 +2026,8 @@ enum class tie_rule : bool {
     by_index,  ///< exactly k neighbors: of equals those of smaller index
     /// All of them, as long as no more than 2 k neighbors come together; equal is what differs by
     /// less than 1e-9 of the squared distance. The ring then depends neither on the order of the
-    /// points nor on where the cloud lies and how it is turned, also for depth cameras, whose
-    /// quantised points are full of ties.
+    /// points nor on where the cloud lies and how it is turned, but for what moving it does to the
+    /// last places of coordinates; also for depth cameras, whose quantised points are full of ties.
     all
 };
 
@@ -3517,18 +3517,33 @@ namespace gnomon::detail {
     for (; begin < end; begin += std::min(page, end - begin)) *begin = std::byte{};
 }
 
-/// A vector of n values T{}. The system hands out memory when it is first written to, page after
-/// page, which for large results takes longer than the writing: here each thread asks for its part.
+/// Touches the memory of n values. The system hands out memory when it is first written to, page
+/// after page, which for large results takes longer than the writing: here each thread asks for its
+/// part.
 template <class T, execution X>
-[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
+void touch_all(T* values, std::size_t n, const X& run) {
     constexpr std::size_t chunk = 1 << 20;  // [bytes]
-    std::vector<T> values;
-    values.reserve(n);
-    auto* const bytes = reinterpret_cast<volatile std::byte*>(values.data());
+    auto* const bytes = reinterpret_cast<volatile std::byte*>(values);
     const std::size_t size = n * sizeof(T);
     run((size + chunk - 1) / chunk,
         [&](std::size_t c) { touch(bytes + c * chunk, bytes + std::min(size, (c + 1) * chunk)); });
+}
+
+/// A vector of n values T{}.
+template <class T, execution X>
+[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
+    std::vector<T> values;
+    values.reserve(n);
+    touch_all(values.data(), n, run);
     values.resize(n);
+    return values;
+}
+
+/// An array of n numbers, or the like, that all are to be written before they are read.
+template <class T, execution X>
+[[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
+    auto values = std::make_unique_for_overwrite<T[]>(n);
+    touch_all(values.get(), n, run);
     return values;
 }
 
@@ -3580,18 +3595,21 @@ class leaf_tree {
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
     leaf_tree(const Points& points, const X& run) {
-        std::vector<entry> entries = finite(points, run);
+        const auto entries = finite(points, run);
         if (size_ == 0) return;
         leaves_ = (size_ + leaf_size - 1) / leaf_size;
         const std::size_t places = leaves_ * leaf_size;
-        for (auto& c : at_) c = touched_vector<double>(places, run);
-        index_ = touched_vector<point_index>(places, run);
+        for (auto& c : at_) {
+            c = touched_array<double>(places, run);
+            std::fill(c.get() + size_, c.get() + places, 0.0);
+        }
+        index_ = touched_array<point_index>(places, run);
         boxes_.resize(2 * leaves() - 1);
-        build(entries, run);
+        build({entries.get(), size_}, run);
         for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
             const std::size_t first = l * leaf_size;
             crowded_ = std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
-                return std::all_of(c.data() + first, c.data() + first + leaf_size,
+                return std::all_of(c.get() + first, c.get() + first + leaf_size,
                                    [&](double x) { return x == c[first]; });
             });
         }
@@ -3604,9 +3622,9 @@ class leaf_tree {
         return (leaves_ + leaves_per_group - 1) / leaves_per_group;
     }
     /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
-    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
+    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].get(); }
     /// The numbers of the points in the cloud, in the same order.
-    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    [[nodiscard]] const point_index* index() const { return index_.get(); }
     [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
         return {at_[0][place], at_[1][place], at_[2][place]};
     }
@@ -3674,7 +3692,7 @@ class leaf_tree {
 
     /// Counts the finite points, and gathers them.
     template <class Points, execution X>
-    std::vector<entry> finite(const Points& points, const X& run) {
+    std::unique_ptr<entry[]> finite(const Points& points, const X& run) {
         std::vector<std::size_t> ends(chunk_count(points.size()));
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
             std::size_t count = 0;
@@ -3683,9 +3701,9 @@ class leaf_tree {
         });
         std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
         size_ = ends.empty() ? 0 : ends.back();
-        auto entries = touched_vector<entry>(size_, run);
+        auto entries = touched_array<entry>(size_, run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            entry* to = entries.data() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
+            entry* to = entries.get() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
             for (std::size_t i = begin; i < end; ++i) {
                 const Eigen::Vector3d p = points[i];
                 if (is_finite(p)) *to++ = {{p[0], p[1], p[2]}, static_cast<point_index>(i)};
@@ -3757,8 +3775,8 @@ class leaf_tree {
     std::size_t size_ = 0;
     std::size_t leaves_ = 0;
     bool crowded_ = false;
-    std::array<std::vector<double>, 3> at_;
-    std::vector<point_index> index_;
+    std::array<std::unique_ptr<double[]>, 3> at_;
+    std::unique_ptr<point_index[]> index_;
     std::vector<leaf_box> boxes_;  // of the nodes, in preorder
 };
 
@@ -3894,8 +3912,7 @@ class leaf_list {
                                                            float above) {
         float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
-            const std::uint32_t bits = instructions.at_most(distance_[c], above) &
-                                       ~instructions.at_most(distance_[c], below);
+            const std::uint32_t bits = bits_between(instructions, c, below, above);
             end = instructions.compress(distance_[c].at, bits, end);
         }
         std::fill(end, few_.data() + lane_count, far_);
@@ -3906,10 +3923,9 @@ class leaf_list {
     void for_each_between(float below, float above, auto&& visit) const {
         constexpr compiled_instructions instructions;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
-            std::uint32_t between = instructions.at_most(distance_[b], above) &
-                                    ~instructions.at_most(distance_[b], below);
-            for (; between != 0; between &= between - 1)
-                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
+            std::uint32_t bits = bits_between(instructions, b, below, above);
+            for (; bits != 0; bits &= bits - 1)
+                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(bits)));
         }
     }
 
@@ -3936,6 +3952,14 @@ class leaf_list {
     }
 
   private:
+    /// Which of 32 candidates are beyond `below` and within `above`.
+    [[nodiscard, gnu::always_inline]] std::uint32_t bits_between(auto instructions,
+                                                                 std::size_t block, float below,
+                                                                 float above) const {
+        return instructions.at_most(distance_[block], above) &
+               ~instructions.at_most(distance_[block], below);
+    }
+
     void list(std::size_t leaf, const leaf_box& box) {
         if (listed_ == points_.size()) {
             points_.resize(listed_ + lane_count);
@@ -4258,7 +4282,7 @@ class found_neighbors {
 
     [[nodiscard]] std::size_t size() const { return places_.size(); }
 
-    /// O(k).
+    /// Their moments [m], [m^2] about the point, and how far they are on average. O(k).
     [[nodiscard]] ring_sums summed() const {
         vector_sums all;
         const std::size_t whole = size() / slim_pack::size * slim_pack::size;
@@ -5355,9 +5379,10 @@ template <class R, class N, estimator E, execution X = sequential, class Proj = 
             return detail::sweep_visitor(estimate, p, viewpoints, surface);
         };
         if (policy.sweep(points, team, projection, make_visitor)) {
-            for (std::size_t i = 0; i < p.size(); ++i) {
-                if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
-            }
+            for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
+            });
             return surface;
         }
     }
@@ -10478,6 +10503,43 @@ struct liberal {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/part_of_turn.hpp ----------------------------------------------------
+
+/// @file
+/// Angles of several directions at once: std::atan2, which has no vectors and cares for the last
+/// bit, takes longer than all else that is done with a ray.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// atan2(y, x) / (2 pi), from -1/2 to 1/2, to 1e-11; 0 for x = y = 0, and for y = -0 what is for
+/// y = 0. Precondition: both are finite, and their magnitudes at least 1e-150, or 0.
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline pack_of<N> part_of_turn(const pack_of<N>& y,
+                                                                 const pack_of<N>& x) {
+    const pack_of<N> across = magnitude(x), up = magnitude(y);
+    const pack_of<N> more = where_at_least(across, up, across, up);
+    const pack_of<N> q = where_at_least(across, up, up, across) /
+                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
+    const pack_of<N> q2 = q * q;
+    // The polynomial of twelve terms that is closest to atan(q) / (2 pi q) for q in [0, 1], the
+    // largest error times q being least; from the exchange algorithm of Remez.
+    constexpr double terms[] = {
+        -9.353527392242409e-5, 6.8335456820977891e-4,  -0.0023429530453196245,
+        0.0051299703433202153, -0.0083579494124714409, 0.011368555134567224,
+        -0.014230231439434993, 0.017640210291041877,   -0.022731386513283311,
+        0.03183066002475542,   -0.053051637682194315,  0.15915494300121097};
+    pack_of<N> part = 0.0;
+    for (const double term : terms) part = part * q2 + term;
+    part = part * q;
+    part = where_at_least(across, up, part, 0.25 - part);
+    part = where_at_least(x, 0.0, part, 0.5 - part);
+    return where_at_least(y, 0.0, part, -part);
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
 
 /// @file
@@ -10532,10 +10594,17 @@ class range_image {
         turn(format.pole ? *format.pole : least_seen(sights));
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
-        for (sight& s : sights) {
-            s.at = pixel_towards(s.offset);
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
+        for (std::size_t s = 0; s < sights.size(); s += offsets{}.size()) {
+            const std::size_t count = std::min(offsets{}.size(), sights.size() - s);
+            offsets to;
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = sights[s + std::min(l, count - 1)].offset;
+            const pixels at = pixels_towards(to);
+            for (std::size_t l = 0; l < count; ++l) {
+                sights[s + l].at = at[l];
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -10558,7 +10627,9 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        return pixel_towards(detail::difference(p, viewpoint_));
+        offsets to;
+        to.fill(detail::difference(p, viewpoint_));
+        return pixels_towards(to)[0];
     }
 
     /// The distance of the nearest point in a pixel [m], or `nothing`.
@@ -10605,14 +10676,28 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    [[nodiscard]] pixel pixel_towards(const Eigen::Vector3d& offset) const {
-        const double x = detail::dot(x_, offset), y = detail::dot(y_, offset);
-        const double azimuth = std::atan2(y, x) / (2.0 * std::numbers::pi) + 0.5;
-        const double elevation =
-            std::atan2(detail::dot(z_, offset), std::sqrt(x * x + y * y)) / std::numbers::pi + 0.5;
-        return {static_cast<std::size_t>(azimuth * static_cast<double>(width_)) % width_,
-                std::min(static_cast<std::size_t>(elevation * static_cast<double>(height_)),
-                         height_ - 1)};
+    /// Offsets from the view point that are looked at side by side [m], and their pixels.
+    using offsets = std::array<Eigen::Vector3d, detail::pack::size>;
+    using pixels = std::array<pixel, detail::pack::size>;
+
+    /// Where what lies there is seen.
+    [[nodiscard]] pixels pixels_towards(const offsets& to) const {
+        using detail::pack;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, pack::size> a;
+            for (std::size_t l = 0; l < a.size(); ++l) a[l] = detail::dot(axis, to[l]);
+            return pack(a.data());
+        };
+        const pack x = along(x_), y = along(y_), z = along(z_);
+        const pack azimuth = detail::part_of_turn(y, x) + 0.5;
+        const pack elevation = 2.0 * detail::part_of_turn(z, root(x * x + y * y)) + 0.5;
+        pixels at;
+        for (std::size_t l = 0; l < at.size(); ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width_)) % width_,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height_)),
+                              height_ - 1)};
+        }
+        return at;
     }
 
     /// The axis along which the directions to the points spread least; z where there are none.
@@ -10692,16 +10777,20 @@ namespace detail {
 [[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
     constexpr std::size_t seeds = 24, neighbors = 16;
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    std::vector<Eigen::Vector3d> directions;
-    directions.reserve(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const Eigen::Vector3d at = p[i], from = viewpoints[i];
-        if (!is_finite(at) || !is_finite(from)) continue;
-        const Eigen::Vector3d d = difference(at, from);
+    const auto direction = [&](std::size_t i) -> std::optional<Eigen::Vector3d> {
+        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
         const double range = length(d);
-        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
+        if (!(range > 0.0 && std::isfinite(range))) return std::nullopt;
+        return scaled(1.0 / range, d);
+    };
+    std::array<Eigen::Vector3d, seeds> seed;  // from all over the cloud, the next that has one
+    for (std::size_t s = 0; s < seeds; ++s) {
+        std::optional<Eigen::Vector3d> d;
+        for (std::size_t i = 0; i < p.size() && !d; ++i)
+            d = direction(((2 * s + 1) * p.size() / (2 * seeds) + i) % p.size());
+        if (!d) return radians(most);
+        seed[s] = *d;
     }
-    if (directions.size() <= neighbors) return radians(most);
 
     // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
     // cubes of more than this size, a ray has the seeds in its own cube and those about it.
@@ -10713,23 +10802,25 @@ namespace detail {
         const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
         return (place(0) * cubes + place(1)) * cubes + place(2);
     };
-    const auto seed = [&](std::size_t s) {
-        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
-    };
     for (std::size_t s = 0; s < seeds; ++s) {
         for (std::size_t c = 0; c < 27; ++c) {
             const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
-            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
+            seeds_about[cube_of(seed[s]) + way - (cubes + 1) * cubes - 1] |= 1U << s;
         }
     }
     std::array<std::vector<double>, seeds> near;
-    for (const Eigen::Vector3d& d : directions) {
-        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const std::optional<Eigen::Vector3d> d = direction(i);
+        if (!d) continue;
+        ++count;
+        for (std::uint32_t left = seeds_about[cube_of(*d)]; left != 0; left &= left - 1) {
             const auto s = static_cast<std::size_t>(std::countr_zero(left));
-            const double squared = squared_distance(seed(s), d);
+            const double squared = squared_distance(seed[s], *d);
             if (squared < reach2) near[s].push_back(squared);
         }
     }
+    if (count <= neighbors) return radians(most);
     std::array<double, seeds> squared;
     for (std::size_t s = 0; s < seeds; ++s) {
         squared[s] = reach2;

@@ -48,8 +48,8 @@ enum class tie_rule : bool {
     by_index,  ///< exactly k neighbors: of equals those of smaller index
     /// All of them, as long as no more than 2 k neighbors come together; equal is what differs by
     /// less than 1e-9 of the squared distance. The ring then depends neither on the order of the
-    /// points nor on where the cloud lies and how it is turned, also for depth cameras, whose
-    /// quantised points are full of ties.
+    /// points nor on where the cloud lies and how it is turned, but for what moving it does to the
+    /// last places of coordinates; also for depth cameras, whose quantised points are full of ties.
     all
 };
 

@@ -14,8 +14,6 @@
 
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/moments.hpp>
-#include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
 namespace gnomon::detail {
@@ -38,7 +36,7 @@ class found_neighbors {
 
     [[nodiscard]] std::size_t size() const { return places_.size(); }
 
-    /// O(k).
+    /// Their moments [m], [m^2] about the point, and how far they are on average. O(k).
     [[nodiscard]] ring_sums summed() const {
         vector_sums all;
         const std::size_t whole = size() / slim_pack::size * slim_pack::size;

@@ -144,8 +144,7 @@ class leaf_list {
                                                            float above) {
         float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
-            const std::uint32_t bits = instructions.at_most(distance_[c], above) &
-                                       ~instructions.at_most(distance_[c], below);
+            const std::uint32_t bits = bits_between(instructions, c, below, above);
             end = instructions.compress(distance_[c].at, bits, end);
         }
         std::fill(end, few_.data() + lane_count, far_);
@@ -156,10 +155,9 @@ class leaf_list {
     void for_each_between(float below, float above, auto&& visit) const {
         constexpr compiled_instructions instructions;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
-            std::uint32_t between = instructions.at_most(distance_[b], above) &
-                                    ~instructions.at_most(distance_[b], below);
-            for (; between != 0; between &= between - 1)
-                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(between)));
+            std::uint32_t bits = bits_between(instructions, b, below, above);
+            for (; bits != 0; bits &= bits - 1)
+                visit(b * lane_count + static_cast<std::size_t>(std::countr_zero(bits)));
         }
     }
 
@@ -186,6 +184,14 @@ class leaf_list {
     }
 
   private:
+    /// Which of 32 candidates are beyond `below` and within `above`.
+    [[nodiscard, gnu::always_inline]] std::uint32_t bits_between(auto instructions,
+                                                                 std::size_t block, float below,
+                                                                 float above) const {
+        return instructions.at_most(distance_[block], above) &
+               ~instructions.at_most(distance_[block], below);
+    }
+
     void list(std::size_t leaf, const leaf_box& box) {
         if (listed_ == points_.size()) {
             points_.resize(listed_ + lane_count);
