@@ -53,7 +53,7 @@ def two_threads(rows, cloud):
     measured = []
     if own:
         worst, best = (extreme(own, key=lambda row: row["gain"]) for extreme in (min, max))
-        measured = [f"{worst['gain']:.2f} (k = {worst['k']}, `{worst['flags']}`, where the two "
+        measured = [f"{worst['gain']:.3f} (k = {worst['k']}, `{worst['flags']}`, where the two "
                     f"cores were worth {worst['worth_of_cores']:.2f}) to {best['gain']:.2f}"]
     return verdict(f"normals of {CLOUDS[cloud]}: time of one thread over that of two",
                    "at least 1.8", measured, bool(own) and worst["gain"] >= 1.8)
