@@ -70,19 +70,12 @@ class range_image {
                 sights.push_back({d, {range, static_cast<point_index>(i)}});
         }
         turn(format.pole ? *format.pole : least_seen(sights));
+        look_at(sights);
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
-        for (std::size_t s = 0; s < sights.size(); s += offsets{}.size()) {
-            const std::size_t count = std::min(offsets{}.size(), sights.size() - s);
-            offsets to;
-            for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = sights[s + std::min(l, count - 1)].offset;
-            const pixels at = pixels_towards(to);
-            for (std::size_t l = 0; l < count; ++l) {
-                sights[s + l].at = at[l];
-                lowest = std::min(lowest, at[l].elevation);
-                highest = std::max(highest, at[l].elevation);
-            }
+        for (const sight& s : sights) {
+            lowest = std::min(lowest, s.at.elevation);
+            highest = std::max(highest, s.at.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -176,6 +169,18 @@ class range_image {
                               height_ - 1)};
         }
         return at;
+    }
+
+    /// Says of each where it is seen.
+    void look_at(std::vector<sight>& sights) const {
+        offsets to;
+        for (std::size_t s = 0; s < sights.size(); s += to.size()) {
+            const std::size_t count = std::min(to.size(), sights.size() - s);
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = sights[s + std::min(l, count - 1)].offset;
+            const pixels at = pixels_towards(to);
+            for (std::size_t l = 0; l < count; ++l) sights[s + l].at = at[l];
+        }
     }
 
     /// The axis along which the directions to the points spread least; z where there are none.

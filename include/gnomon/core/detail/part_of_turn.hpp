@@ -11,8 +11,8 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// atan2(y, x) / (2 pi), from -1/2 to 1/2, to 1e-11; 0 for x = y = 0, and for y = -0 what is for
-/// y = 0. Precondition: both are finite, and their magnitudes at least 1e-150, or 0.
+/// atan2(y, x) / (2 pi), from -1/2 to 1/2, to 1e-11; 0 where both are nearer to 0 than 1e-300, and
+/// for y = -0 what it is for y = 0. Precondition: both are finite.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] inline pack_of<N> part_of_turn(const pack_of<N>& y,
                                                                  const pack_of<N>& x) {
