@@ -7,9 +7,8 @@ endif()
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 
-# Sources are named from the root (in messages of tests, too), so that every clone compiles to the
-# same, wherever it lies.
-if(CMAKE_CXX_COMPILER_ID MATCHES "GNU|Clang")
+# Where this clone lies does not get into what is compiled, so that every clone compiles to the same.
+if(NOT MSVC)
     add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 endif()
 

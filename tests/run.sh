@@ -1,6 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
-# Installs what is missing, builds everything in build/release, and runs all tests:
+# Installs what is missing, builds everything in build/release (but programs around other libraries,
+# which benchmarks/reproduce.sh builds), and runs all tests:
 #     sh tests/run.sh [options of ctest]      or only the first part:  sh tests/run.sh --set-up-only
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
@@ -12,9 +13,8 @@ if [ "${1-}" = --set-up-only ]; then exit 0; fi
 
 cd "$root"
 jobs=$(getconf _NPROCESSORS_ONLN)
-# Programs around other libraries are built where they are measured, see benchmarks/reproduce.sh.
 cmake --preset release -D GNOMON_BUILD_TESTS=ON -D GNOMON_BUILD_EXAMPLES=ON -D GNOMON_BUILD_BENCHMARKS=ON \
-    -D GNOMON_BENCHMARK_PEERS=OFF -D CMAKE_COMPILE_WARNING_AS_ERROR=ON
+    -D CMAKE_COMPILE_WARNING_AS_ERROR=ON
 cmake --build --preset release --target all all_verify_interface_header_sets
 
 status=0

@@ -18,7 +18,7 @@ add_custom_target(make_single_header DEPENDS ${single_header})
 foreach(header IN LISTS headers)
     cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
     if(header STREQUAL "gnomon/normals/registry.hpp")  # outside: it needs Boost
-        file(COPY ${PROJECT_SOURCE_DIR}/include/${header} DESTINATION ${single_dir}/gnomon/normals)
+        configure_file(${PROJECT_SOURCE_DIR}/include/${header} ${single_dir}/${header} COPYONLY)
     elseif(NOT header STREQUAL "gnomon/gnomon.hpp")
         file(CONFIGURE OUTPUT ${single_dir}/${header}
              CONTENT "#pragma once\n#include <gnomon/gnomon.hpp>\n")

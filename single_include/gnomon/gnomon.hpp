@@ -3509,8 +3509,8 @@ template <class Loop>
 
 namespace gnomon::detail {
 
-/// Writes to each page from `begin` to `end`. The memory is a vector's that has not begun to use
-/// it, which some standard libraries report to AddressSanitizer: here it is meant.
+/// Writes to each page from `begin` to `end`. The memory may be a vector's that has not begun to
+/// use it, which some standard libraries report to AddressSanitizer: here it is meant.
 [[gnu::no_sanitize_address]] inline void touch(volatile std::byte* begin,
                                                const volatile std::byte* end) {
     constexpr std::ptrdiff_t page = 4096;  // [bytes]
@@ -3539,9 +3539,10 @@ template <class T, execution X>
     return values;
 }
 
-/// An array of n numbers, or the like, that all are to be written before they are read.
+/// An array of n numbers, or the like, with anything in it.
 template <class T, execution X>
 [[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
+    static_assert(std::is_trivially_default_constructible_v<T>);
     auto values = std::make_unique_for_overwrite<T[]>(n);
     touch_all(values.get(), n, run);
     return values;
@@ -10503,7 +10504,7 @@ struct liberal {
 
 }  // namespace gnomon
 
-// -------- gnomon/core/detail/part_of_turn.hpp ----------------------------------------------------
+// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
 
 /// @file
 /// Angles of several directions at once: std::atan2, which has no vectors and cares for the last
@@ -10512,29 +10513,30 @@ struct liberal {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// atan2(y, x) / (2 pi), from -1/2 to 1/2, to 1e-11; 0 where both are nearer to 0 than 1e-300, and
-/// for y = -0 what it is for y = 0. Precondition: both are finite.
+/// atan2(y, x) / pi, from -1 to 1, to 2e-11, as C23 calls it; here zeros have no sign, atan2pi(0,
+/// 0) is 0, and where both are nearer to 0 than 1e-300 the angle is a rough one. Precondition: both
+/// are finite.
 template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> part_of_turn(const pack_of<N>& y,
-                                                                 const pack_of<N>& x) {
+[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                            const pack_of<N>& x) {
     const pack_of<N> across = magnitude(x), up = magnitude(y);
     const pack_of<N> more = where_at_least(across, up, across, up);
     const pack_of<N> q = where_at_least(across, up, up, across) /
                          where_at_least(more, 1e-300, more, 1.0);  // within the first octant
     const pack_of<N> q2 = q * q;
-    // The polynomial of twelve terms that is closest to atan(q) / (2 pi q) for q in [0, 1], the
+    // The polynomial of twelve terms that is closest to atan(q) / (pi q) for q in [0, 1], the
     // largest error times q being least; from the exchange algorithm of Remez.
     constexpr double terms[] = {
-        -9.353527392242409e-5, 6.8335456820977891e-4,  -0.0023429530453196245,
-        0.0051299703433202153, -0.0083579494124714409, 0.011368555134567224,
-        -0.014230231439434993, 0.017640210291041877,   -0.022731386513283311,
-        0.03183066002475542,   -0.053051637682194315,  0.15915494300121097};
-    pack_of<N> part = 0.0;
-    for (const double term : terms) part = part * q2 + term;
-    part = part * q;
-    part = where_at_least(across, up, part, 0.25 - part);
-    part = where_at_least(x, 0.0, part, 0.5 - part);
-    return where_at_least(y, 0.0, part, -part);
+        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
+        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
+        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
+        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
+    pack_of<N> angle = 0.0;
+    for (const double term : terms) angle = angle * q2 + term;
+    angle = angle * q;
+    angle = where_at_least(across, up, angle, 0.5 - angle);
+    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
+    return where_at_least(y, 0.0, angle, -angle);
 }
 
 }  // namespace GNOMON_LANES
@@ -10592,7 +10594,7 @@ class range_image {
                 sights.push_back({d, {range, static_cast<point_index>(i)}});
         }
         turn(format.pole ? *format.pole : least_seen(sights));
-        look_at(sights);
+        project(sights);
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
         for (const sight& s : sights) {
@@ -10620,7 +10622,7 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        offsets to;
+        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
         to.fill(detail::difference(p, viewpoint_));
         return pixels_towards(to)[0];
     }
@@ -10669,23 +10671,21 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    /// Offsets from the view point that are looked at side by side [m], and their pixels.
-    using offsets = std::array<Eigen::Vector3d, detail::pack::size>;
-    using pixels = std::array<pixel, detail::pack::size>;
-
-    /// Where what lies there is seen.
-    [[nodiscard]] pixels pixels_towards(const offsets& to) const {
-        using detail::pack;
+    /// Where what lies at N offsets from the view point [m] is seen, side by side.
+    template <std::size_t N>
+    [[nodiscard]] std::array<pixel, N> pixels_towards(
+        const std::array<Eigen::Vector3d, N>& to) const {
+        using pack = detail::pack_of<N>;
         const auto along = [&to](const Eigen::Vector3d& axis) {
-            std::array<double, pack::size> a;
-            for (std::size_t l = 0; l < a.size(); ++l) a[l] = detail::dot(axis, to[l]);
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = detail::dot(axis, to[l]);
             return pack(a.data());
         };
         const pack x = along(x_), y = along(y_), z = along(z_);
-        const pack azimuth = detail::part_of_turn(y, x) + 0.5;
-        const pack elevation = 2.0 * detail::part_of_turn(z, root(x * x + y * y)) + 0.5;
-        pixels at;
-        for (std::size_t l = 0; l < at.size(); ++l) {
+        const pack azimuth = 0.5 * detail::atan2pi(y, x) + 0.5;
+        const pack elevation = detail::atan2pi(z, root(x * x + y * y)) + 0.5;
+        std::array<pixel, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
             at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width_)) % width_,
                      std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height_)),
                               height_ - 1)};
@@ -10693,14 +10693,14 @@ class range_image {
         return at;
     }
 
-    /// Says of each where it is seen.
-    void look_at(std::vector<sight>& sights) const {
-        offsets to;
+    /// Says of each in which pixel it is.
+    void project(std::vector<sight>& sights) const {
+        std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < sights.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), sights.size() - s);
             for (std::size_t l = 0; l < to.size(); ++l)
                 to[l] = sights[s + std::min(l, count - 1)].offset;
-            const pixels at = pixels_towards(to);
+            const auto at = pixels_towards(to);
             for (std::size_t l = 0; l < count; ++l) sights[s + l].at = at[l];
         }
     }
@@ -10782,20 +10782,16 @@ namespace detail {
 [[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
     constexpr std::size_t seeds = 24, neighbors = 16;
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    const auto direction = [&](std::size_t i) -> std::optional<Eigen::Vector3d> {
-        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
+    std::vector<Eigen::Vector3d> directions;
+    directions.reserve(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Eigen::Vector3d at = p[i], from = viewpoints[i];
+        if (!is_finite(at) || !is_finite(from)) continue;
+        const Eigen::Vector3d d = difference(at, from);
         const double range = length(d);
-        if (!(range > 0.0 && std::isfinite(range))) return std::nullopt;
-        return scaled(1.0 / range, d);
-    };
-    std::array<Eigen::Vector3d, seeds> seed;  // from all over the cloud, the next that has one
-    for (std::size_t s = 0; s < seeds; ++s) {
-        std::optional<Eigen::Vector3d> d;
-        for (std::size_t i = 0; i < p.size() && !d; ++i)
-            d = direction(((2 * s + 1) * p.size() / (2 * seeds) + i) % p.size());
-        if (!d) return radians(most);
-        seed[s] = *d;
+        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
     }
+    if (directions.size() <= neighbors) return radians(most);
 
     // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
     // cubes of more than this size, a ray has the seeds in its own cube and those about it.
@@ -10807,25 +10803,23 @@ namespace detail {
         const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
         return (place(0) * cubes + place(1)) * cubes + place(2);
     };
+    const auto seed = [&](std::size_t s) {
+        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
+    };
     for (std::size_t s = 0; s < seeds; ++s) {
         for (std::size_t c = 0; c < 27; ++c) {
             const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
-            seeds_about[cube_of(seed[s]) + way - (cubes + 1) * cubes - 1] |= 1U << s;
+            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
         }
     }
     std::array<std::vector<double>, seeds> near;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const std::optional<Eigen::Vector3d> d = direction(i);
-        if (!d) continue;
-        ++count;
-        for (std::uint32_t left = seeds_about[cube_of(*d)]; left != 0; left &= left - 1) {
+    for (const Eigen::Vector3d& d : directions) {
+        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
             const auto s = static_cast<std::size_t>(std::countr_zero(left));
-            const double squared = squared_distance(seed[s], *d);
+            const double squared = squared_distance(seed(s), d);
             if (squared < reach2) near[s].push_back(squared);
         }
     }
-    if (count <= neighbors) return radians(most);
     std::array<double, seeds> squared;
     for (std::size_t s = 0; s < seeds; ++s) {
         squared[s] = reach2;

@@ -59,20 +59,16 @@ namespace detail {
 [[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
     constexpr std::size_t seeds = 24, neighbors = 16;
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    const auto direction = [&](std::size_t i) -> std::optional<Eigen::Vector3d> {
-        const Eigen::Vector3d d = difference(p[i], viewpoints[i]);
+    std::vector<Eigen::Vector3d> directions;
+    directions.reserve(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Eigen::Vector3d at = p[i], from = viewpoints[i];
+        if (!is_finite(at) || !is_finite(from)) continue;
+        const Eigen::Vector3d d = difference(at, from);
         const double range = length(d);
-        if (!(range > 0.0 && std::isfinite(range))) return std::nullopt;
-        return scaled(1.0 / range, d);
-    };
-    std::array<Eigen::Vector3d, seeds> seed;  // from all over the cloud, the next that has one
-    for (std::size_t s = 0; s < seeds; ++s) {
-        std::optional<Eigen::Vector3d> d;
-        for (std::size_t i = 0; i < p.size() && !d; ++i)
-            d = direction(((2 * s + 1) * p.size() / (2 * seeds) + i) % p.size());
-        if (!d) return radians(most);
-        seed[s] = *d;
+        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
     }
+    if (directions.size() <= neighbors) return radians(most);
 
     // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
     // cubes of more than this size, a ray has the seeds in its own cube and those about it.
@@ -84,25 +80,23 @@ namespace detail {
         const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
         return (place(0) * cubes + place(1)) * cubes + place(2);
     };
+    const auto seed = [&](std::size_t s) {
+        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
+    };
     for (std::size_t s = 0; s < seeds; ++s) {
         for (std::size_t c = 0; c < 27; ++c) {
             const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
-            seeds_about[cube_of(seed[s]) + way - (cubes + 1) * cubes - 1] |= 1U << s;
+            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
         }
     }
     std::array<std::vector<double>, seeds> near;
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const std::optional<Eigen::Vector3d> d = direction(i);
-        if (!d) continue;
-        ++count;
-        for (std::uint32_t left = seeds_about[cube_of(*d)]; left != 0; left &= left - 1) {
+    for (const Eigen::Vector3d& d : directions) {
+        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
             const auto s = static_cast<std::size_t>(std::countr_zero(left));
-            const double squared = squared_distance(seed[s], *d);
+            const double squared = squared_distance(seed(s), d);
             if (squared < reach2) near[s].push_back(squared);
         }
     }
-    if (count <= neighbors) return radians(most);
     std::array<double, seeds> squared;
     for (std::size_t s = 0; s < seeds; ++s) {
         squared[s] = reach2;

@@ -18,9 +18,9 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/atan2pi.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/pack.hpp>
-#include <gnomon/core/detail/part_of_turn.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
@@ -70,7 +70,7 @@ class range_image {
                 sights.push_back({d, {range, static_cast<point_index>(i)}});
         }
         turn(format.pole ? *format.pole : least_seen(sights));
-        look_at(sights);
+        project(sights);
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
         for (const sight& s : sights) {
@@ -98,7 +98,7 @@ class range_image {
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite.
     [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        offsets to;
+        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
         to.fill(detail::difference(p, viewpoint_));
         return pixels_towards(to)[0];
     }
@@ -147,23 +147,21 @@ class range_image {
         return (at.elevation - first_row_) * width_ + at.azimuth;
     }
 
-    /// Offsets from the view point that are looked at side by side [m], and their pixels.
-    using offsets = std::array<Eigen::Vector3d, detail::pack::size>;
-    using pixels = std::array<pixel, detail::pack::size>;
-
-    /// Where what lies there is seen.
-    [[nodiscard]] pixels pixels_towards(const offsets& to) const {
-        using detail::pack;
+    /// Where what lies at N offsets from the view point [m] is seen, side by side.
+    template <std::size_t N>
+    [[nodiscard]] std::array<pixel, N> pixels_towards(
+        const std::array<Eigen::Vector3d, N>& to) const {
+        using pack = detail::pack_of<N>;
         const auto along = [&to](const Eigen::Vector3d& axis) {
-            std::array<double, pack::size> a;
-            for (std::size_t l = 0; l < a.size(); ++l) a[l] = detail::dot(axis, to[l]);
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = detail::dot(axis, to[l]);
             return pack(a.data());
         };
         const pack x = along(x_), y = along(y_), z = along(z_);
-        const pack azimuth = detail::part_of_turn(y, x) + 0.5;
-        const pack elevation = 2.0 * detail::part_of_turn(z, root(x * x + y * y)) + 0.5;
-        pixels at;
-        for (std::size_t l = 0; l < at.size(); ++l) {
+        const pack azimuth = 0.5 * detail::atan2pi(y, x) + 0.5;
+        const pack elevation = detail::atan2pi(z, root(x * x + y * y)) + 0.5;
+        std::array<pixel, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
             at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width_)) % width_,
                      std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height_)),
                               height_ - 1)};
@@ -171,14 +169,14 @@ class range_image {
         return at;
     }
 
-    /// Says of each where it is seen.
-    void look_at(std::vector<sight>& sights) const {
-        offsets to;
+    /// Says of each in which pixel it is.
+    void project(std::vector<sight>& sights) const {
+        std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < sights.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), sights.size() - s);
             for (std::size_t l = 0; l < to.size(); ++l)
                 to[l] = sights[s + std::min(l, count - 1)].offset;
-            const pixels at = pixels_towards(to);
+            const auto at = pixels_towards(to);
             for (std::size_t l = 0; l < count; ++l) sights[s + l].at = at[l];
         }
     }

@@ -6,14 +6,15 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
+#include <type_traits>
 #include <vector>
 
 #include <gnomon/core/execution.hpp>
 
 namespace gnomon::detail {
 
-/// Writes to each page from `begin` to `end`. The memory is a vector's that has not begun to use
-/// it, which some standard libraries report to AddressSanitizer: here it is meant.
+/// Writes to each page from `begin` to `end`. The memory may be a vector's that has not begun to
+/// use it, which some standard libraries report to AddressSanitizer: here it is meant.
 [[gnu::no_sanitize_address]] inline void touch(volatile std::byte* begin,
                                                const volatile std::byte* end) {
     constexpr std::ptrdiff_t page = 4096;  // [bytes]
@@ -42,9 +43,10 @@ template <class T, execution X>
     return values;
 }
 
-/// An array of n numbers, or the like, that all are to be written before they are read.
+/// An array of n numbers, or the like, with anything in it.
 template <class T, execution X>
 [[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
+    static_assert(std::is_trivially_default_constructible_v<T>);
     auto values = std::make_unique_for_overwrite<T[]>(n);
     touch_all(values.get(), n, run);
     return values;
