@@ -1,7 +1,7 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
-# Installs what is missing, builds everything in build/release (but programs around other libraries,
-# which benchmarks/reproduce.sh builds), and runs all tests:
+# Installs what is missing, builds everything in build/release (but what is around libraries not
+# installed here, which benchmarks/reproduce.sh builds), and runs all tests:
 #     sh tests/run.sh [options of ctest]      or only the first part:  sh tests/run.sh --set-up-only
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
