@@ -5,6 +5,8 @@
 ///
 /// A true surface is what no view can tell apart: all faces of one object that lie in one plane
 /// and look the same way, such as the slats of a back or the fronts of two legs; or a curved face.
+/// A true plane is all faces that lie in it and look the same way, of whatever objects, such as two
+/// seats of the same height.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +27,13 @@ inline Eigen::Vector3d true_place(const gnomon::true_scan& truth, std::size_t i)
     return truth.scan.viewpoints[i] + truth.ranges[i] * truth.directions[i];
 }
 
-/// The true surfaces that a scan has seen.
+/// What counts as one.
+enum class unit { surface, plane };
+
+/// The true surfaces, or planes, that a scan has seen.
 class true_surfaces {
   public:
-    explicit true_surfaces(const gnomon::true_scan& truth) {
+    true_surfaces(const gnomon::true_scan& truth, unit one) {
         for (std::size_t i = 0; i < truth.scan.size(); ++i) {
             if (truth.surfaces[i] == gnomon::nothing) continue;
             const auto [known, is_new] = faces_.try_emplace(
@@ -40,7 +45,8 @@ class true_surfaces {
             f.number = surface;
             for (const auto& [other, g] : faces_) {
                 if (other == surface) break;
-                if (f.object != g.object || !(distance(f, g) < 0.005)) continue;
+                if ((one == unit::surface && f.object != g.object) || !(distance(f, g) < 0.005))
+                    continue;
                 f.number = g.number;
                 break;
             }
@@ -112,8 +118,8 @@ class fragments {
     /// @param caster  of the scene; needed only here
     /// @param parts   segments of the scan; refers to it
     fragments(const gnomon::bvh_caster& caster, const gnomon::true_scan& truth,
-              const gnomon::segments& parts)
-        : surfaces_(truth), parts_(parts) {
+              const gnomon::segments& parts, unit one = unit::surface)
+        : surfaces_(truth, one), parts_(parts) {
         std::vector<Eigen::Vector3d> places;
         for (std::size_t i = 0; i < truth.scan.size(); ++i) places.push_back(true_place(truth, i));
         std::vector<Eigen::Vector3d> centroids;

@@ -41,12 +41,14 @@ gnomon::true_scan scan_of(const gnomon::scene& world, const gnomon::bvh_caster& 
 /// How all policies do in one scan, or in many.
 struct outcome {
     std::array<merge_tallies, policies.size()> tallies{};
+    std::array<merge_tally, policies.size()> of_planes{};  ///< where a true plane is one
     std::size_t fragments = 0, mixed = 0;
 
     outcome& operator+=(const outcome& o) {
         for (std::size_t p = 0; p < policies.size(); ++p) {
             tallies[p].pairs.add(o.tallies[p].pairs, 1.0);
             tallies[p].by_points.add(o.tallies[p].by_points, 1.0);
+            of_planes[p].add(o.of_planes[p], 1.0);
         }
         fragments += o.fragments;
         mixed += o.mixed;
@@ -61,8 +63,10 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     const gnomon::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
     const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::unmerged> chain{
         .leave_out = gnomon::floor_and_ceiling{}, .strays = std::nullopt};
-    const gnomon::segments parts = chain(truth.scan).fragments;
+    const auto seen = chain(truth.scan);
+    const gnomon::segments& parts = seen.fragments;
     const fragments known(caster, truth, parts);
+    const fragments known_planes(caster, truth, parts, unit::plane);
 
     outcome result;
     result.fragments = parts.size();
@@ -72,9 +76,10 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     const gnomon::lines_of_sight upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
     const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
         result.tallies[policy] = known.tally(merged);
+        result.of_planes[policy] = known_planes.tally(merged).pairs;
     };
     const auto mend = [&](const auto& policy) {
-        return gnomon::merge_occluded(truth.scan, parts, sights, policy).segments;
+        return gnomon::merge_occluded(truth.scan, seen.surface, parts, sights, policy).segments;
     };
     const auto mend_literally = [&](const auto& policy) {
         return gnomon::merge_occluded_literally(truth.scan, parts, upright, policy);
@@ -125,9 +130,16 @@ json measure(const effort& much) {
             const auto recall_by_points = [p](const outcome& o) {
                 return o.tallies[p].by_points.recall();
             };
+            const auto precision_of_planes = [p](const outcome& o) {
+                return o.of_planes[p].precision();
+            };
+            const auto recall_of_planes = [p](const outcome& o) { return o.of_planes[p].recall(); };
             const auto pairs = [&](double merge_tally::*count) {
                 return rounded(mean([=](const outcome& o) { return o.tallies[p].pairs.*count; }),
                                1);
+            };
+            const auto pairs_of_planes = [&](double merge_tally::*count) {
+                return rounded(mean([=](const outcome& o) { return o.of_planes[p].*count; }), 1);
             };
             scores.push_back({{"trajectory", trajectory},
                               {"policy", policies[p]},
@@ -136,14 +148,19 @@ json measure(const effort& much) {
                               {"recall", rounded(mean(recall), 3)},
                               {"least recall", least(recall)},
                               {"precision by points", rounded(mean(precision_by_points), 3)},
-                              {"recall by points", rounded(mean(recall_by_points), 3)}});
+                              {"recall by points", rounded(mean(recall_by_points), 3)},
+                              {"precision of planes", rounded(mean(precision_of_planes), 3)},
+                              {"recall of planes", rounded(mean(recall_of_planes), 3)}});
             errors.push_back({{"trajectory", trajectory},
                               {"policy", policies[p]},
                               {"pairs torn apart", pairs(&merge_tally::wanted)},
                               {"mended", pairs(&merge_tally::right)},
                               {"wrongly merged", pairs(&merge_tally::wrong)},
                               {"of two objects in one plane", pairs(&merge_tally::coplanar)},
-                              {"of planes less than 15 mm apart", pairs(&merge_tally::in_noise)}});
+                              {"of planes less than 15 mm apart", pairs(&merge_tally::in_noise)},
+                              {"of planes: torn apart", pairs_of_planes(&merge_tally::wanted)},
+                              {"of planes: mended", pairs_of_planes(&merge_tally::right)},
+                              {"of planes: wrongly merged", pairs_of_planes(&merge_tally::wrong)}});
         }
         scans.push_back(
             {{"trajectory", trajectory},

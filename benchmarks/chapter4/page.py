@@ -49,11 +49,12 @@ SECTIONS = [
      "the view point moves with every scan line."),
     ("merge_policies", "Merge policies",
      "What is merged rightly and wrongly in 100 random furnished rooms. Wanted are pairs of fragments "
-     "of one true plane between which rays of the simulator meet something in front (or a chain of "
-     "such pairs); wrong are pairs, merged directly or by way of others, of two true planes. A pair "
-     "counts once, or (by points) as often as both have points. Fragments of which more than a fifth "
-     "is of other surfaces are nobody's, and not counted. The sensor that moves is on an arm of 15 cm, "
-     "so that each scan line has a view point of its own."),
+     "of one true surface between which rays of the simulator meet something in front (or a chain of "
+     "such pairs); wrong are pairs, merged directly or by way of others, of two. All faces of one "
+     "object in one plane are one true surface; \"of planes\", those of all objects are, such as seats of "
+     "the same height. A pair counts once, or (by points) as often as both have points. Fragments of "
+     "which more than a fifth is of other surfaces are nobody's, and not counted. The sensor that moves "
+     "is on an arm of 15 cm, so that each scan line has a view point of its own."),
     ("plane_segmentation", "Planes by other libraries",
      "How many true regions are segmented correctly, by the counts of Hoover et al. 1996, with the "
      "defaults of each method and with the setting from a small grid that has most of them correct "

@@ -52,8 +52,9 @@ json measure(const effort& much) {
         }
         const gnomon::lines_of_sight sights(truth.scan);
         const gnomon::segments once =
-            gnomon::merge_occluded(truth.scan, seen.fragments, sights).segments;
-        const gnomon::segments again = gnomon::merge_occluded(truth.scan, once, sights).segments;
+            gnomon::merge_occluded(truth.scan, seen.surface, seen.fragments, sights).segments;
+        const gnomon::segments again =
+            gnomon::merge_occluded(truth.scan, seen.surface, once, sights).segments;
         const gnomon::segments literal =
             gnomon::merge_occluded_literally(truth.scan, seen.fragments, sights);
         const auto seats = segments_of_seats(d.world, truth, seen.surfaces);

@@ -116,8 +116,8 @@ struct perception {
             result.seconds.merging = seconds_of([&] {
                 // What was left out hides and shows as much as the rest.
                 const lines_of_sight seen(points, sights, projection);
-                merged_segments merged =
-                    merge_occluded(points, result.fragments, seen, merge, merging, projection);
+                merged_segments merged = merge_occluded(points, result.surface, result.fragments,
+                                                        seen, merge, merging, projection);
                 result.surfaces = std::move(merged.segments);
                 result.gaps = std::move(merged.gaps);
             });

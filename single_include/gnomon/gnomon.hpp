@@ -11046,8 +11046,9 @@ namespace gnomon::detail {
 
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// @param all    something of each segment
-/// @param frame  the principal_frame of that
+/// @param all      something of each segment
+/// @param is_flat  of that
+/// @param frame    the principal_frame of that
 template <class Segment, class Frame = std::identity>
 [[nodiscard]] std::vector<std::pair<point_index, point_index>> pairs_to_compare(
     const std::vector<Segment>& all, std::size_t wanted, auto&& is_flat, Frame&& frame = {}) {
@@ -11055,10 +11056,9 @@ template <class Segment, class Frame = std::identity>
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
-        const principal_frame& of = std::invoke(frame, all[s]);
-        if (!is_flat(of)) continue;
+        if (!is_flat(all[s])) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(of.centroid);
+        centroids.push_back(std::invoke(frame, all[s]).centroid);
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     const kd_tree tree(centroids);
@@ -11221,9 +11221,41 @@ struct depth_regression {
     }
 };
 
+/// What a segment tells of its plane by itself.
+struct plane_knowledge {
+    double squared_width;  ///< variance of the places across the sight, the way it is wider [m^2]
+    angle direction;       ///< three standard deviations of that of the plane
+};
+
+[[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
+    const matrix_across spread = depth_regression(sample, axes_towards(sample)).spread;
+    const auto n = static_cast<double>(sample.count);
+    const double slope = sigma * std::sqrt(spread.inverse().largest_eigenvalue() / n);
+    return {spread.largest_eigenvalue(), radians(std::atan(3.0 * slope))};
+}
+
+/// How far off a plane a point of it may be, in standard deviations of a range.
+inline constexpr double off_plane = 2.5;
+
+/// Those of some points that are on the plane of a sample of them, as far as noise lets them.
+/// @param points   a position_view of the cloud
+/// @param members  indices of points of it
+/// Complexity: O(n).
+[[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
+                                                       std::span<const point_index> members,
+                                                       const plane_sample& sample, double sigma) {
+    const sight_axes axes = axes_towards(sample);
+    const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
+    std::vector<point_index> on;
+    for (const point_index i : members)
+        if (std::abs(dot(off, difference(points[i], sample.mean))) <= off_plane * sigma)
+            on.push_back(i);
+    return on;
+}
+
 /// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
-/// at the edges: what is off the plane by more than 2.5 standard deviations of a range is left out,
-/// again and again, unless that is most of what was left. Of none if no point is finite.
+/// at the edges: what is off the plane is left out, again and again, unless that is most of what
+/// was left. Of none if no point is finite.
 /// @param points   a position_view of the cloud
 /// @param members  indices of the points of the segment
 /// Complexity: O(n).
@@ -11256,7 +11288,7 @@ struct depth_regression {
         const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
         const Eigen::Vector3d middle = difference(sample.mean, origin);
         take([&](const Eigen::Vector3d& d) {
-            return std::abs(dot(off, difference(d, middle))) <= 2.5 * sigma;
+            return std::abs(dot(off, difference(d, middle))) <= off_plane * sigma;
         });
     }
     return sample;
@@ -11297,8 +11329,9 @@ class plane_comparison {
         // What is hardly wider than noise became a segment by chance, and its points are no fair
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
-        tolerated_offset_ =
-            (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
+        tolerated_offset_ = no_noise * sigma;
+        if (b.spread.largest_eigenvalue() < 9.0 * variance)
+            tolerated_offset_ = std::max(cosine * chosen * sigma, tolerated_offset_);
     }
 
     /// How far the slim one is off the plane of both, or of the wide one [m].
@@ -11361,7 +11394,8 @@ class plane_comparison {
 /// is certainly of two planes is not joined by way of a third segment that may be of both. A narrow
 /// gap, which the thesis closes whatever is seen in it, stays open where something farther is
 /// (specification of it, A15 to A19); and whether two segments are in one plane is asked of their
-/// ranges, as far as noise lets them tell. merge_occluded_literally is the algorithm to the letter.
+/// ranges, as far as noise lets them tell, and, of what adjoins, of its normals.
+/// merge_occluded_literally is the algorithm to the letter.
 
 namespace gnomon {
 
@@ -11396,19 +11430,37 @@ struct merged_segments {
 
 namespace detail {
 
+/// Normals of points of which none has one.
+struct no_normals {
+    struct element {
+        Eigen::Vector3d normal{0.0, 0.0, 0.0};
+    };
+    [[nodiscard]] element operator[](std::size_t) const { return {}; }
+};
+
 /// One run of the algorithm.
-template <class R, merge_policy M, class Proj>
+template <class R, class Normals, merge_policy M, class Proj>
 class occlusion_merger {
   public:
-    occlusion_merger(const R& points, const segments& parts, const lines_of_sight& sights,
-                     const M& policy, const occlusion_merging& options, Proj projection)
+    occlusion_merger(const R& points, const Normals& normals, const segments& parts,
+                     const lines_of_sight& sights, const M& policy,
+                     const occlusion_merging& options, Proj projection)
         : range_(points),
           projection_(std::move(projection)),
           points_(points, projection_),
+          normals_(normals),
           sights_(sights),
           viewpoints_(viewpoints_of(points)),
           policy_(policy),
           options_(options) {
+        require(parts.labels().size() == points_.size(),
+                "merge_occluded: the segments are of other points");
+        require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
+                "merge_occluded: the number of boundary pairs must be even and not 0");
+        require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
+                    options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
+                "merge_occluded: a threshold is negative or NaN");
+        require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
         for (std::size_t s = 0; s < parts.size(); ++s)
             surfaces_.push_back(surface_of({parts[s].begin(), parts[s].end()}));
     }
@@ -11423,15 +11475,31 @@ class occlusion_merger {
     /// A segment as it is in a round.
     struct surface {
         std::vector<point_index> members;
+        std::vector<point_index> on_plane;  ///< of these, once asked for
         principal_frame frame;
         plane_sample plane;
-        bool is_new = true;  ///< since the round before
+        Eigen::Vector3d normals;  ///< the sum of those of its points
+        bool is_spot;             ///< narrower than noise
+        bool is_known;            ///< tells the direction of its plane by itself
+        bool is_new = true;       ///< since the round before
     };
 
     [[nodiscard]] surface surface_of(std::vector<point_index> members) const {
         const auto frame = principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
         const auto plane = plane_sample_of(points_, members, viewpoints_, options_.sigma);
-        return {std::move(members), frame, plane};
+        Eigen::Vector3d normals(0.0, 0.0, 0.0);
+        for (const point_index i : members) {
+            const Eigen::Vector3d normal = normals_[i].normal;
+            if (is_finite(normal)) normals = combined(1.0, normals, 1.0, normal);
+        }
+        const plane_knowledge known = knowledge_of(plane, options_.sigma);
+        return {.members = std::move(members),
+                .on_plane = {},
+                .frame = frame,
+                .plane = plane,
+                .normals = normals,
+                .is_spot = known.squared_width < options_.sigma * options_.sigma,
+                .is_known = known.direction <= options_.max_angle};
     }
 
     /// A gap that may be closed.
@@ -11446,17 +11514,18 @@ class occlusion_merger {
     bool merge_once() {
         std::vector<link> links;
         for (const auto& [i, j] : pairs_to_compare(
-                 surfaces_, options_.candidates, [this](const auto& f) { return is_flat(f); },
+                 surfaces_, options_.candidates, [this](const surface& s) { return is_flat(s); },
                  &surface::frame)) {
-            const surface &a = surfaces_[i], &b = surfaces_[j];
+            surface &a = surfaces_[i], &b = surfaces_[j];
             if (!a.is_new && !b.is_new) continue;
             const plane_comparison planes = planes_of(a, b);
             if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
-                boundary_pairs(points_, a.members, b.members, {a.frame.centroid, b.frame.centroid},
-                               options_.boundary_pairs),
+                boundary_pairs(points_, body_of(a), body_of(b),
+                               {a.frame.centroid, b.frame.centroid}, options_.boundary_pairs),
                 false};
-            if (is_closed(gap.lines)) links.push_back({i, j, planes.offset(), gaps_.size()});
+            if (is_closed(gap.lines, may_adjoin(a, b)))
+                links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
         }
         if (links.empty()) return false;
@@ -11488,10 +11557,32 @@ class occlusion_merger {
         return sets;
     }
 
-    /// A segment no thicker than twice the noise is flat, whatever its variation.
-    [[nodiscard]] bool is_flat(const principal_frame& a) const {
-        return a.spectrum.surface_variation() <= options_.max_variation ||
-               a.spectrum.lambda[2] <= 4.0 * options_.sigma * options_.sigma;
+    /// A segment is flat, whatever its variation, if three points in four are in one plane, no
+    /// thicker than twice the noise: the others may be round a corner.
+    [[nodiscard]] bool is_flat(const surface& s) const {
+        return s.frame.spectrum.surface_variation() <= options_.max_variation ||
+               (4 * s.plane.count >= 3 * s.members.size() &&
+                symmetric_eigen(s.plane.covariance).values[2] <=
+                    4.0 * options_.sigma * options_.sigma);
+    }
+
+    /// The points that a gap begins at: those on the plane, if they are three in four.
+    [[nodiscard]] std::span<const point_index> body_of(surface& s) const {
+        if (s.on_plane.empty())
+            s.on_plane = points_on_plane(points_, s.members, s.plane, options_.sigma);
+        return 4 * s.on_plane.size() >= 3 * s.members.size() ? s.on_plane : s.members;
+    }
+
+    /// Whether two surfaces that nothing hides between may go on in one another. What is hardly
+    /// wider than noise tells too little of its plane for that: its normals must be like those of
+    /// the other, and near a right angle are blended by half of it at most; those of a spot are
+    /// noise, so that the other must be known.
+    [[nodiscard]] static bool may_adjoin(const surface& a, const surface& b) {
+        if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
+        constexpr double blended = 0.5;                   // the square of the cosine of 45 degrees
+        const double cosine = dot(a.normals, b.normals);  // times both lengths
+        return cosine >= 0.0 &&
+               cosine * cosine >= blended * dot(a.normals, a.normals) * dot(b.normals, b.normals);
     }
 
     [[nodiscard]] plane_comparison planes_of(const surface& a, const surface& b) const {
@@ -11499,9 +11590,9 @@ class occlusion_merger {
         return {(first ? a : b).plane, (first ? b : a).plane, options_.sigma};
     }
 
-    /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow,
-    /// by whoever merges unless something farther is seen.
-    [[nodiscard]] bool is_closed(std::span<const boundary_pair> lines) const {
+    /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow
+    /// and its sides may adjoin, by whoever merges unless something farther is seen.
+    [[nodiscard]] bool is_closed(std::span<const boundary_pair> lines, bool may_adjoin) const {
         std::size_t accepted = 0, passable = 0;
         for (const boundary_pair& line : lines) {
             const Eigen::Vector3d v =
@@ -11513,7 +11604,8 @@ class occlusion_merger {
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
         return 2 * accepted > lines.size() ||
-               (coplanar_distance(lines) < options_.max_gap && 2 * passable > lines.size());
+               (may_adjoin && coplanar_distance(lines) < options_.max_gap &&
+                2 * passable > lines.size());
     }
 
     /// Makes one segment of each set.
@@ -11538,6 +11630,7 @@ class occlusion_merger {
     const R& range_;
     Proj projection_;
     position_view<R, Proj> points_;
+    const Normals& normals_;
     const lines_of_sight& sights_;
     viewpoint_table viewpoints_;
     const M& policy_;
@@ -11550,28 +11643,38 @@ class occlusion_merger {
 
 /// Merges flat segments that are one surface behind something.
 ///
-/// @param points  any point range of n points; their view points as in `lines_of_sight`
-/// @param parts   segments of these points
-/// @param sights  what was seen from where, best by the whole cloud
-/// @param policy  `conservative`, `liberal` or another
-/// @throws std::invalid_argument  if the segments are of another number of points, for an odd or no
-///                                number of boundary pairs, or a negative or NaN threshold
+/// @param points   any point range of n points; their view points as in `lines_of_sight`
+/// @param surface  their n surface elements, or anything with normals, towards the view points;
+/// what
+///                 has none is judged without
+/// @param parts    segments of these points
+/// @param sights   what was seen from where, best by the whole cloud
+/// @param policy   `conservative`, `liberal` or another
+/// @throws std::invalid_argument  if the surface or the segments are of another number of points,
+///                                for an odd or no number of boundary pairs, a negative or NaN
+///                                threshold, or a sigma that is not greater than 0
 /// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
+template <class R, normal_range Surface, merge_policy M = conservative, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] merged_segments merge_occluded(const R& points, const Surface& surface,
+                                             const segments& parts, const lines_of_sight& sights,
+                                             const M& policy = {},
+                                             const occlusion_merging& options = {},
+                                             Proj projection = {}) {
+    detail::require(std::ranges::size(surface) == parts.labels().size(),
+                    "merge_occluded: the surface is of other points");
+    return detail::occlusion_merger(points, surface, parts, sights, policy, options,
+                                    std::move(projection))();
+}
+
+/// The same where normals are not at hand: of what is slim more that only adjoins is merged.
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] merged_segments merge_occluded(const R& points, const segments& parts,
                                              const lines_of_sight& sights, const M& policy = {},
                                              const occlusion_merging& options = {},
                                              Proj projection = {}) {
-    detail::require(parts.labels().size() == position_view<R, Proj>(points, projection).size(),
-                    "merge_occluded: the segments are of other points");
-    detail::require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
-                    "merge_occluded: the number of boundary pairs must be even and not 0");
-    detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
-                        options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
-                    "merge_occluded: a threshold is negative or NaN");
-    detail::require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
-    return detail::occlusion_merger(points, parts, sights, policy, options,
+    return detail::occlusion_merger(points, detail::no_normals{}, parts, sights, policy, options,
                                     std::move(projection))();
 }
 
@@ -13052,7 +13155,8 @@ namespace detail {
         else
             result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
     }
-    if (result.size() < 3) text.fail("fewer than three columns");
+    if (result.size() < 3)
+        text.fail("fewer than three columns; besides text, PLY, PCD and legacy VTK can be read");
     return result;
 }
 
@@ -13395,8 +13499,8 @@ struct perception {
             result.seconds.merging = seconds_of([&] {
                 // What was left out hides and shows as much as the rest.
                 const lines_of_sight seen(points, sights, projection);
-                merged_segments merged =
-                    merge_occluded(points, result.fragments, seen, merge, merging, projection);
+                merged_segments merged = merge_occluded(points, result.surface, result.fragments,
+                                                        seen, merge, merging, projection);
                 result.surfaces = std::move(merged.segments);
                 result.gaps = std::move(merged.gaps);
             });

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cmath>
 #include <cstdint>
 #include <numeric>
 #include <vector>
@@ -148,6 +149,44 @@ TEST(plane_sample, leaves_out_what_adjoins) {
     EXPECT_EQ(all.count, clean.count);
     EXPECT_NEAR((all.mean - clean.mean).norm(), 0.0, 1e-12);
     EXPECT_NEAR((all.covariance - clean.covariance).norm(), 0.0, 1e-12);
+}
+
+/// Noise lies along the rays: at a grazing angle it moves nothing off its plane, be it ever so
+/// slim.
+TEST(plane_comparison, tolerates_less_at_a_slant) {
+    const seen_rectangle board{{4.0, 0.0, -0.4}, {1.0, 0, 0}, {0, 0.4, 0}};
+    const seen_rectangle beside{{4.0, 0.3, -0.4}, {0.3, 0, 0}, {0, 0.1, 0}};
+    const seen_rectangle above{{4.0, 0.3, -0.385}, {0.3, 0, 0}, {0, 0.1, 0}};
+    EXPECT_GE(found_in_one_plane(board, beside), 90);
+    EXPECT_LE(found_in_one_plane(board, above), 5);
+}
+
+/// A wall tells its direction and a spot does not; a strip tells it one way only.
+TEST(plane_knowledge, is_of_direction_and_width) {
+    const auto known = [](const seen_rectangle& seen) {
+        return gnomon::detail::knowledge_of(sample_of(seen.points(1)), sigma);
+    };
+    const auto wall = known({{3, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}});
+    const auto strip = known({{3, 0, 0}, {0, 0.5, 0}, {0, 0, 0.02}});
+    const auto spot = known({{3, 0, 0}, {0, 0.02, 0}, {0, 0, 0.02}});
+    EXPECT_LT(wall.direction.degrees(), 2.0);
+    EXPECT_GT(strip.direction.degrees(), 15.0);
+    EXPECT_GT(spot.direction.degrees(), 15.0);
+    EXPECT_NEAR(std::sqrt(wall.squared_width), 0.5 / std::sqrt(12), 0.01);
+    EXPECT_NEAR(std::sqrt(strip.squared_width), 0.5 / std::sqrt(12), 0.01);
+    EXPECT_NEAR(std::sqrt(spot.squared_width), 0.02 / std::sqrt(12), 0.001);
+}
+
+/// What adjoins a wall at a right angle is not on its plane.
+TEST(points_on_plane, leaves_out_what_adjoins) {
+    clouds::cloud points = seen_rectangle{{3, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}}.points(1);
+    for (int i = 0; i < 10; ++i) points.push_back({2.7 + 0.02 * i, 0.25, 0.05 * i});
+    points.push_back({clouds::nan, 0.0, 0.0});
+    std::vector<gnomon::point_index> all(points.size());
+    std::iota(all.begin(), all.end(), gnomon::point_index{0});
+    const auto on = gnomon::detail::points_on_plane(points, all, sample_of(points), sigma);
+    EXPECT_GE(on.size(), 95u);
+    EXPECT_LT(on.back(), 100u);
 }
 
 }  // namespace

@@ -113,8 +113,10 @@ TEST(mended_rooms, second_run_changes_nothing) {
     for (std::uint64_t seed = 1; seed <= seeds_of_rooms; ++seed) {
         for (const perceived_room& r : {perceived_kitchen(seed), perceived_living_room(seed)}) {
             const gnomon::lines_of_sight sights(r.truth.scan);
-            const auto once = gnomon::merge_occluded(r.truth.scan, r.seen.fragments, sights);
-            const auto again = gnomon::merge_occluded(r.truth.scan, once.segments, sights);
+            const auto once =
+                gnomon::merge_occluded(r.truth.scan, r.seen.surface, r.seen.fragments, sights);
+            const auto again =
+                gnomon::merge_occluded(r.truth.scan, r.seen.surface, once.segments, sights);
             EXPECT_EQ(again.segments.labels(), once.segments.labels());
         }
     }

@@ -41,7 +41,7 @@ TEST(perception, is_its_steps) {
     gnomon::repair_anisotropic(rest, surface, gnomon::knn{}, gnomon::plane_pca{});
     gnomon::orient_normals(rest, surface);
     const gnomon::segments parts = gnomon::segment_surfaces(rest, surface);
-    const auto merged = gnomon::merge_occluded(rest, parts, gnomon::lines_of_sight(scan));
+    const auto merged = gnomon::merge_occluded(rest, surface, parts, gnomon::lines_of_sight(scan));
     const gnomon::segments whole = gnomon::claim_strays(rest, merged.segments);
 
     std::vector<bool> left_out(scan.size(), true);

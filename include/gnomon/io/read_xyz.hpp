@@ -59,7 +59,8 @@ namespace detail {
         else
             result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
     }
-    if (result.size() < 3) text.fail("fewer than three columns");
+    if (result.size() < 3)
+        text.fail("fewer than three columns; besides text, PLY, PCD and legacy VTK can be read");
     return result;
 }
 

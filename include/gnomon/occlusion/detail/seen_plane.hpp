@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -106,9 +107,41 @@ struct depth_regression {
     }
 };
 
+/// What a segment tells of its plane by itself.
+struct plane_knowledge {
+    double squared_width;  ///< variance of the places across the sight, the way it is wider [m^2]
+    angle direction;       ///< three standard deviations of that of the plane
+};
+
+[[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
+    const matrix_across spread = depth_regression(sample, axes_towards(sample)).spread;
+    const auto n = static_cast<double>(sample.count);
+    const double slope = sigma * std::sqrt(spread.inverse().largest_eigenvalue() / n);
+    return {spread.largest_eigenvalue(), radians(std::atan(3.0 * slope))};
+}
+
+/// How far off a plane a point of it may be, in standard deviations of a range.
+inline constexpr double off_plane = 2.5;
+
+/// Those of some points that are on the plane of a sample of them, as far as noise lets them.
+/// @param points   a position_view of the cloud
+/// @param members  indices of points of it
+/// Complexity: O(n).
+[[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
+                                                       std::span<const point_index> members,
+                                                       const plane_sample& sample, double sigma) {
+    const sight_axes axes = axes_towards(sample);
+    const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
+    std::vector<point_index> on;
+    for (const point_index i : members)
+        if (std::abs(dot(off, difference(points[i], sample.mean))) <= off_plane * sigma)
+            on.push_back(i);
+    return on;
+}
+
 /// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
-/// at the edges: what is off the plane by more than 2.5 standard deviations of a range is left out,
-/// again and again, unless that is most of what was left. Of none if no point is finite.
+/// at the edges: what is off the plane is left out, again and again, unless that is most of what
+/// was left. Of none if no point is finite.
 /// @param points   a position_view of the cloud
 /// @param members  indices of the points of the segment
 /// Complexity: O(n).
@@ -141,7 +174,7 @@ struct depth_regression {
         const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
         const Eigen::Vector3d middle = difference(sample.mean, origin);
         take([&](const Eigen::Vector3d& d) {
-            return std::abs(dot(off, difference(d, middle))) <= 2.5 * sigma;
+            return std::abs(dot(off, difference(d, middle))) <= off_plane * sigma;
         });
     }
     return sample;
@@ -182,8 +215,9 @@ class plane_comparison {
         // What is hardly wider than noise became a segment by chance, and its points are no fair
         // sample of the noise.
         constexpr double chosen = 1.0;  // in standard deviations
-        tolerated_offset_ =
-            (b.spread.largest_eigenvalue() < 9.0 * variance ? chosen : no_noise) * sigma;
+        tolerated_offset_ = no_noise * sigma;
+        if (b.spread.largest_eigenvalue() < 9.0 * variance)
+            tolerated_offset_ = std::max(cosine * chosen * sigma, tolerated_offset_);
     }
 
     /// How far the slim one is off the plane of both, or of the wide one [m].

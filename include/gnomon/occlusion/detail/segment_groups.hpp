@@ -22,8 +22,9 @@ namespace gnomon::detail {
 
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// @param all    something of each segment
-/// @param frame  the principal_frame of that
+/// @param all      something of each segment
+/// @param is_flat  of that
+/// @param frame    the principal_frame of that
 template <class Segment, class Frame = std::identity>
 [[nodiscard]] std::vector<std::pair<point_index, point_index>> pairs_to_compare(
     const std::vector<Segment>& all, std::size_t wanted, auto&& is_flat, Frame&& frame = {}) {
@@ -31,10 +32,9 @@ template <class Segment, class Frame = std::identity>
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
-        const principal_frame& of = std::invoke(frame, all[s]);
-        if (!is_flat(of)) continue;
+        if (!is_flat(all[s])) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(of.centroid);
+        centroids.push_back(std::invoke(frame, all[s]).centroid);
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     const kd_tree tree(centroids);
