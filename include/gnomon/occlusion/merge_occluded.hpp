@@ -123,28 +123,34 @@ class occlusion_merger {
         std::vector<point_index> on_plane;  ///< of these, once asked for
         principal_frame frame;
         plane_sample plane;
-        Eigen::Vector3d normals;  ///< the sum of those of its points
-        bool is_spot;             ///< narrower than noise
-        bool is_known;            ///< tells the direction of its plane by itself
-        bool is_new = true;       ///< since the round before
+        Eigen::Vector3d normal;  ///< of its plane, or else the sum of those of its points
+        bool is_spot;            ///< narrower than noise
+        bool is_known;           ///< tells the direction of its plane by itself
+        bool is_new = true;      ///< since the round before
     };
 
     [[nodiscard]] surface surface_of(std::vector<point_index> members) const {
         const auto frame = principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
         const auto plane = plane_sample_of(points_, members, viewpoints_, options_.sigma);
-        Eigen::Vector3d normals(0.0, 0.0, 0.0);
-        for (const point_index i : members) {
-            const Eigen::Vector3d normal = normals_[i].normal;
-            if (is_finite(normal)) normals = combined(1.0, normals, 1.0, normal);
-        }
         const plane_knowledge known = knowledge_of(plane, options_.sigma);
+        const bool is_known = known.direction <= options_.max_angle;
+        const Eigen::Vector3d normal = is_known ? known.normal : sum_of_normals(members);
         return {.members = std::move(members),
                 .on_plane = {},
                 .frame = frame,
                 .plane = plane,
-                .normals = normals,
+                .normal = normal,
                 .is_spot = known.squared_width < options_.sigma * options_.sigma,
-                .is_known = known.direction <= options_.max_angle};
+                .is_known = is_known};
+    }
+
+    [[nodiscard]] Eigen::Vector3d sum_of_normals(std::span<const point_index> members) const {
+        Eigen::Vector3d sum(0.0, 0.0, 0.0);
+        for (const point_index i : members) {
+            const Eigen::Vector3d normal = normals_[i].normal;
+            if (is_finite(normal)) sum = combined(1.0, sum, 1.0, normal);
+        }
+        return sum;
     }
 
     /// A gap that may be closed.
@@ -224,10 +230,10 @@ class occlusion_merger {
     /// noise, so that the other must be known.
     [[nodiscard]] static bool may_adjoin(const surface& a, const surface& b) {
         if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
-        constexpr double blended = 0.5;                   // the square of the cosine of 45 degrees
-        const double cosine = dot(a.normals, b.normals);  // times both lengths
+        constexpr double blended = 0.5;                 // the square of the cosine of 45 degrees
+        const double cosine = dot(a.normal, b.normal);  // times both lengths
         return cosine >= 0.0 &&
-               cosine * cosine >= blended * dot(a.normals, a.normals) * dot(b.normals, b.normals);
+               cosine * cosine >= blended * dot(a.normal, a.normal) * dot(b.normal, b.normal);
     }
 
     [[nodiscard]] plane_comparison planes_of(const surface& a, const surface& b) const {

@@ -109,15 +109,18 @@ struct depth_regression {
 
 /// What a segment tells of its plane by itself.
 struct plane_knowledge {
-    double squared_width;  ///< variance of the places across the sight, the way it is wider [m^2]
-    angle direction;       ///< three standard deviations of that of the plane
+    double squared_width;    ///< variance of the places across the sight, the way it is wider [m^2]
+    angle direction;         ///< three standard deviations of that of the plane
+    Eigen::Vector3d normal;  ///< towards the view point, not of unit length
 };
 
 [[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
-    const matrix_across spread = depth_regression(sample, axes_towards(sample)).spread;
+    const sight_axes axes = axes_towards(sample);
+    const depth_regression plane(sample, axes);
     const auto n = static_cast<double>(sample.count);
-    const double slope = sigma * std::sqrt(spread.inverse().largest_eigenvalue() / n);
-    return {spread.largest_eigenvalue(), radians(std::atan(3.0 * slope))};
+    const double slope = sigma * std::sqrt(plane.spread.inverse().largest_eigenvalue() / n);
+    return {plane.spread.largest_eigenvalue(), radians(std::atan(3.0 * slope)),
+            scaled(-1.0, plane.normal(axes))};
 }
 
 /// How far off a plane a point of it may be, in standard deviations of a range.
