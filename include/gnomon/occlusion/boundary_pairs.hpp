@@ -48,6 +48,27 @@ template <class Points>
     return nearest;
 }
 
+/// For each of some points, the one of others that is nearest; of finite ones only. In one pass
+/// over these, as they may be many. Precondition: there is a finite one.
+template <class Points>
+[[nodiscard]] std::vector<neighbor> nearest_to_each(const Points& points,
+                                                    std::span<const neighbor> some,
+                                                    std::span<const point_index> others) {
+    std::vector<Eigen::Vector3d> places;
+    for (const neighbor& p : some) places.push_back(points[p.index]);
+    constexpr neighbor none{std::numeric_limits<double>::infinity(),
+                            std::numeric_limits<point_index>::max()};
+    std::vector<neighbor> nearest(some.size(), none);
+    for (const point_index i : others) {
+        const Eigen::Vector3d other = points[i];
+        for (std::size_t k = 0; k < places.size(); ++k) {
+            const neighbor candidate{squared_distance(other, places[k]), i};
+            if (candidate < nearest[k] && is_finite(other)) nearest[k] = candidate;
+        }
+    }
+    return nearest;
+}
+
 }  // namespace detail
 
 /// The boundary pairs of two segments of some points: half of them from each side.
@@ -67,14 +88,13 @@ template <class Points>
     const auto near_first = detail::nearest_of(points, second, centroids.first, pairs / 2);
     std::vector<boundary_pair> found;
     if (near_second.empty() || near_first.empty()) return found;
-    for (const neighbor& p : near_second) {
-        const neighbor q = detail::nearest_of(points, second, points[p.index], 1).front();
-        found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
-    }
-    for (const neighbor& q : near_first) {
-        const neighbor p = detail::nearest_of(points, first, points[q.index], 1).front();
-        found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
-    }
+    const auto across = detail::nearest_to_each(points, near_second, second);
+    for (std::size_t k = 0; k < across.size(); ++k)
+        found.push_back(
+            {near_second[k].index, across[k].index, std::sqrt(across[k].squared_distance)});
+    const auto back = detail::nearest_to_each(points, near_first, first);
+    for (std::size_t k = 0; k < back.size(); ++k)
+        found.push_back({back[k].index, near_first[k].index, std::sqrt(back[k].squared_distance)});
     return found;
 }
 
