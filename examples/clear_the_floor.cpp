@@ -13,13 +13,17 @@
 
 int main() {
     const gnomon::scene room = gnomon::scenes::furnished_room({.seed = 4});
-    const gnomon::vertical trajectory{.mount = room.sensor};
+    const gnomon::vertical nod{.mount = room.sensor};
+    const auto trajectory = gnomon::along(4.0, [&](double seconds) {  // driving while it nods
+        return gnomon::at(0.1 * seconds, 0, 0) * nod(seconds);
+    });
     const auto scan = gnomon::simulate(room, trajectory, {}, {.sigma = 0.005}).scan;
 
     // [clear_the_floor]
     // Points and view points as they may lie in your memory.
     const std::vector<Eigen::Vector3d>& points = scan.points;
-    const std::vector<Eigen::Vector3d> seen_from(points.size(), room.sensor.position);
+    std::vector<Eigen::Vector3d> seen_from;
+    for (std::size_t i = 0; i < points.size(); ++i) seen_from.push_back(scan.viewpoints[i]);
     const auto cloud = gnomon::with_viewpoints(points, gnomon::viewpoint_table(seen_from));
 
     auto surface = gnomon::estimate_normals(cloud, gnomon::knn{.k = 30}, gnomon::plane_pca{},

@@ -21,8 +21,9 @@ int main() {
 
     std::printf("%zu fragments are %zu surfaces\n", seen.fragments.size(), seen.surfaces.size());
     for (const gnomon::considered_gap& gap : seen.gaps) {
-        if (gap.merged)
-            std::printf("a gap of %.2f m is closed\n", gnomon::coplanar_distance(gap.lines));
+        std::printf("a gap of %.2f m, %zu of %zu places in it hidden: %s\n",
+                    gnomon::coplanar_distance(gap.lines), gap.seen[gnomon::sighting::closer],
+                    gap.seen.total(), gap.merged ? "closed" : "left open");
     }
     // [mend_surfaces]
     std::printf("normals %.3f s, segmentation %.3f s, merging %.3f s\n", seen.seconds.normals,

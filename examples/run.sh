@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
-# Installs what is missing, builds the examples, and segments a scan:
+# Installs what is missing, builds the example segment_scan, and segments a scan:
 #     sh examples/run.sh [SCAN] [--out DIR]
 # The options are those of segment_scan; without --out, results go to segment_scan_out.
 set -eu
@@ -18,7 +18,7 @@ set_up $build_packages $example_packages
     else
         cmake --preset release -D GNOMON_BUILD_TESTS=OFF -D CMAKE_COMPILE_WARNING_AS_ERROR=OFF
     fi
-    cmake --build --preset release --target examples
+    cmake --build --preset release --target segment_scan
 )
 
 out_given=false

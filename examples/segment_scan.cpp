@@ -55,11 +55,10 @@ result surfaces_of(const gnomon::scan& scan, const options& o) {
                 .neighborhood = o.neighborhood,
                 .merge = merge,
                 .segmentation = o.segmentation,
-                .merging = {.sigma = o.sigma},
-                .sights = {.sigma = o.sigma},
                 .leave_out = leave_out,
-                .strays = gnomon::stray_claiming{.sigma = o.sigma}};
-            return chain(scan, o.threads);
+                .releasing = gnomon::stray_releasing{.min_points = o.segmentation.min_points},
+                .round = gnomon::round_joining{.min_points = o.segmentation.min_points}};
+            return chain.with_sigma(o.sigma)(scan, o.threads);
         },
         o.merge);
 }

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -38,17 +39,21 @@ gnomon::true_scan scan_of(const gnomon::scene& world, const gnomon::bvh_caster& 
     }));
 }
 
+/// How a policy does.
+struct policy_tally : merge_tallies {
+    merge_tally of_planes;  ///< each pair as one, where a true plane is one surface
+};
+
 /// How all policies do in one scan, or in many.
 struct outcome {
-    std::array<merge_tallies, policies.size()> tallies{};
-    std::array<merge_tally, policies.size()> of_planes{};  ///< where a true plane is one
+    std::array<policy_tally, policies.size()> tallies{};
     std::size_t fragments = 0, mixed = 0;
 
     outcome& operator+=(const outcome& o) {
         for (std::size_t p = 0; p < policies.size(); ++p) {
             tallies[p].pairs.add(o.tallies[p].pairs, 1.0);
             tallies[p].by_points.add(o.tallies[p].by_points, 1.0);
-            of_planes[p].add(o.of_planes[p], 1.0);
+            tallies[p].of_planes.add(o.tallies[p].of_planes, 1.0);
         }
         fragments += o.fragments;
         mixed += o.mixed;
@@ -62,7 +67,10 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     const gnomon::bvh_caster caster(world);
     const gnomon::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
     const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::unmerged> chain{
-        .leave_out = gnomon::floor_and_ceiling{}, .strays = std::nullopt};
+        .leave_out = gnomon::floor_and_ceiling{},
+        .strays = std::nullopt,
+        .releasing = std::nullopt,
+        .round = std::nullopt};
     const auto seen = chain(truth.scan);
     const gnomon::segments& parts = seen.fragments;
     const fragments known(caster, truth, parts);
@@ -75,8 +83,7 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     const gnomon::lines_of_sight sights(truth.scan);
     const gnomon::lines_of_sight upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
     const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
-        result.tallies[policy] = known.tally(merged);
-        result.of_planes[policy] = known_planes.tally(merged).pairs;
+        result.tallies[policy] = {known.tally(merged), known_planes.tally(merged).pairs};
     };
     const auto mend = [&](const auto& policy) {
         return gnomon::merge_occluded(truth.scan, seen.surface, parts, sights, policy).segments;
@@ -122,45 +129,38 @@ json measure(const effort& much) {
             return rounded(value, 3);
         };
         for (std::size_t p = 0; p < policies.size(); ++p) {
-            const auto precision = [p](const outcome& o) { return o.tallies[p].pairs.precision(); };
-            const auto recall = [p](const outcome& o) { return o.tallies[p].pairs.recall(); };
-            const auto precision_by_points = [p](const outcome& o) {
-                return o.tallies[p].by_points.precision();
+            using tally = merge_tally policy_tally::*;
+            const auto rate = [p](tally by, double (merge_tally::*rate_of)() const) {
+                return [=](const outcome& o) { return (o.tallies[p].*by.*rate_of)(); };
             };
-            const auto recall_by_points = [p](const outcome& o) {
-                return o.tallies[p].by_points.recall();
+            const auto precision = [&](tally by) { return rate(by, &merge_tally::precision); };
+            const auto recall = [&](tally by) { return rate(by, &merge_tally::recall); };
+            const auto count = [&](tally by, double merge_tally::*of) {
+                return rounded(mean([=](const outcome& o) { return o.tallies[p].*by.*of; }), 1);
             };
-            const auto precision_of_planes = [p](const outcome& o) {
-                return o.of_planes[p].precision();
-            };
-            const auto recall_of_planes = [p](const outcome& o) { return o.of_planes[p].recall(); };
-            const auto pairs = [&](double merge_tally::*count) {
-                return rounded(mean([=](const outcome& o) { return o.tallies[p].pairs.*count; }),
-                               1);
-            };
-            const auto pairs_of_planes = [&](double merge_tally::*count) {
-                return rounded(mean([=](const outcome& o) { return o.of_planes[p].*count; }), 1);
-            };
+            constexpr tally pairs = &policy_tally::pairs, points = &policy_tally::by_points,
+                            planes = &policy_tally::of_planes;
             scores.push_back({{"trajectory", trajectory},
                               {"policy", policies[p]},
-                              {"precision", rounded(mean(precision), 3)},
-                              {"least precision", least(precision)},
-                              {"recall", rounded(mean(recall), 3)},
-                              {"least recall", least(recall)},
-                              {"precision by points", rounded(mean(precision_by_points), 3)},
-                              {"recall by points", rounded(mean(recall_by_points), 3)},
-                              {"precision of planes", rounded(mean(precision_of_planes), 3)},
-                              {"recall of planes", rounded(mean(recall_of_planes), 3)}});
-            errors.push_back({{"trajectory", trajectory},
-                              {"policy", policies[p]},
-                              {"pairs torn apart", pairs(&merge_tally::wanted)},
-                              {"mended", pairs(&merge_tally::right)},
-                              {"wrongly merged", pairs(&merge_tally::wrong)},
-                              {"of two objects in one plane", pairs(&merge_tally::coplanar)},
-                              {"of planes less than 15 mm apart", pairs(&merge_tally::in_noise)},
-                              {"of planes: torn apart", pairs_of_planes(&merge_tally::wanted)},
-                              {"of planes: mended", pairs_of_planes(&merge_tally::right)},
-                              {"of planes: wrongly merged", pairs_of_planes(&merge_tally::wrong)}});
+                              {"precision", rounded(mean(precision(pairs)), 3)},
+                              {"least precision", least(precision(pairs))},
+                              {"recall", rounded(mean(recall(pairs)), 3)},
+                              {"least recall", least(recall(pairs))},
+                              {"precision by points", rounded(mean(precision(points)), 3)},
+                              {"recall by points", rounded(mean(recall(points)), 3)},
+                              {"precision of planes", rounded(mean(precision(planes)), 3)},
+                              {"recall of planes", rounded(mean(recall(planes)), 3)}});
+            errors.push_back(
+                {{"trajectory", trajectory},
+                 {"policy", policies[p]},
+                 {"pairs torn apart", count(pairs, &merge_tally::wanted)},
+                 {"mended", count(pairs, &merge_tally::right)},
+                 {"wrongly merged", count(pairs, &merge_tally::wrong)},
+                 {"of two objects in one plane", count(pairs, &merge_tally::coplanar)},
+                 {"of planes less than 15 mm apart", count(pairs, &merge_tally::in_noise)},
+                 {"of planes: torn apart", count(planes, &merge_tally::wanted)},
+                 {"of planes: mended", count(planes, &merge_tally::right)},
+                 {"of planes: wrongly merged", count(planes, &merge_tally::wrong)}});
         }
         scans.push_back(
             {{"trajectory", trajectory},

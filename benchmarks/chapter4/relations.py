@@ -77,7 +77,7 @@ def _(tables):
             all(near) and all(r["n"] == THESIS[r["data set"]][0] for r in rows))
 
 
-@relation("table_4_1", "4.1.2", "normals take longer than each other step, in every row",
+@relation("table_4_1", "4.1.2", "normals take longer than each other step of the thesis, in every row",
           "the bulk of the processing time is spent on the estimation of normal vectors",
           "a view point for each scan line is a range image for each scan line, which the thesis did "
           "not make")
@@ -224,9 +224,10 @@ DENSE_PLACES = (
     "one) 50 neighbors are within two or three centimetres, hardly more than 15 mm of noise: their "
     "normals say nothing, and such points get into no segment. They are many, but of little area. "
     "Without noise nothing is lacking (see the last table of Fig. 4.10)")
-RIMS = (
-    "they are found, but 50 of so few points reach over their rims: up to a third of a seat is left "
-    "out, or of its segment is beyond the seat")
+STRIP = (
+    "of chair 1 the table leaves a strip of 10 by 20 cm, 124 points: for one seed it falls apart into "
+    "two segments, of which the smaller is by a third the front of the board and turned by 20 degrees; "
+    "for another a tenth of it goes with a leg. Chair 4 holds for all")
 
 
 SURFACES = [  # program, id, claim, the thesis, surfaces, why
@@ -241,7 +242,7 @@ SURFACES = [  # program, id, claim, the thesis, surfaces, why
      ["cupboard/body/-x", "table/top/+z", "chair 2/seat/+z"], ""),
     ("fig_4_9", "4.9.4", "so are the seats that few scan lines meet, of chairs 1 and 4",
      "the right chair seat surface even though it is only covered by two scan lines",
-     ["chair 1/seat/+z", "chair 4/seat/+z"], RIMS),
+     ["chair 1/seat/+z", "chair 4/seat/+z"], STRIP),
     ("fig_4_10", "4.10.1", "the walls, the platform, the table top and the arms of armchairs are one "
      "segment each", "correctly segmented wall, table and armchair surfaces",
      ["room/wall +x/plane", "room/wall -y/plane", "room/wall +y/plane", "platform/body/+z",
@@ -250,17 +251,14 @@ SURFACES = [  # program, id, claim, the thesis, surfaces, why
      ["sideboard/body/-x"], DENSE_PLACES),
     ("fig_4_10", "4.10.3", "so is the vase",
      "the vase is segmented as one object, which demonstrates the ability to extract nonplanar "
-     "surfaces", ["vase/body/mantle"],
-     "where it stands here it has some 350 points, 3 cm apart, and 50 of them reach round a neck of "
-     "7 cm: from one point to the next normals turn by more than 5 degrees, even without any noise "
-     "and of four times the points (see the last table)"),
+     "surfaces", ["vase/body/mantle"], ""),
     ("fig_4_12", "4.12.1", "the wall behind the column is one segment in all three scans",
      "the wall behind the column is correctly mended into one segment", ["room/wall +x/plane"], ""),
     ("fig_4_12", "4.12.2", "so are the other walls and the column",
      "the walls have correctly been extracted",
      ["room/wall -y/plane", "room/wall +y/plane", "column/body/-x"], DENSE_PLACES),
     ("fig_4_12", "4.12.3", "so are the seats", "the seat surfaces have correctly been extracted",
-     ["chair 1/seat/+z", "chair 2/seat/+z"], RIMS),
+     ["chair 1/seat/+z", "chair 2/seat/+z"], ""),
 ]
 for *claim, surfaces, why in SURFACES:
     relation(*claim, why)(lambda tables, surfaces=surfaces: recovered(tables, *surfaces))
@@ -331,17 +329,6 @@ def _(tables):
     return f"{recall:.3f} ({by_trajectory})", recall >= 0.90
 
 
-@relation("merge_policies", "4.p.6", "every pair once, where a true plane is one surface, be it of two "
-          "objects: precision of 0.98 and recall of 0.90, of all trajectories together",
-          "(not measured)",
-          "(see 4.p.2)")
-def _(tables):
-    precision, recall = pooled(tables, "conservative",
-                               of=("of planes: torn apart", "of planes: mended",
-                                   "of planes: wrongly merged"))
-    return f"{precision:.3f} and {recall:.3f}", precision >= 0.98 and recall >= 0.90
-
-
 @relation("merge_policies", "4.p.4", "a sensor that moves: within two points of the one that does not "
           "(horizontal), precision and recall, by points", "(left for the future, Sec. 4.5)",
           "both have few pairs, some 50 in 100 rooms, so that a single one is two points")
@@ -358,6 +345,16 @@ def _(tables):
     rows = scores(tables, "conservative, to the letter", *STILL)
     return (told(rows, "precision", "recall"),
             all(r["precision"] < 0.98 and r["recall"] < 0.90 for r in rows))
+
+
+@relation("merge_policies", "4.p.6", "every pair once, where a true plane is one surface, be it of two "
+          "objects: precision of 0.98 and recall of 0.90, of all trajectories together",
+          "(not measured)", "what is merged wrongly, see 4.p.2; what is missed lies on two objects")
+def _(tables):
+    precision, recall = pooled(tables, "conservative",
+                               of=("of planes: torn apart", "of planes: mended",
+                                   "of planes: wrongly merged"))
+    return f"{precision:.3f} and {recall:.3f}", precision >= 0.98 and recall >= 0.90
 
 
 # ---- Planes by other libraries ------------------------------------------------------------------

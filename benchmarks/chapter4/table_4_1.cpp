@@ -70,7 +70,7 @@ json measure(const effort& much) {
              {"t_seg", rounded(median_of(seg), 5)},
              {"t_m", rounded(median_of(m), 5)},
              {"strays", rounded(median_of(c), 5)},
-             {"n_m", seen.fragments.size() - seen.surfaces.size()},
+             {"n_m", seen.fragments.size() - once.size()},
              {"n_s", seen.surfaces.size()},
              {"view points", sights.images().size()},
              {"gaps closed", merged},

@@ -36,11 +36,11 @@ template <class Estimate>
     return splats;
 }
 
-/// What to say of segments: their numbers of points, by label.
+/// What to say of segments: label and number of points.
 [[nodiscard]] inline std::vector<std::string> sizes_of(const gnomon::segments& segments) {
     std::vector<std::string> sizes;
     for (std::size_t label = 0; label < segments.size(); ++label)
-        sizes.push_back(with_commas(segments[label].size()));
+        sizes.push_back(std::to_string(label) + ": " + with_commas(segments[label].size()));
     return sizes;
 }
 
@@ -48,7 +48,7 @@ template <class Estimate>
 template <class Estimate>
 [[nodiscard]] annotation gaps_of(const gnomon::scan& scan,
                                  const gnomon::perceived<Estimate>& seen) {
-    constexpr color closed{20, 150, 60}, open{215, 30, 30};
+    constexpr color closed{0, 0, 0}, open{235, 0, 235};  // of no segment
     annotation lines;
     std::size_t merged = 0;
     for (const gnomon::considered_gap& gap : seen.gaps) {

@@ -29,7 +29,7 @@ segments.ply, segments.png and segments.json into DIR.
   --min-points N      smaller segments are noise (30)
   --merge POLICY      conservative: where something closer was seen in the gap (default);
                       liberal: unless something farther was seen; or none
-  --sigma M           noise across surfaces, for merging and stray points (0.015)
+  --sigma M           standard deviation of ranges, for merging and stray points (0.015)
   --viewpoint X,Y,Z   where the sensor stood (what SCAN says, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)

@@ -10,4 +10,5 @@
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
+#include <gnomon/occlusion/ray_spacing.hpp>
 #include <gnomon/occlusion/segment_distances.hpp>

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The whole way from a scan to its surfaces in one object: what is left out first, who a point's
-/// neighbors are, how a normal is estimated, what a smooth surface is and what becomes of surfaces
-/// torn by something in front. Each step is a policy of its own floor, and the result tells what
-/// each of them gave and how long it took (Klasing 2010, Fig. 4.2, Table 4.1).
+/// neighbors are, how a normal is estimated, what a smooth surface is, and what becomes of surfaces
+/// torn by something in front, of stray points and of round things. Each step is a policy of its
+/// own floor, and the result tells what each of them gave and how long it took (Klasing 2010,
+/// Fig. 4.2, Table 4.1).
 #pragma once
 
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -33,7 +35,9 @@
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/segmentation/claim_strays.hpp>
+#include <gnomon/segmentation/join_round.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
+#include <gnomon/segmentation/release_strays.hpp>
 #include <gnomon/segmentation/segments.hpp>
 #include <gnomon/segmentation/surface_segmentation.hpp>
 
@@ -56,7 +60,7 @@ struct perception_seconds {
     double normals = 0.0;        ///< and their repair and orientation
     double segmentation = 0.0;
     double merging = 0.0;   ///< and range images
-    double claiming = 0.0;  ///< of strays
+    double claiming = 0.0;  ///< and releasing, of strays, and joining of what is round
 };
 
 /// What was perceived in n points.
@@ -67,7 +71,7 @@ struct perceived {
     std::vector<point_index> kept;          ///< the points that were not left out, ascending
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
     segments fragments;                     ///< of the n points, before merging
-    segments surfaces;                      ///< after merging and claiming strays
+    segments surfaces;                      ///< after merging and all that follows it
     std::vector<considered_gap> gaps;       ///< what merging looked into
     perception_seconds seconds;
 };
@@ -76,9 +80,13 @@ struct perceived {
 ///
 /// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
 /// `merge_policy`, or `unmerged{}`. Name these three, and the types follow; by members, name the
-/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}`.
+/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}` or
+/// `perception<knn, plane_pca, liberal>{.sights = {.sigma = 0.01}}`.
 template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
 struct perception {
+    static_assert(merge_policy<Merge> || std::same_as<Merge, unmerged>,
+                  "perception: merge by a merge_policy, or by unmerged{}");
+
     Neighborhood neighborhood{};
     Estimator estimate{};
     Merge merge{};
@@ -90,11 +98,25 @@ struct perception {
     anisotropy_repair repair{};
     /// Points without a segment go to flat ones that they are of.
     std::optional<stray_claiming> strays = stray_claiming{};
+    /// Before that, flat segments free what is not of their planes.
+    std::optional<stray_releasing> releasing = stray_releasing{};
+    /// At the end, vases, cups and columns that fell apart become one segment each.
+    std::optional<round_joining> round = round_joining{};
+
+    /// The same chain for ranges of this standard deviation [m], in all steps that know of noise.
+    [[nodiscard]] perception with_sigma(double sigma) const {
+        perception chain = *this;
+        chain.merging.sigma = chain.sights.sigma = sigma;
+        if (chain.strays) chain.strays->sigma = sigma;
+        if (chain.releasing) chain.releasing->sigma = sigma;
+        if (chain.round) chain.round->sigma = sigma;
+        return chain;
+    }
 
     /// Perceives n points: any point range; their view points as everywhere.
     /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
     ///                                view point of a point with a normal is not finite
-    /// Complexity: that of the steps; normals are the dearest.
+    /// Complexity: that of the steps; normals are the dearest of most scans.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
@@ -122,14 +144,16 @@ struct perception {
                 result.gaps = std::move(merged.gaps);
             });
         }
-        if (strays) {
+        if (releasing || strays || round) {
             result.seconds.claiming = seconds_of([&] {
                 std::vector<std::int32_t> labels(kept.size());
                 for (std::size_t i = 0; i < kept.size(); ++i)
                     labels[i] = result.surfaces.labels()[result.kept[i]];
-                const segments claimed =
-                    claim_strays(kept, segments(std::move(labels)), *strays, run);
-                result.surfaces = segments(of_all(claimed.labels(), result.kept, n));
+                segments settled(std::move(labels));
+                if (releasing) settled = release_strays(kept, surface, settled, *releasing, run);
+                if (strays) settled = claim_strays(kept, settled, *strays, run);
+                if (round) settled = join_round(kept, surface, settled, *round, run);
+                result.surfaces = segments(of_all(settled.labels(), result.kept, n));
             });
         }
         return result;
@@ -183,7 +207,9 @@ struct perception {
 template <class Neighborhood, class Estimator, class Merge>
 perception(Neighborhood, Estimator, Merge, surface_segmentation = {}, occlusion_merging = {},
            sight_options = {}, std::optional<floor_and_ceiling> = std::nullopt,
-           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{})
+           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{},
+           std::optional<stray_releasing> = stray_releasing{},
+           std::optional<round_joining> = round_joining{})
     -> perception<Neighborhood, Estimator, Merge>;
 
 }  // namespace gnomon

@@ -409,6 +409,9 @@ namespace gnomon::detail {
     return {b[0] / size, b[1] / size, b[2] / size};
 }
 
+/// Whether the length of a can be calculated from its square, which neither under- nor overflows.
+[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
+
 /// M a
 [[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
     Eigen::Vector3d r;
@@ -428,7 +431,7 @@ namespace gnomon::detail {
 /// The diagonal matrix of a, b and c.
 [[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
     Eigen::Matrix3d m;
-    m.setZero();
+    std::fill_n(m.data(), 9, 0.0);
     m(0, 0) = a;
     m(1, 1) = b;
     m(2, 2) = c;
@@ -524,8 +527,9 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
 /// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
 struct moments {
     std::size_t count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2], its lower half
+    Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of d_j [m]
+    Eigen::Matrix3d outer =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of d_j d_j^T [m^2], its lower half
 
     /// Takes in the neighbor at `offset` [m] from the point.
     void add(const Eigen::Vector3d& offset) {
@@ -559,9 +563,10 @@ struct moments {
 
 /// The same with weights.
 struct weighted_moments {
-    double weight = 0.0;                              ///< sum of w_j
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of w_j d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of w_j d_j d_j^T [m^2], lower half
+    double weight = 0.0;                 ///< sum of w_j
+    Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of w_j d_j [m]
+    Eigen::Matrix3d outer =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of w_j d_j d_j^T [m^2], lower half
 
     /// Takes in what lies at `offset` [m] from the point, with weight `w`.
     void add(const Eigen::Vector3d& offset, double w) {
@@ -1156,7 +1161,7 @@ namespace gnomon {
 /// lambda_i = s_i^2 / m for the singular values s_i of the m x 3 matrix of centered points; for
 /// exactly planar sets the smallest is zero up to rounding of about 1e-16 times the largest.
 struct spectrum {
-    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+    Eigen::Vector3d lambda{0.0, 0.0, 0.0};
 
     spectrum() = default;
     /// Clamps what rounding made negative.
@@ -3004,7 +3009,7 @@ template <class Points>
 
 /// The square of the largest circumradius of the triangles of a closed star: all circles lie within
 /// twice its root about the origin.
-[[nodiscard]] inline double largest_squared_circumradius(std::span<const planar_point> star) {
+[[nodiscard]] inline double largest_squared_circumradius(const std::vector<planar_point>& star) {
     double largest = 0.0;
     for (std::size_t i = 0; i < star.size(); ++i) {
         const planar_point& a = star[i];
@@ -4044,6 +4049,7 @@ struct nearest_wanted {
     std::size_t k;
     tie_rule ties = tie_rule::by_index;
     double radius = std::numeric_limits<double>::infinity();  // [m]
+    const std::vector<bool>* of = nullptr;  // the points whose neighbors are looked for; of all
 };
 
 /// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
@@ -4057,24 +4063,29 @@ class leaf_search {
           k_(std::min(wanted.k, tree.size() - 1)),
           ties_(wanted.ties),
           radius_(wanted.radius),
+          of_(wanted.of),
           list_(tree) {}
 
-    /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
+    /// Calls visit(place, places of its k nearest) for each point of the group number `group` whose
+    /// neighbors are looked for.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t first = group * Tree::points_per_group;
         const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
-        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        for (std::size_t p = first; p < last; ++p)
+            if (of_ == nullptr || (*of_)[tree_.index()[p]]) waiting_.push_back(p);
+        if (waiting_.empty()) return;
         list_.enclose(waiting_);
-        // The box of the group, with its diagonal, holds that many neighbors of each.
-        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
+        // The box of these, with its diagonal, holds that many neighbors of each.
+        if (waiting_.size() > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
         reached_.clear();
         if (list_.half_diagonal() <= list_.widest * reach_ || !(reach_ > 0.0)) {
             find_waiting(visit);
         } else {
             // Far apart for what is near them, as where the group holds a stray: one by one.
-            for (std::size_t p = first; p < last; ++p) {
+            alone_ = waiting_;
+            for (const std::size_t p : alone_) {
                 waiting_.assign(1, p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
                 list_.enclose(waiting_);
@@ -4231,7 +4242,7 @@ class leaf_search {
         std::size_t kept = wanted;
         if (ties_ == tie_rule::all) {
             const auto nearest = std::span(doubtful_).first(std::min(most, doubtful_.size()));
-            std::ranges::sort(nearest, nearer);
+            std::sort(nearest.begin(), nearest.end(), nearer);
             kept = size_with_ties(nearest, wanted, most, [](const auto& d) { return d.first; });
         }
         for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
@@ -4242,12 +4253,13 @@ class leaf_search {
     std::size_t k_;
     tie_rule ties_;
     double radius_;
+    const std::vector<bool>* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
     double guess_ = 0.0;                                     // of the next one
     double reach_ = 0.0;                                     // within which leaves are listed [m]
     std::vector<double> reached_;                            // the k-th distances in a group [m]
-    std::vector<std::size_t> waiting_;
+    std::vector<std::size_t> waiting_, alone_;
     std::span<std::uint32_t> selected_;
     std::vector<float> between_;
     std::vector<std::pair<neighbor, std::size_t>> doubtful_;
@@ -4977,7 +4989,7 @@ concept normal_estimate = std::default_initializable<T> && requires(T& estimate)
 /// No more than that: of methods that give nothing else for free, and of bare vectors, which the
 /// driver normalises.
 struct normal_fit {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, or zero if not usable
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< unit length, or zero if not usable
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 };
 
@@ -5520,20 +5532,19 @@ struct averaging {
     triangle_sign sign = triangle_sign::from_order;
     [[no_unique_address]] Weight weight = {};
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
         const std::size_t k = ring.size();
         if (k < 2) return fit;
-        const Eigen::Vector3d to_viewpoint = viewpoint - p;
+        const Eigen::Vector3d to_viewpoint = detail::difference(viewpoint, p);
         // The fan is closed unless it ends at a boundary; of two neighbors there is one triangle.
         const std::size_t triangles = ring.open() || k == 2 ? k - 1 : k;
         Eigen::Vector3d sum(0.0, 0.0, 0.0);
         double weights = 0.0;
         for (std::size_t j = 0; j < triangles; ++j) {
-            const Eigen::Vector3d a = ring[j] - p;
-            const Eigen::Vector3d b = ring[j + 1 < k ? j + 1 : 0] - p;
+            const Eigen::Vector3d a = detail::difference(ring[j], p);
+            const Eigen::Vector3d b = detail::difference(ring[j + 1 < k ? j + 1 : 0], p);
             const Eigen::Vector3d c = detail::cross(a, b);
             const double double_area = detail::length(c);
             if (double_area == 0.0) continue;
@@ -6212,8 +6223,7 @@ struct tangent_basis {
 
     /// The 3 x 3 covariance of a covariance in the coordinates (b1, b2).
     [[nodiscard]] Eigen::Matrix3d in_space(double p11, double p12, double p22) const {
-        Eigen::Matrix3d p;
-        p.setZero();
+        Eigen::Matrix3d p = diagonal(0.0, 0.0, 0.0);
         add_outer(p, p11, b1, b1);
         add_outer(p, p12, b1, b2);
         add_outer(p, p12, b2, b1);
@@ -6230,7 +6240,8 @@ inline constexpr double grazing_cosine = 0.02;
 /// An estimate together with the covariance of its normal; zero where that is not usable.
 template <normal_estimate Estimate = normal_fit>
 struct with_covariance_of : Estimate {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [rad^2], covariance * normal = 0
+    Eigen::Matrix3d covariance =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< [rad^2], covariance * normal = 0
 
     /// The expected square of the angle between the normal and the true one [rad^2].
     [[nodiscard]] double trace() const {
@@ -6314,9 +6325,9 @@ struct literal_plane_ekf {
 
     /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
     ///                                there is a pass
-    [[nodiscard]] normal_belief operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_belief operator()(const Eigen::Vector3d& p, ring_view ring,
+                                           const Eigen::Vector3d& viewpoint = {0.0, 0.0,
+                                                                               0.0}) const {
         detail::require_sigma(sigma);
         detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
                         "literal_plane_ekf: needs a pass and a positive prior variance");
@@ -6604,13 +6615,13 @@ class ray_regression {
   private:
     double range_ = 0.0;
     trust status_ = trust::good;
-    Eigen::Vector3d e1_ = Eigen::Vector3d::Zero();
-    Eigen::Vector3d e2_ = Eigen::Vector3d::Zero();
-    Eigen::Vector3d e3_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d e1_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e2_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e3_{0.0, 0.0, 0.0};
     double w_ = 1.0, xi_ = 0.0, eta_ = 0.0, y_ = 0.0;
     double xx_ = 0.0, xe_ = 0.0, ee_ = 0.0, xy_ = 0.0, ey_ = 0.0;
     double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, aspect_ratio_ = 0.0;  // of the solution
-    Eigen::Vector3d m_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d m_{0.0, 0.0, 0.0};
 };
 
 }  // namespace gnomon::detail
@@ -6672,9 +6683,8 @@ namespace detail {
 struct ray_ls {
     double min_aspect_ratio = 0.05;  ///< of the rays, below which the normal is weak
 
-    [[nodiscard]] ray_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] ray_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                     const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         if (ring.size() < 2) return {};
         return detail::plane_seen(detail::regression_of(p, ring, viewpoint), min_aspect_ratio);
     }
@@ -6700,9 +6710,9 @@ struct plane_eif {
     ray_ls fit = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite
-    [[nodiscard]] with_covariance_of<ray_fit> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<ray_fit> operator()(const Eigen::Vector3d& p, ring_view ring,
+                                                         const Eigen::Vector3d& viewpoint = {
+                                                             0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         with_covariance_of<ray_fit> belief;
         if (ring.size() < 3) return belief;
@@ -6791,7 +6801,7 @@ namespace gnomon {
 struct plane_state {
     detail::tangent_basis frame{Eigen::Vector3d(0.0, 0.0, 1.0)};
     double distance = 0.0;  ///< of the plane from the anchor [m]
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
 
     /// The state at `delta` from this one, without a covariance.
     [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
@@ -6895,9 +6905,9 @@ struct plane_filter {
 
     /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
     ///                                finite, and there is an iteration
-    [[nodiscard]] with_covariance_of<plane_fit> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<plane_fit> operator()(const Eigen::Vector3d& p, ring_view ring,
+                                                           const Eigen::Vector3d& viewpoint = {
+                                                               0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         detail::require(max_iterations >= 1, "plane_filter: needs an iteration");
         detail::require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
@@ -6969,7 +6979,7 @@ struct plane_filter {
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {
-        belief.normal.setZero();
+        belief.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         belief.trust = trust::degenerate;
         return belief;
     }
@@ -7009,9 +7019,8 @@ struct plane_svd {
     /// unit.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         if (ring.size() < 2) return {};
         if (centred) return plane_pca{}(p, ring);
 
@@ -7387,9 +7396,8 @@ struct quad_svd {
     /// that neither units nor the view point matter; the thesis does not.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
         if (ring.size() < 9) return fit;
         const Eigen::Vector3d origin = centred ? p : viewpoint;
@@ -7817,9 +7825,10 @@ struct with_covariance {
     E estimate = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite
-    [[nodiscard]] with_covariance_of<estimate_t<E>> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<estimate_t<E>> operator()(const Eigen::Vector3d& p,
+                                                               ring_view ring,
+                                                               const Eigen::Vector3d& viewpoint = {
+                                                                   0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         with_covariance_of<estimate_t<E>> belief;
         if constexpr (ray_estimator<E>) {
@@ -8155,8 +8164,8 @@ struct curvature {
     /// The principal directions, perpendicular unit vectors of arbitrary sign; direction1 x
     /// direction2 is the normal of the fitted surface. Where kappa1 = kappa2, as on a sphere and on
     /// a plane, any two directions are principal, and the data's noise chooses.
-    Eigen::Vector3d direction1 = Eigen::Vector3d::Zero();
-    Eigen::Vector3d direction2 = Eigen::Vector3d::Zero();
+    Eigen::Vector3d direction1{0.0, 0.0, 0.0};
+    Eigen::Vector3d direction2{0.0, 0.0, 0.0};
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 
     /// K [1/m^2], Eq. (3.23).
@@ -8409,11 +8418,11 @@ namespace gnomon {
 
 /// A right-handed frame along the principal axes of a point set, and the box that fits it there.
 struct principal_frame {
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< mean of the points [m]
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    ///< columns: largest spread first
-    gnomon::spectrum spectrum;                             ///< variances along the axes [m^2]
-    Eigen::Vector3d box_center = Eigen::Vector3d::Zero();  ///< [m]
-    Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};                 ///< mean of the points [m]
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);  ///< columns: largest spread first
+    gnomon::spectrum spectrum;                               ///< variances along the axes [m^2]
+    Eigen::Vector3d box_center{0.0, 0.0, 0.0};               ///< [m]
+    Eigen::Vector3d box_size{0.0, 0.0, 0.0};                 ///< edge lengths along the axes [m]
 
     /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
     [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
@@ -8558,6 +8567,47 @@ struct besl_jain {
 /// @file
 /// What a point or a segment looks like, in a few numbers.
 
+// -------- gnomon/neighborhoods/detail/knn_of_some.hpp --------------------------------------------
+
+/// @file
+/// The k nearest neighbors of some points only, for who asks after few of many.
+
+namespace gnomon::detail {
+
+/// Models `sweeping_neighborhood`. The rings of the other points are empty, unless so many points
+/// coincide that one point after the other is faster: then of all.
+struct knn_of_some {
+    knn nearest;
+    const std::vector<bool>& of;  ///< which points
+
+    template <class R, execution X, class Proj>
+    [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
+                             auto&& make_visitor) const {
+        require(nearest.k > 0, "knn: k must be at least 1");
+        const auto tree = tree_unless_crowded(position_view<R, Proj>(points, projection), run);
+        if (!tree) return false;
+        const auto make_search = [&] {
+            return leaf_search(*tree, {.k = nearest.k, .ties = nearest.ties, .of = &of});
+        };
+        sweep_leaves(*tree, run, make_search, make_visitor);
+        return true;
+    }
+
+    template <class R, class Proj>
+    [[nodiscard]] auto search(const R& points, Proj projection) const {
+        return nearest.search(points, std::move(projection));
+    }
+};
+
+/// The graph with their rings. O(n log n) for the tree, and O(k log k) for each of them.
+template <class R, execution X, class Proj>
+[[nodiscard]] adjacency graph_of_some(const knn& nearest, const std::vector<bool>& of,
+                                      const R& points, const X& run, Proj projection) {
+    return swept_graph(knn_of_some{nearest, of}, points, run, std::move(projection));
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/segments.hpp -------------------------------------------------------
 
 /// @file
@@ -8670,6 +8720,109 @@ namespace detail {
 }  // namespace detail
 }  // namespace gnomon
 
+// -------- gnomon/segmentation/detail/noisy_plane.hpp ---------------------------------------------
+
+/// @file
+/// The plane of a flat segment, and how far noise throws points off it. Noise lies along the rays:
+/// the more these are slanted, the less of it is across the surface, and the better points tell
+/// which plane they are of.
+
+namespace gnomon::detail {
+
+/// From where point i was seen [m]; not finite where that is not known.
+[[nodiscard]] inline Eigen::Vector3d known_viewpoint(const viewpoint_table& viewpoints,
+                                                     std::size_t i) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return viewpoints.empty() ? Eigen::Vector3d(unknown, unknown, unknown) : viewpoints[i];
+}
+
+/// The plane of the points of a segment. What it is the plane of is wide enough for the direction
+/// of least spread to be its normal; of what is slim, plane_sample tells more.
+class noisy_plane {
+  public:
+    /// So many standard deviations a point of the plane is off it at most.
+    static constexpr double at_most = 3.0;
+
+    /// That of what is not flat.
+    noisy_plane() = default;
+
+    /// Flat are points that are no thicker than twice `sigma`, the standard deviation of ranges
+    /// [m], but wider. What adjoins may be among them: the farther off they are, the less they
+    /// count, and nothing beyond `at_most` (the biweight of Beaton and Tukey 1974). Points that are
+    /// not finite do not count. O(n).
+    /// @param points  a subset_view
+    noisy_plane(const auto& points, double sigma) : sigma_(sigma) {
+        const principal_frame frame = principal_frame_of(points);
+        is_flat_ = frame.spectrum.lambda[1] >= sigma * sigma &&
+                   frame.spectrum.lambda[2] <= 4.0 * sigma * sigma;
+        take(frame.normal(), frame.centroid);
+        constexpr int passes = 5;
+        for (int pass = 0; is_flat_ && pass < passes; ++pass) {
+            weighted_moments m;
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const Eigen::Vector3d p = points[i];
+                const double deviation = deviation_at(p, known_viewpoint(points.viewpoints, i));
+                const double off = distance(p) / (at_most * deviation);
+                if (!(std::abs(off) < 1.0)) continue;
+                const double root_of_weight = (1.0 - off * off) * (sigma / deviation);
+                m.add(difference(p, frame.centroid), root_of_weight * root_of_weight);
+            }
+            is_flat_ = m.weight > 0.0;
+            if (is_flat_)
+                take(column(symmetric_eigen(m.covariance()).vectors, 2),
+                     combined(1.0, frame.centroid, 1.0, m.mean()));
+        }
+    }
+
+    [[nodiscard]] bool is_flat() const { return is_flat_; }
+
+    /// Of unit length, and either sign.
+    [[nodiscard]] const Eigen::Vector3d& normal() const { return plane_.normal; }
+
+    /// Of p from the plane, with a sign [m].
+    [[nodiscard]] double distance(const Eigen::Vector3d& p) const {
+        return plane_.signed_distance(p);
+    }
+
+    /// p, moved into the plane.
+    [[nodiscard]] Eigen::Vector3d foot_of(const Eigen::Vector3d& p) const {
+        return combined(1.0, p, -distance(p), plane_.normal);
+    }
+
+    /// The standard deviation [m] that noise gives a point at p across the plane: that of ranges
+    /// where it is not known from where it was seen. Never less than a third of it, as no surface
+    /// is quite a plane.
+    [[nodiscard]] double deviation_at(const Eigen::Vector3d& p,
+                                      const Eigen::Vector3d& viewpoint) const {
+        const Eigen::Vector3d ray = difference(p, viewpoint);
+        const double cosine = std::abs(dot(plane_.normal, ray)) / length(ray);
+        return std::isfinite(cosine) ? sigma_ * std::max(cosine, 1.0 / 3.0) : sigma_;
+    }
+
+  private:
+    void take(const Eigen::Vector3d& normal, const Eigen::Vector3d& through) {
+        plane_ = {normal, dot(normal, through)};
+    }
+
+    plane plane_;
+    double sigma_ = 0.0;
+    bool is_flat_ = false;
+};
+
+/// The planes of all segments, in their order. O(n).
+template <class R, execution X, class Proj>
+[[nodiscard]] std::vector<noisy_plane> planes_of_segments(const R& points, const segments& parts,
+                                                          double sigma, const X& run,
+                                                          const Proj& projection) {
+    std::vector<noisy_plane> planes(parts.size());
+    run(parts.size(), [&](std::size_t s) {
+        planes[s] = noisy_plane(subset_view<R, Proj>(points, parts[s], projection), sigma);
+    });
+    return planes;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/claim_strays.hpp ---------------------------------------------------
 
 /// @file
@@ -8678,15 +8831,16 @@ namespace detail {
 /// than noise, normals say little, and segmentation by normals loses what a plane would keep.
 ///
 /// A point within three standard deviations of a plane may be there by chance, as the rim of a thin
-/// board is. What tells is the mean of all stray points in that slab about it: of points of the
-/// plane, it is off by no more than the noise of a mean. (Not in the thesis, whose Alg. 4.2 leaves
-/// such points aside.)
+/// board is. (Noise lies along the rays: at a slant, less of it is across the plane.) What tells is
+/// the mean of all stray points in that slab about it: of points of the plane, it is off by no more
+/// than the noise of a mean. (Not in the thesis, whose Alg. 4.2 leaves such points aside;
+/// release_strays is the reverse.)
 
 namespace gnomon {
 
 /// Parameters of `claim_strays`.
 struct stray_claiming {
-    double sigma = 0.015;        ///< standard deviation of points across a surface [m]
+    double sigma = 0.015;        ///< standard deviation of ranges [m]
     std::size_t k = 20;          ///< a segment claims next to its points: among so many neighbors
     double max_distance = 0.30;  ///< and no farther from one of these [m]
 };
@@ -8698,16 +8852,20 @@ namespace detail {
 template <class Points>
 class stray_claimer {
   public:
-    /// @param graph  the neighbors of each point, nearest first
-    stray_claimer(const Points& points, const adjacency& graph, const segments& parts,
+    /// @param graph   the neighbors of each stray, nearest first
+    /// @param planes  those of the segments
+    stray_claimer(const Points& points, viewpoint_table viewpoints, const adjacency& graph,
+                  const segments& parts, std::vector<noisy_plane> planes,
                   const stray_claiming& options)
-        : points_(points), graph_(graph), options_(options), labels_(parts.labels()) {
+        : points_(points),
+          viewpoints_(std::move(viewpoints)),
+          graph_(graph),
+          options_(options),
+          labels_(parts.labels()),
+          planes_(std::move(planes)) {
         number_strays();
         list_followers();
     }
-
-    /// Makes it known that a segment is flat, and in which plane; without a normal, that it is not.
-    void add_plane(const plane& of) { planes_.push_back(of); }
 
     /// Segments grow by one layer of strays after the other, until no stray is claimed.
     template <execution X>
@@ -8755,14 +8913,20 @@ class stray_claimer {
         bool is_of_plane;
     };
     struct cube {
-        Eigen::Vector3d mean;  ///< of its strays [m]
-        double count;          ///< of them
-        double squared_reach;  ///< of the neighbors of any [m^2]
+        Eigen::Vector3d mean;       ///< of its strays [m]
+        Eigen::Vector3d viewpoint;  ///< the mean of theirs [m]; not finite if one is not known
+        double count;               ///< of them
+        double squared_reach;       ///< of the neighbors of any [m^2]
         std::vector<judgement> judged = {};
     };
 
+    [[nodiscard]] bool is_stray(std::size_t i) const {
+        return labels_[i] == unlabeled && is_finite(points_[i]);
+    }
+
     /// Sums up the strays cube by cube: what a plane asks of them, the sum of distances from it,
-    /// needs no more than their mean.
+    /// needs no more than their mean. Cubes begin at the least coordinates of any, wherever the
+    /// cloud lies.
     void number_strays() {
         struct placed {
             std::array<double, 3> cube;
@@ -8771,29 +8935,35 @@ class stray_claimer {
         };
         // In standard deviations: so narrow that where cubes begin decides next to nothing.
         constexpr double side = 0.75;
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Eigen::Vector3d least(infinity, infinity, infinity);
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            for (int a = 0; a < 3 && is_stray(i); ++a) least[a] = std::min(least[a], points_[i][a]);
         std::vector<placed> all;
         for (std::size_t i = 0; i < points_.size(); ++i) {
-            const Eigen::Vector3d p = points_[i];
-            if (labels_[i] != unlabeled || !is_finite(p)) continue;
+            if (!is_stray(i)) continue;
+            const Eigen::Vector3d p = difference(points_[i], least);
             const auto cell = [&](int a) { return std::floor(p[a] / (side * options_.sigma)); };
             all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
         }
         std::sort(all.begin(), all.end());
         for (auto first = all.begin(); first != all.end();) {
             const Eigen::Vector3d origin = points_[first->point];
-            moments m;
+            moments m, seen_from;
             double squared_reach = 0.0;
             auto last = first;
             for (; last != all.end() && last->cube == first->cube; ++last) {
                 const Eigen::Vector3d p = points_[last->point];
                 m.add(difference(p, origin));
+                seen_from.add(known_viewpoint(viewpoints_, last->point));
                 if (const auto ring = graph_[last->point]; !ring.empty())
                     squared_reach =
                         std::max(squared_reach, squared_distance(points_[ring.back()], p));
                 strays_.push_back({last->point, cubes_.size()});
             }
             const auto n = static_cast<double>(m.count);
-            cubes_.push_back({combined(1.0, origin, 1.0 / n, m.sum), n, squared_reach});
+            cubes_.push_back({combined(1.0, origin, 1.0 / n, m.sum), scaled(1.0 / n, seen_from.sum),
+                              n, squared_reach});
             first = last;
         }
     }
@@ -8821,17 +8991,18 @@ class stray_claimer {
     /// the one with the nearest plane.
     std::int32_t claim_to(const stray& s, const kd_tree& cubes) {
         const Eigen::Vector3d p = points_[s.point];
+        const Eigen::Vector3d viewpoint = known_viewpoint(viewpoints_, s.point);
         std::int32_t best = unlabeled;
-        double least = thickness();
+        double least = std::numeric_limits<double>::infinity();
         for (const point_index j : graph_[s.point]) {
             if (squared_distance(points_[j], p) > options_.max_distance * options_.max_distance)
                 break;
             const std::int32_t segment = labels_[j];
             if (segment == unlabeled || segment == best) continue;
-            const plane& of = planes_[static_cast<std::size_t>(segment)];
-            const double distance = std::abs(of.signed_distance(p));
-            const bool is_nearer = best == unlabeled ? distance <= least : distance < least;
-            if (is_missing(of.normal) || !is_nearer || !are_of(segment, cubes_[s.cube], cubes))
+            const noisy_plane& of = planes_[static_cast<std::size_t>(segment)];
+            const double distance = std::abs(of.distance(p));
+            if (!of.is_flat() || distance >= least || distance > thickness(of, p, viewpoint) ||
+                !are_of(segment, cubes_[s.cube], cubes))
                 continue;
             best = segment;
             least = distance;
@@ -8845,34 +9016,39 @@ class stray_claimer {
             std::find_if(near.judged.begin(), near.judged.end(),
                          [segment](const judgement& j) { return j.segment == segment; });
         if (known != near.judged.end()) return known->is_of_plane;
-        const plane& of = planes_[static_cast<std::size_t>(segment)];
+        const noisy_plane& of = planes_[static_cast<std::size_t>(segment)];
+        const double thick = thickness(of, near.mean, near.viewpoint);
         // So wide that noise does not decide who is near.
-        const double width2 = std::max(thickness() * thickness(), near.squared_reach);
+        const double wide = noisy_plane::at_most * options_.sigma;
+        const double width2 = std::max(wide * wide, near.squared_reach);
         double sum = 0.0, n = 0.0;
         cubes.for_each_within(
-            combined(1.0, near.mean, -of.signed_distance(near.mean), of.normal),
-            std::sqrt(width2 + thickness() * thickness()), [&](const neighbor& q) {
-                const double off = of.signed_distance(cubes_[q.index].mean);
-                if (std::abs(off) > thickness() || q.squared_distance - off * off > width2) return;
+            of.foot_of(near.mean), std::sqrt(width2 + thick * thick), [&](const neighbor& q) {
+                const double off = of.distance(cubes_[q.index].mean);
+                if (std::abs(off) > thick || q.squared_distance - off * off > width2) return;
                 sum += cubes_[q.index].count * off;
                 n += cubes_[q.index].count;
             });
+        constexpr double no_noise = 0.1;  // in standard deviations: no surface is quite a plane
         const bool is_of_plane =
-            n > 0.0 && std::abs(sum) <= deviations * options_.sigma * std::sqrt(n);
+            n > 0.0 && std::abs(sum) <= thick * std::sqrt(n) + no_noise * options_.sigma * n;
         near.judged.push_back({segment, is_of_plane});
         return is_of_plane;
     }
 
-    static constexpr double deviations = 3.0;
     /// Of the slab about a plane, to each side [m].
-    double thickness() const { return deviations * options_.sigma; }
+    static double thickness(const noisy_plane& of, const Eigen::Vector3d& p,
+                            const Eigen::Vector3d& viewpoint) {
+        return noisy_plane::at_most * of.deviation_at(p, viewpoint);
+    }
 
     const Points& points_;
+    viewpoint_table viewpoints_;
     const adjacency& graph_;
     stray_claiming options_;
     std::vector<std::int32_t> labels_;
-    std::vector<plane> planes_;  // of the segments; those that are not flat have no normal
-    std::vector<stray> strays_;  // cube by cube
+    std::vector<noisy_plane> planes_;  // of the segments
+    std::vector<stray> strays_;        // cube by cube
     std::vector<cube> cubes_;
     std::vector<std::size_t> first_follower_, followers_;  // of the strays
 };
@@ -8880,13 +9056,15 @@ class stray_claimer {
 }  // namespace detail
 
 /// The segments with the stray points that are of their planes. Segments that are thicker than
-/// twice `sigma` claim nothing. No point changes from one segment to another.
+/// twice `sigma`, or slimmer than it, claim nothing. No point changes from one segment to another.
 ///
-/// @param points  any point range of n points [m]
+/// @param points  any point range of n points [m]; where view points are known, noise lies along
+///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
 /// @return the segments, largest first; the same bytes for every execution
-/// @throws std::invalid_argument  if the segments are of another number of points, or unless sigma
-///                                is greater than 0, k at least 1 and max_distance not negative
+/// @throws std::invalid_argument  if points, segments or view points differ in number, or unless
+///                                sigma is greater than 0, k at least 1 and max_distance not
+///                                negative
 /// Complexity: O(n (log n + k^2)) at worst, and a slab of cubes narrower than sigma for each pair
 /// of a cube with strays and a segment beside it.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -8901,19 +9079,129 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require(options.k > 0, "claim_strays: k must be at least 1");
     detail::require(options.max_distance >= 0.0,
                     "claim_strays: max_distance must not be negative or NaN");
-    const adjacency graph = knn{options.k}(points, run, projection);
-    detail::stray_claimer claimer(p, graph, parts, options);
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-        const auto frame = principal_frame_of(subset_view<R, Proj>(points, parts[s], projection));
-        const bool is_flat =
-            parts[s].size() >= 3 && frame.spectrum.lambda[2] <= 4.0 * options.sigma * options.sigma;
-        const Eigen::Vector3d normal = is_flat ? frame.normal() : Eigen::Vector3d(0.0, 0.0, 0.0);
-        claimer.add_plane({normal, detail::dot(normal, frame.centroid)});
-    }
-    return claimer(run);
+    std::vector<bool> is_stray(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) is_stray[i] = parts.labels()[i] == unlabeled;
+    const adjacency graph =
+        detail::graph_of_some(knn{options.k}, is_stray, points, run, projection);
+    return detail::stray_claimer(
+        p, viewpoints_of(points), graph, parts,
+        detail::planes_of_segments(points, parts, options.sigma, run, projection), options)(run);
 }
 
 }  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/axis_of_normals.hpp -----------------------------------------
+
+/// @file
+/// The axis of a surface of revolution: the line that its normals meet. Lines that meet one are a
+/// linear complex, so that the axis is an eigenvector (Pottmann and Randrup 1998, Rotational and
+/// helical surface approximation for reverse engineering).
+
+namespace gnomon::detail {
+
+/// The line through `place` [m] along a normal of either sign. Places are relative to some point
+/// among them.
+struct normal_line {
+    Eigen::Vector3d place, normal;
+};
+
+/// The axis that some lines meet best, in the mean of squares.
+class axis_of_normals {
+  public:
+    /// Precondition: there are lines, and all of them are finite. O(n).
+    explicit axis_of_normals(const std::vector<normal_line>& lines) {
+        const double each = 1.0 / static_cast<double>(lines.size());
+        Eigen::Vector3d mean(0.0, 0.0, 0.0);
+        for (const normal_line& l : lines) mean = combined(1.0, mean, each, l.place);
+        Eigen::Matrix3d nn = diagonal(0.0, 0.0, 0.0), nx = nn, xx = nn;
+        double squared_size = 0.0;
+        for (const normal_line& l : lines) {
+            const Eigen::Vector3d p = difference(l.place, mean), x = cross(p, l.normal);
+            add_outer(nn, each, l.normal, l.normal);
+            add_outer(nx, each, l.normal, x);
+            add_outer(xx, each, x, x);
+            squared_size += each * dot(p, p);
+        }
+        // The moment of a line about the axis (a, m) is a . x + m . n: for a given a, the best m
+        // leaves a^T rest a of its square. A cylinder leaves open where along its axis m begins:
+        // by a slight pull, at the mean. A ball leaves open which axis it is, and of its front that
+        // of sight is best by a little: normals pull it across them.
+        constexpr double pull = 0.01, turn = 0.1;
+        Eigen::Matrix3d pulled = nn;
+        for (int i = 0; i < 3; ++i) pulled(i, i) += pull;
+        const Eigen::Matrix3d inverse = inverse_of_symmetric(pulled);
+        Eigen::Matrix3d rest;
+        for (int j = 0; j < 3; ++j) {
+            const Eigen::Vector3d solved = product(inverse, column(nx, j));
+            for (int i = 0; i < 3; ++i)
+                rest(i, j) = xx(i, j) - dot(column(nx, i), solved) + turn * squared_size * nn(i, j);
+        }
+        direction_ = column(symmetric_eigen(rest).vectors, 2);
+        const Eigen::Vector3d moment = scaled(-1.0, product(inverse, product(nx, direction_)));
+        through_ = combined(1.0, mean, 1.0, cross(direction_, moment));
+        measure(lines);
+    }
+
+    /// By how much a line passes the axis, as seen along it, times the part of the normal across
+    /// it [m].
+    [[nodiscard]] double missed_by(const normal_line& l) const {
+        return std::abs(dot(cross(direction_, difference(l.place, through_)), l.normal));
+    }
+    /// The square of the part of a normal across the axis, 0 to 1.
+    [[nodiscard]] double across(const normal_line& l) const {
+        const double along = dot(direction_, l.normal);
+        return 1.0 - along * along;
+    }
+    /// The root mean square of what lines miss the axis by [m].
+    [[nodiscard]] double rms() const { return rms_; }
+    /// The mean distance of the places [m].
+    [[nodiscard]] double radius() const { return radius_; }
+    /// The mean square of the parts of normals across the axis, 0 to 1.
+    [[nodiscard]] double across() const { return across_; }
+    /// And of these the one way that it is less: 0 for a plane, 1/2 all round a cylinder.
+    [[nodiscard]] double turning() const { return turning_; }
+
+  private:
+    void measure(const std::vector<normal_line>& lines) {
+        const double each = 1.0 / static_cast<double>(lines.size());
+        Eigen::Matrix3d spread = diagonal(0.0, 0.0, 0.0);
+        double squares = 0.0;
+        for (const normal_line& l : lines) {
+            const Eigen::Vector3d across =
+                combined(1.0, l.normal, -dot(direction_, l.normal), direction_);
+            add_outer(spread, each, across, across);
+            squares += each * missed_by(l) * missed_by(l);
+            radius_ += each * length(cross(direction_, difference(l.place, through_)));
+        }
+        rms_ = std::sqrt(squares);
+        const Eigen::Vector3d values = symmetric_eigen(spread).values;
+        across_ = values[0] + values[1];
+        turning_ = values[1];
+    }
+
+    Eigen::Vector3d direction_, through_;
+    double rms_ = 0.0, radius_ = 0.0, across_ = 0.0, turning_ = 0.0;
+};
+
+/// The axis of all lines but those that miss it by far, and by 2.5 times as much as the others do.
+/// @param lines  loses those
+[[nodiscard]] inline axis_of_normals robust_axis_of(std::vector<normal_line>& lines) {
+    constexpr double at_most = 2.5, near = 0.2;  // times the root mean square, times the radius
+    constexpr int passes = 5;
+    axis_of_normals axis(lines);
+    for (int pass = 0; pass < passes; ++pass) {
+        const double limit = std::max(at_most * axis.rms(), near * axis.radius());
+        std::vector<normal_line> met;
+        for (const normal_line& l : lines)
+            if (axis.missed_by(l) <= limit) met.push_back(l);
+        if (met.size() == lines.size()) break;
+        lines = std::move(met);
+        axis = axis_of_normals(lines);
+    }
+    return axis;
+}
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/segmentation/detail/link_within.hpp ---------------------------------------------
 
@@ -9003,6 +9291,314 @@ class linker {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/surface_segmentation.hpp -------------------------------------------
+
+/// @file
+/// Smooth surfaces: neighboring points are one surface where their normals turn by at most a small
+/// angle. The search radius follows the density of the scan, so that the sparse rim of a rotational
+/// scan is treated like its dense middle.
+///
+/// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
+
+namespace gnomon {
+
+/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
+template <class S>
+concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
+    { surface[i].mean_distance } -> std::convertible_to<double>;
+};
+
+/// Parameters of Alg. 4.2, with the thesis's values.
+struct surface_segmentation {
+    angle max_angle = degrees(5);  ///< alpha_max between normals of neighbors
+    double max_distance = 0.30;    ///< rho_max [m], no link is longer; may be infinite
+    std::size_t min_points = 30;   ///< n_min, smaller segments are noise
+    /// Compare oriented normals, so that the two sides of a thin board, seen from two view points,
+    /// stay apart; the thesis compares |<n_i, n_j>|.
+    bool oriented = false;
+};
+
+namespace detail {
+
+/// The criterion and the search radius of Alg. 4.2.
+template <surfel_range Surface>
+class smooth_link {
+  public:
+    smooth_link(const Surface& surface, const surface_segmentation& options, std::size_t points)
+        : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
+        require(std::ranges::size(surface) == points,
+                "segment_surfaces: the surface is of other points");
+        require(options.max_distance >= 0.0,
+                "segment_surfaces: max_distance must not be negative or NaN");
+    }
+
+    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
+    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
+    /// cloud changes nothing.
+    [[nodiscard]] double radius(std::size_t i) const {
+        if (is_missing(surface_[i].normal)) return no_search;
+        constexpr double margin = 1.0 + 1e-9;
+        return std::min(margin * static_cast<double>(surface_[i].mean_distance),
+                        options_.max_distance);
+    }
+
+    /// Whether the normal of the neighbor is there and agrees with that of i.
+    [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
+        const Eigen::Vector3d& n_j = surface_[q.index].normal;
+        if (is_missing(n_j)) return false;
+        const double cosine = surface_[i].normal.dot(n_j);
+        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
+    }
+
+  private:
+    const Surface& surface_;
+    surface_segmentation options_;
+    double min_cosine_;
+};
+
+}  // namespace detail
+
+/// The smooth surfaces of a cloud, exact: every point within the radius is looked at.
+///
+/// @param points   any point range of n points
+/// @param surface  their n surface elements; where the normal is zero, nothing is joined
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
+///                                max_distance or a max_angle outside [0, 90] degrees
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
+/// execution.
+template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
+                                        const surface_segmentation& options = {}, const X& run = {},
+                                        Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    detail::linker linker(p);
+    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
+    return linker.result(options.min_points);
+}
+
+/// The same over a stored graph: no second search, and of the points within the radius only those
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
+/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
+/// neighbors tie than the graph lists.
+/// @throws std::invalid_argument  also if graph and points differ in size
+template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const G& graph, const Surface& surface,
+                                        const surface_segmentation& options = {}, const X& run = {},
+                                        Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(graph.size() == p.size(), "segment_surfaces: the graph is of other points");
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    detail::linker linker(p);
+    linker.link_listed(
+        graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    return linker.result(options.min_points);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/join_round.hpp -----------------------------------------------------
+
+/// @file
+/// Makes one segment of a vase, a cup or a column: what turns by more from point to point than a
+/// segmentation by normals lets pass falls into scraps and stray points. An edge, blended by large
+/// neighborhoods, turns no faster than a slim vase, so that no look at a few points tells them
+/// apart. The whole does: the normals of a surface of revolution all meet its axis, and those of a
+/// box pass by any axis in a good part of its width.
+///
+/// (Not in the thesis, whose Alg. 4.2 is for surfaces that turn by at most 5 degrees from point to
+/// point, as a vase does that is larger or scanned more densely.)
+
+namespace gnomon {
+
+/// Parameters of `join_round`.
+struct round_joining {
+    double sigma = 0.015;        ///< standard deviation of ranges [m]: radii of 2 sigma can be told
+    double max_radius = 0.25;    ///< of what is joined, the mean over its points; of a piece that
+                                 ///< is a segment, a quarter of the length [m]
+    double max_distance = 0.30;  ///< rho_max between points that hang together [m]
+    std::size_t min_points = 30;  ///< of what is joined
+};
+
+namespace detail {
+
+/// Whether lines are normals of something round: eight in ten meet one axis, missing it by a
+/// sixth of the radius at most, and they turn about it by some 80 degrees at least. Those of a
+/// disk meet its axis too, being along it.
+[[nodiscard]] inline bool are_of_something_round(std::vector<normal_line> lines,
+                                                 const round_joining& options) {
+    constexpr double least_share = 0.8, most_missed = 1.0 / 6.0;
+    constexpr double least_across = 0.62;   // of a ball, 2/3
+    constexpr double least_turning = 0.12;  // the variance of the sine of up to 37 degrees
+    const double all = static_cast<double>(lines.size());
+    const axis_of_normals axis = robust_axis_of(lines);
+    return static_cast<double>(lines.size()) >= least_share * all &&
+           axis.rms() <= most_missed * axis.radius() && axis.radius() >= 2.0 * options.sigma &&
+           axis.radius() <= options.max_radius && axis.across() >= least_across &&
+           axis.turning() >= least_turning;
+}
+
+/// One run over a cloud.
+template <class R, class Surface, class Proj>
+class round_joiner {
+  public:
+    round_joiner(const R& points, const Surface& surface, const segments& parts,
+                 const round_joining& options, const Proj& projection)
+        : range_(points),
+          projection_(projection),
+          points_(points, projection),
+          surface_(surface),
+          parts_(parts),
+          options_(options),
+          sets_(points_.size()) {}
+
+    template <execution X>
+    [[nodiscard]] segments operator()(const X& run) {
+        const std::vector<point_index> some = candidates();
+        join_near(some, run);
+        std::vector<bool> is_candidate(points_.size(), false);
+        for (const point_index i : some) is_candidate[i] = true;
+        const segments groups =
+            segments_of(sets_, options_.min_points, [&](std::size_t i) { return is_candidate[i]; });
+        std::vector<std::int32_t> labels = parts_.labels();
+        run(groups.size(), [&](std::size_t g) {
+            if (!are_of_something_round(normal_lines(groups[g]), options_)) return;
+            for (const point_index i : without_disks(groups[g]))
+                labels[i] = static_cast<std::int32_t>(parts_.size() + g);
+        });
+        return largest_first(segments(std::move(labels))).first;
+    }
+
+  private:
+    [[nodiscard]] bool has_normal(std::size_t i) const {
+        return is_finite(points_[i]) && all_finite(Eigen::Vector3d(surface_[i].normal)) &&
+               !is_missing(surface_[i].normal);
+    }
+
+    /// Points with a normal that are stray, or of a segment that may be a piece of something round,
+    /// ascending; the points of such a segment stay together.
+    [[nodiscard]] std::vector<point_index> candidates() {
+        std::vector<bool> may_be_piece(parts_.size());
+        for (std::size_t s = 0; s < parts_.size(); ++s) {
+            may_be_piece[s] = is_small(parts_[s]);
+            if (!may_be_piece[s]) continue;
+            for (const point_index i : parts_[s]) sets_.unite(parts_[s].front(), i);
+        }
+        std::vector<point_index> some;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const std::int32_t label = parts_.labels()[i];
+            if ((label == unlabeled || may_be_piece[static_cast<std::size_t>(label)]) &&
+                has_normal(i))
+                some.push_back(static_cast<point_index>(i));
+        }
+        return some;
+    }
+
+    /// No wider than half of a cylinder, the variance of whose width is half of its squared radius,
+    /// and no longer than four radii: a stair is not, to which a vase hangs by a few stray points.
+    [[nodiscard]] bool is_small(std::span<const point_index> part) const {
+        const auto spread =
+            principal_frame_of(subset_view<R, Proj>(range_, part, projection_)).spectrum.lambda;
+        const double squared_radius = options_.max_radius * options_.max_radius;
+        return spread[1] <= 0.5 * squared_radius && spread[0] <= 16.0 / 12.0 * squared_radius;
+    }
+
+    /// Joins what hangs together: by Alg. 4.2, whatever the angle.
+    template <execution X>
+    void join_near(const std::vector<point_index>& some, const X& run) {
+        struct element {
+            Eigen::Vector3d normal;
+            double mean_distance;
+        };
+        std::vector<element> surface;
+        for (const point_index i : some)
+            surface.push_back({surface_[i].normal, static_cast<double>(surface_[i].mean_distance)});
+        const segments near = segment_surfaces(
+            subset_view<R, Proj>(range_, some, projection_), surface,
+            {.max_angle = degrees(90), .max_distance = options_.max_distance, .min_points = 1},
+            run);
+        for (std::size_t s = 0; s < near.size(); ++s)
+            for (const point_index k : near[s]) sets_.unite(some[near[s].front()], some[k]);
+    }
+
+    /// A group but for its segments whose normals are along its axis: a piece of the table that a
+    /// vase stands on, cut off by it, meets its axis no worse than the vase.
+    [[nodiscard]] std::vector<point_index> without_disks(std::span<const point_index> group) const {
+        constexpr double least_across = 0.25;  // 30 degrees from the axis
+        std::vector<normal_line> lines = normal_lines(group);
+        const axis_of_normals axis = robust_axis_of(lines);
+        std::vector<std::int32_t> disks;
+        std::vector<point_index> rest;
+        for (const point_index i : group) {
+            const std::int32_t label = parts_.labels()[i];
+            if (label == unlabeled) continue;
+            const auto part = parts_[static_cast<std::size_t>(label)];
+            if (part.front() != i) continue;
+            double across = 0.0;
+            lines = normal_lines(part);
+            for (const normal_line& l : lines) across += axis.across(l);
+            if (across < least_across * static_cast<double>(lines.size())) disks.push_back(label);
+        }
+        for (const point_index i : group)
+            if (std::find(disks.begin(), disks.end(), parts_.labels()[i]) == disks.end())
+                rest.push_back(i);
+        return rest;
+    }
+
+    [[nodiscard]] std::vector<normal_line> normal_lines(std::span<const point_index> group) const {
+        const Eigen::Vector3d origin = points_[*std::find_if(
+            group.begin(), group.end(), [this](point_index i) { return has_normal(i); })];
+        std::vector<normal_line> lines;
+        for (const point_index i : group)
+            if (has_normal(i))
+                lines.push_back({difference(points_[i], origin), surface_[i].normal});
+        return lines;
+    }
+
+    const R& range_;
+    const Proj& projection_;
+    position_view<R, Proj> points_;
+    const Surface& surface_;
+    const segments& parts_;
+    const round_joining& options_;
+    union_find sets_;
+};
+
+}  // namespace detail
+
+/// The segments, where points that hang together and are something round are one segment: stray
+/// points, and all of those segments that are no wider than round things may be. What is not round
+/// stays as it was.
+///
+/// @param points   any point range of n points [m]
+/// @param surface  their n surface elements, as estimate_normals gives them; normals of either sign
+/// @param parts    segments of these points
+/// @return the segments, largest first; the same bytes for every execution
+/// @throws std::invalid_argument  if points, surface and segments differ in number, or if sigma,
+///                                max_radius or max_distance is negative or NaN
+/// Complexity: O(n), and that of segment_surfaces for the points without a wide segment.
+template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments join_round(const R& points, const Surface& surface, const segments& parts,
+                                  const round_joining& options = {}, const X& run = {},
+                                  Proj projection = {}) {
+    const std::size_t n = position_view<R, Proj>(points, projection).size();
+    detail::require(parts.labels().size() == n, "join_round: the segments are of other points");
+    detail::require(std::ranges::size(surface) == n, "join_round: the surface is of other points");
+    detail::require(options.sigma >= 0.0, "join_round: sigma must not be negative or NaN");
+    detail::require(options.max_radius >= 0.0,
+                    "join_round: max_radius must not be negative or NaN");
+    detail::require(options.max_distance >= 0.0,
+                    "join_round: max_distance must not be negative or NaN");
+    return detail::round_joiner(points, surface, parts, options, projection)(run);
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/segmentation/oriented_point_segmentation.hpp ------------------------------------
 
 /// @file
@@ -9033,7 +9629,7 @@ struct two_thresholds {
     [[nodiscard]] auto criterion() const {
         const double cosine = detail::min_cosine(max_angle);
         return [cosine](double, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
-            return std::abs(n_i.dot(n_j)) >= cosine;
+            return std::abs(detail::dot(n_i, n_j)) >= cosine;
         };
     }
 };
@@ -9984,7 +10580,7 @@ struct height_bands {
 
 /// A rigid motion after which the floor is the plane z = 0.
 struct leveling {
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
@@ -10063,10 +10659,11 @@ template <class R, class Proj = std::identity>
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
         plane next{detail::column(e.vectors, 2), 0.0};
-        if (next.normal.dot(floor.normal) < 0.0) next.normal = detail::scaled(-1.0, next.normal);
+        if (detail::dot(next.normal, floor.normal) < 0.0)
+            next.normal = detail::scaled(-1.0, next.normal);
         Eigen::Vector3d centroid = *origin;
         for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
-        next.offset = next.normal.dot(centroid);
+        next.offset = detail::dot(next.normal, centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
         // deviations of what lies there (1.4826 times the median for a normal distribution).
@@ -10168,6 +10765,141 @@ template <class R, class Proj = std::identity>
         kept.push_back(static_cast<point_index>(i));
     }
     return kept;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/release_strays.hpp -------------------------------------------------
+
+/// @file
+/// Frees the points of flat segments that are not of their planes: normals of a large neighborhood
+/// turn slowly round the rim of a seat or a table top, so that a segmentation by normals takes the
+/// rim in, and of a surface that few scan lines meet, the rim may be a third.
+///
+/// A rim may be as narrow as noise is wide. But noise lies along the rays, so that little of it is
+/// across a surface seen at a slant; and the mean of a point and those about it tells more than the
+/// point. Floors that are warped, or measured in steps, are off their planes too: their normals are
+/// not. (Not in the thesis; claim_strays is the reverse.)
+
+namespace gnomon {
+
+/// Parameters of `release_strays`.
+struct stray_releasing {
+    double sigma = 0.015;            ///< standard deviation of ranges [m]
+    std::size_t k = 5;               ///< points are judged, and hang together, with so many nearest
+    double max_distance = 0.30;      ///< that are no farther [m]
+    angle max_angle = degrees(7.5);  ///< off the plane's: points with such a normal stay
+    std::size_t min_points = 30;     ///< so many released ones together are a segment
+};
+
+namespace detail {
+
+/// Whether point i of a segment is on its plane: the mean of it and its neighbors may be off by
+/// four standard deviations of a mean, as so many are looked at, and it by five of its own.
+/// Neighbors that are farther off count as if by five, so that no single one decides; those of
+/// another segment say nothing. What is not finite is off no plane.
+[[nodiscard]] bool is_on(const auto& points, const viewpoint_table& viewpoints,
+                         const adjacency& graph, const segments& parts, std::size_t i,
+                         const noisy_plane& of, double max_distance) {
+    constexpr double mean_at_most = 4.0, each_at_most = 5.0;
+    if (!is_finite(points[i])) return true;
+    const auto deviations_off = [&](std::size_t j) {
+        const Eigen::Vector3d q = points[j];
+        return of.distance(q) / of.deviation_at(q, known_viewpoint(viewpoints, j));
+    };
+    double sum = deviations_off(i), count = 1.0;
+    if (std::abs(sum) > each_at_most) return false;
+    for (const point_index j : graph[i]) {
+        if (squared_distance(points[j], points[i]) > max_distance * max_distance) break;
+        if (parts.labels()[j] != unlabeled && parts.labels()[j] != parts.labels()[i]) continue;
+        sum += std::clamp(deviations_off(j), -each_at_most, each_at_most);
+        count += 1.0;
+    }
+    return std::abs(sum) <= mean_at_most * std::sqrt(count);
+}
+
+/// The labels, where points that had the same label and have none now, and hang together as
+/// neighbors, are segments of their own.
+[[nodiscard]] std::vector<std::int32_t> with_released_groups(const auto& points,
+                                                             const adjacency& graph,
+                                                             const segments& before,
+                                                             std::vector<std::int32_t> labels,
+                                                             const stray_releasing& options) {
+    const auto is_released = [&](std::size_t i) { return labels[i] != before.labels()[i]; };
+    union_find sets(labels.size());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (!is_released(i)) continue;
+        for (const point_index j : graph[i]) {
+            const double squared = squared_distance(points[j], points[i]);
+            if (squared > options.max_distance * options.max_distance) break;
+            if (is_released(j) && before.labels()[i] == before.labels()[j])
+                sets.unite(static_cast<point_index>(i), j);
+        }
+    }
+    const segments groups = segments_of(sets, options.min_points, is_released);
+    for (std::size_t g = 0; g < groups.size(); ++g)
+        for (const point_index i : groups[g])
+            labels[i] = static_cast<std::int32_t>(before.size() + g);
+    return labels;
+}
+
+}  // namespace detail
+
+/// The segments without those points of flat ones that are not of their planes. Where enough of
+/// these hang together, such as a mug on a table, they are a segment of their own. Segments that
+/// are thicker than twice `sigma`, slimmer than it, or would lose more than a third of their
+/// points, are no planes, and keep them all.
+///
+/// @param points   any point range of n points [m]; where view points are known, noise lies along
+///                 the rays, else it is the same in all directions
+/// @param surface  a normal for each, of either sign; points without one are judged without
+/// @param parts    segments of these points
+/// @return the segments, largest first; the same bytes for every execution
+/// @throws std::invalid_argument  if points, surface, segments or view points differ in number, or
+///                                unless sigma is greater than 0, k at least 1, max_distance not
+///                                negative, and max_angle in [0, 90] degrees
+/// Complexity: O(n log n), and O(k log k) for each point whose normal disagrees.
+template <class R, normal_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments release_strays(const R& points, const Surface& surface,
+                                      const segments& parts, const stray_releasing& options = {},
+                                      const X& run = {}, Proj projection = {}) {
+    const position_view<R, Proj> p(points, projection);
+    detail::require(parts.labels().size() == p.size(),
+                    "release_strays: the segments are of other points");
+    detail::require(std::ranges::size(surface) == p.size(),
+                    "release_strays: the surface is of other points");
+    detail::require(options.sigma > 0.0, "release_strays: sigma must be greater than 0");
+    detail::require(options.k > 0, "release_strays: k must be at least 1");
+    detail::require(options.max_distance >= 0.0,
+                    "release_strays: max_distance must not be negative or NaN");
+    const double cosine = detail::min_cosine(options.max_angle);
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    const auto planes = detail::planes_of_segments(points, parts, options.sigma, run, projection);
+    std::vector<bool> is_doubtful(p.size(), false);
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+        if (!planes[s].is_flat()) continue;
+        for (const point_index i : parts[s]) {
+            const Eigen::Vector3d normal = surface[i].normal;
+            is_doubtful[i] = is_missing(normal) ||
+                             !(std::abs(detail::dot(normal, planes[s].normal())) >= cosine);
+        }
+    }
+    const adjacency graph =
+        detail::graph_of_some(knn{options.k}, is_doubtful, points, run, projection);
+    std::vector<std::int32_t> labels = parts.labels();
+    run(parts.size(), [&](std::size_t s) {
+        std::vector<point_index> released;
+        for (const point_index i : parts[s])
+            if (is_doubtful[i] &&
+                !detail::is_on(p, viewpoints, graph, parts, i, planes[s], options.max_distance))
+                released.push_back(i);
+        if (3 * released.size() > parts[s].size()) return;
+        for (const point_index i : released) labels[i] = unlabeled;
+    });
+    return detail::largest_first(
+               segments(detail::with_released_groups(p, graph, parts, std::move(labels), options)))
+        .first;
 }
 
 }  // namespace gnomon
@@ -10275,116 +11007,6 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/surface_segmentation.hpp -------------------------------------------
-
-/// @file
-/// Smooth surfaces: neighboring points are one surface where their normals turn by at most a small
-/// angle. The search radius follows the density of the scan, so that the sparse rim of a rotational
-/// scan is treated like its dense middle.
-///
-/// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
-
-namespace gnomon {
-
-/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
-template <class S>
-concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
-    { surface[i].mean_distance } -> std::convertible_to<double>;
-};
-
-/// Parameters of Alg. 4.2, with the thesis's values.
-struct surface_segmentation {
-    angle max_angle = degrees(5);  ///< alpha_max between normals of neighbors
-    double max_distance = 0.30;    ///< rho_max [m], no link is longer; may be infinite
-    std::size_t min_points = 30;   ///< n_min, smaller segments are noise
-    /// Compare oriented normals, so that the two sides of a thin board, seen from two view points,
-    /// stay apart; the thesis compares |<n_i, n_j>|.
-    bool oriented = false;
-};
-
-namespace detail {
-
-/// The criterion and the search radius of Alg. 4.2.
-template <surfel_range Surface>
-class smooth_link {
-  public:
-    smooth_link(const Surface& surface, const surface_segmentation& options, std::size_t points)
-        : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
-        require(std::ranges::size(surface) == points,
-                "segment_surfaces: the surface is of other points");
-        require(options.max_distance >= 0.0,
-                "segment_surfaces: max_distance must not be negative or NaN");
-    }
-
-    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
-    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
-    /// cloud changes nothing.
-    [[nodiscard]] double radius(std::size_t i) const {
-        if (is_missing(surface_[i].normal)) return no_search;
-        constexpr double margin = 1.0 + 1e-9;
-        return std::min(margin * static_cast<double>(surface_[i].mean_distance),
-                        options_.max_distance);
-    }
-
-    /// Whether the normal of the neighbor is there and agrees with that of i.
-    [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
-        const Eigen::Vector3d& n_j = surface_[q.index].normal;
-        if (is_missing(n_j)) return false;
-        const double cosine = surface_[i].normal.dot(n_j);
-        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
-    }
-
-  private:
-    const Surface& surface_;
-    surface_segmentation options_;
-    double min_cosine_;
-};
-
-}  // namespace detail
-
-/// The smooth surfaces of a cloud, exact: every point within the radius is looked at.
-///
-/// @param points   any point range of n points
-/// @param surface  their n surface elements; where the normal is zero, nothing is joined
-/// @return the segments of at least `min_points` points, largest first
-/// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
-///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
-/// execution.
-template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
-                                        const surface_segmentation& options = {}, const X& run = {},
-                                        Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    const detail::smooth_link<Surface> link(surface, options, p.size());
-    detail::linker linker(p);
-    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
-    return linker.result(options.min_points);
-}
-
-/// The same over a stored graph: no second search, and of the points within the radius only those
-/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
-/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
-/// neighbors tie than the graph lists.
-/// @throws std::invalid_argument  also if graph and points differ in size
-template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
-          class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const G& graph, const Surface& surface,
-                                        const surface_segmentation& options = {}, const X& run = {},
-                                        Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "segment_surfaces: the graph is of other points");
-    const detail::smooth_link<Surface> link(surface, options, p.size());
-    detail::linker linker(p);
-    linker.link_listed(
-        graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
-    return linker.result(options.min_points);
-}
-
-}  // namespace gnomon
-
 // -------- gnomon/segmentation.hpp ----------------------------------------------------------------
 
 /// @file
@@ -10416,6 +11038,7 @@ template <class Points>
     std::vector<neighbor> nearest;
     if (count == 0) return nearest;
     for (const point_index i : some) {
+        require(i < points.size(), "boundary_pairs: an index of no point");
         const neighbor candidate{squared_distance(points[i], place), i};
         if (nearest.size() == count && !(candidate < nearest.back())) continue;
         if (!is_finite(points[i])) continue;
@@ -10458,6 +11081,7 @@ template <class Points>
 /// @param centroids  of both
 /// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
 ///                   finite points
+/// @throws std::invalid_argument  for an index of no point
 /// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
 [[nodiscard]] std::vector<boundary_pair> boundary_pairs(
@@ -10486,6 +11110,78 @@ template <class Points>
 
 }  // namespace gnomon
 
+// -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
+
+/// @file
+/// From where a sensor that moves has looked: view points nearer to each other than noise throws
+/// points are one place, as many as there may be.
+
+namespace gnomon::detail {
+
+/// View points of a cube, and what was seen from there.
+struct sensor_place {
+    std::vector<point_index> seen = {};
+    Eigen::Vector3d first{0.0, 0.0, 0.0};    // view point [m]
+    Eigen::Vector3d from_it{0.0, 0.0, 0.0};  // the sum of the ways to the others [m]
+
+    void add(point_index i, const Eigen::Vector3d& v) {
+        if (seen.empty()) first = v;
+        from_it = combined(1.0, from_it, 1.0, difference(v, first));
+        seen.push_back(i);
+    }
+    /// The mean.
+    [[nodiscard]] Eigen::Vector3d viewpoint() const {
+        return combined(1.0, first, 1.0 / static_cast<double>(seen.size()), from_it);
+    }
+};
+
+/// The finite points by their view points, as far as these are finite, in cubes of size sigma [m],
+/// the first about the least of them.
+/// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
+/// anything to sort or to look up.
+/// @param points  a position_view
+[[nodiscard]] std::vector<sensor_place> places_of_sensor(const auto& points,
+                                                         const viewpoint_table& viewpoints,
+                                                         double sigma) {
+    constexpr double exact = 1e-6;  // [m]: below, each view point is one
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    Eigen::Vector3d least(infinity, infinity, infinity);
+    for (const Eigen::Vector3d& v : viewpoints.positions())
+        for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
+    const auto cube_of = [&](const Eigen::Vector3d& v) {
+        if (sigma < exact) return std::array{v[0], v[1], v[2]};
+        const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
+        return std::array{cell(0), cell(1), cell(2)};
+    };
+    std::vector<std::array<double, 3>> cubes;
+    if (viewpoints.empty()) {
+        least = Eigen::Vector3d(0.0, 0.0, 0.0);
+        cubes.push_back(cube_of(least));
+    }
+    for (const Eigen::Vector3d& v : viewpoints.positions())
+        if (is_finite(v) && (cubes.empty() || cubes.back() != cube_of(v)))
+            cubes.push_back(cube_of(v));
+    std::sort(cubes.begin(), cubes.end());
+    cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+    std::vector<sensor_place> places(cubes.size());
+    std::size_t latest = 0;
+    std::array<double, 3> before{infinity, infinity, infinity};
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d v = viewpoints[i];
+        if (!is_finite(points[i]) || !is_finite(v)) continue;
+        if (const std::array own{v[0], v[1], v[2]}; own != before) {
+            latest = static_cast<std::size_t>(
+                std::lower_bound(cubes.begin(), cubes.end(), cube_of(v)) - cubes.begin());
+            before = own;
+        }
+        places[latest].add(static_cast<point_index>(i), v);
+    }
+    std::erase_if(places, [](const sensor_place& place) { return place.seen.empty(); });
+    return places;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/merge_policy.hpp ------------------------------------------------------
 
 /// @file
@@ -10506,13 +11202,15 @@ enum class sighting : char {
     farther  ///< something behind it: the place is empty
 };
 
-/// Whether a sighting speaks for merging.
+/// Whether a sighting speaks for merging. Most of what is seen along most of the lines across a gap
+/// must; narrow gaps need nobody's word (occlusion_merging::max_gap), and one place that is seen to
+/// be empty keeps any gap open, unless the policy merges even there.
 template <class M>
 concept merge_policy = requires(const M& policy, sighting seen) {
     { policy(seen) } -> std::convertible_to<bool>;
 };
 
-/// Merges if and only if something closer was seen in the gap.
+/// Merges where something closer was seen in the gap (Sec. 4.3.2).
 struct conservative {
     [[nodiscard]] bool operator()(sighting seen) const { return seen == sighting::closer; }
 };
@@ -10593,46 +11291,41 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all points at a finite distance from the view point [m], but of those in it.
-    /// O(n).
-    /// @throws std::invalid_argument  without a pixel, or for a view point or a pole that is not
-    ///                                finite, or a pole of no length
+    /// The image of all points at a finite distance from the view point [m], but of those in it. It
+    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
+    /// O(n log n).
+    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, or
+    /// for
+    ///                                a view point or a pole that is not finite, or a pole of no
+    ///                                length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,
                 const range_image_format& format = {}, Proj projection = {})
-        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
-        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+        : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
         std::vector<sight> sights;
         sights.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
-            const double range = detail::length(d);
-            if (std::isfinite(range) && range > 0.0)
-                sights.push_back({d, {range, static_cast<point_index>(i)}});
+        for (std::size_t i = 0; i < p.size(); ++i) add(sights, p[i], i);
+        show(sights, format);
+    }
+
+    /// The image of some points of a cloud: what it shows has its index in the whole of it.
+    /// @throws std::invalid_argument  as above, or for an index of no point
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, std::span<const point_index> some,
+                const Eigen::Vector3d& viewpoint, const range_image_format& format = {},
+                Proj projection = {})
+        : range_image(viewpoint, format) {
+        const position_view<R, Proj> p(points, std::move(projection));
+        std::vector<sight> sights;
+        sights.reserve(some.size());
+        for (const point_index i : some) {
+            detail::require(i < p.size(), "range_image: an index of no point");
+            add(sights, p[i], i);
         }
-        turn(format.pole ? *format.pole : least_seen(sights));
-        project(sights);
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        std::size_t lowest = height_, highest = 0;
-        for (const sight& s : sights) {
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
-        }
-        first_row_ = lowest;
-        const auto sine_of_row = [this](double row) {
-            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
-            return std::sin(turn * std::numbers::pi);
-        };
-        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
-        highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
-        if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (const sight& s : sights) {
-            view& v = seen_[place_of(s.at)];
-            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
-        }
+        show(sights, format);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -10661,7 +11354,8 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
-    /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
+    /// False only if nothing was seen in the pixel of a place, nor in any up to two beside it: a
+    /// quick look.
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         const double up = detail::dot(z_, d), distance = detail::length(d);
@@ -10681,10 +11375,74 @@ class range_image {
         pixel at = {};
     };
 
+    range_image(const Eigen::Vector3d& viewpoint, const range_image_format& format)
+        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
+        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
+        constexpr std::size_t most = std::size_t{1} << 31;
+        detail::require(width_ <= most && height_ <= most,
+                        "range_image: at most 2^31 pixels in a row or column");
+        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+    }
+
+    void add(std::vector<sight>& sights, const Eigen::Vector3d& p, std::size_t i) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        if (detail::has_length(d))
+            sights.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
+    }
+
+    void show(std::vector<sight>& sights, const range_image_format& format) {
+        turn(format.pole ? *format.pole : least_seen(sights));
+        project(sights);
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::size_t lowest = height_, highest = 0;
+        for (const sight& s : sights) {
+            lowest = std::min(lowest, s.at.elevation);
+            highest = std::max(highest, s.at.elevation);
+        }
+        first_row_ = lowest;
+        const auto sine_of_row = [this](double row) {
+            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
+            return std::sin(turn * std::numbers::pi);
+        };
+        constexpr double about = 2.0 + 1e-3;  // rows, and what rounding may make of that
+        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - about);
+        highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
+        keep(sights, lowest <= highest ? (highest - lowest + 1) * width_ : 0);
+    }
+
     [[nodiscard]] view view_of(const pixel& at) const {
         if (at.elevation < first_row_) return {};
-        const std::size_t place = place_of(at);
+        std::size_t place = place_of(at);
+        if (is_sparse_) {
+            const auto found = std::lower_bound(taken_.begin(), taken_.end(), place);
+            if (found == taken_.end() || *found != place) return {};
+            place = static_cast<std::size_t>(found - taken_.begin());
+        }
         return place < seen_.size() ? seen_[place] : view{};
+    }
+
+    /// Stores the nearest sight of each pixel, of so many.
+    void keep(std::vector<sight>& sights, std::size_t pixels) {
+        constexpr std::size_t few = 32;  // pixels for each sight take no more than looking it up
+        is_sparse_ = pixels / few > sights.size();
+        if (is_sparse_) {
+            const auto key = [this](const sight& s) {
+                return std::tuple(place_of(s.at), s.what.range, s.what.index);
+            };
+            std::sort(sights.begin(), sights.end(),
+                      [&](const sight& a, const sight& b) { return key(a) < key(b); });
+            for (const sight& s : sights) {
+                if (!taken_.empty() && taken_.back() == place_of(s.at)) continue;
+                taken_.push_back(place_of(s.at));
+                seen_.push_back(s.what);
+            }
+            return;
+        }
+        seen_.resize(pixels);
+        for (const sight& s : sights) {
+            view& v = seen_[place_of(s.at)];
+            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+        }
     }
 
     [[nodiscard]] std::size_t place_of(const pixel& at) const {
@@ -10727,7 +11485,7 @@ class range_image {
 
     /// The axis along which the directions to the points spread least; z where there are none.
     [[nodiscard]] static Eigen::Vector3d least_seen(const std::vector<sight>& sights) {
-        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        Eigen::Matrix3d sum = detail::diagonal(0.0, 0.0, 0.0);
         for (const sight& s : sights) {
             const Eigen::Vector3d& d = s.offset;
             const double weight = 1.0 / detail::dot(d, d);
@@ -10742,10 +11500,10 @@ class range_image {
     }
 
     void turn(const Eigen::Vector3d& pole) {
-        const double length = std::sqrt(detail::dot(pole, pole));
-        detail::require(length > 0.0 && std::isfinite(length),
+        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
+        detail::require(detail::all_finite(pole) && has_direction,
                         "range_image: the pole must be a finite direction");
-        z_ = Eigen::Vector3d(pole[0] / length, pole[1] / length, pole[2] / length);
+        z_ = detail::direction_of(pole);
         // Azimuth counts from the x-axis; where that is the pole, from the y-axis.
         const Eigen::Vector3d start =
             std::abs(z_[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
@@ -10761,7 +11519,155 @@ class range_image {
     std::size_t first_row_ = 0;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
     std::vector<view> seen_;  // row by row, from the first in which something is seen
+    bool is_sparse_ = false;  // only pixels in which something is seen, whose places are
+    std::vector<std::size_t> taken_;
 };
+
+}  // namespace gnomon
+
+// -------- gnomon/occlusion/ray_spacing.hpp -------------------------------------------------------
+
+/// @file
+/// How far apart the rays of a cloud are, for who makes range images of clouds whose sensor is not
+/// known.
+
+namespace gnomon {
+
+namespace detail {
+
+/// As good as random, of a direction by a microradian: the same wherever the cloud lies.
+[[nodiscard]] inline std::uint64_t drawn_number(const Eigen::Vector3d& direction) {
+    std::int64_t all = 0;
+    for (int a = 0; a < 3; ++a)
+        all = all << 21 | static_cast<std::int64_t>((direction[a] + 1.0) * 1e6 + 0.5);
+    return random_stream(static_cast<std::uint64_t>(all)).bits();
+}
+
+/// See ray_spacing: one run over a cloud.
+template <class Points>
+class rays_of_cloud {
+  public:
+    /// @param p  a position_view
+    rays_of_cloud(const Points& p, const viewpoint_table& viewpoints)
+        : points_(p), viewpoints_(viewpoints) {
+        directions_.reserve(p.size());
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Eigen::Vector3d way = difference(p[i], viewpoints[i]);
+            if (!has_length(way)) continue;  // nor do those have one that are not finite
+            directions_.push_back(scaled(1.0 / length(way), way));
+            point_.push_back(static_cast<point_index>(i));
+        }
+    }
+
+    [[nodiscard]] angle spacing() const {
+        if (directions_.empty()) return radians(most);
+        std::vector<double> squared;
+        for (std::vector<double>& near : near_seeds(drawn())) {
+            squared.push_back(reach2);
+            if (near.size() <= neighbors) continue;
+            std::nth_element(near.begin(), near.begin() + neighbors, near.end());
+            squared.back() = near[neighbors];
+        }
+        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 3 / 4);
+        std::nth_element(squared.begin(), at, squared.end());
+        return radians(std::clamp(std::sqrt(*at * std::numbers::pi / neighbors), least, most));
+    }
+
+  private:
+    static constexpr std::size_t neighbors = 16, seed_count = 32;
+    static constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
+    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
+    static constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
+    static_assert(reach2 < size * size);
+
+    /// Some of the rays, of different directions, drawn by their numbers: the same in whatever
+    /// order the points are stored, which may well be as regular as any other way to draw them.
+    [[nodiscard]] std::vector<std::size_t> drawn() const {
+        std::vector<std::pair<std::uint64_t, std::size_t>> some;
+        for (std::size_t r = 0; r < directions_.size(); ++r) {
+            const std::uint64_t number = drawn_number(directions_[r]);
+            if (some.size() == seed_count && number > some.back().first) continue;
+            const auto at = std::lower_bound(
+                some.begin(), some.end(), number,
+                [](const auto& other, std::uint64_t own) { return other.first < own; });
+            if (at != some.end() && at->first == number) {
+                if (as_numbers(r) < as_numbers(at->second)) at->second = r;
+                continue;
+            }
+            some.insert(at, {number, r});
+            if (some.size() > seed_count) some.pop_back();
+        }
+        std::vector<std::size_t> chosen;
+        for (const auto& s : some) chosen.push_back(s.second);
+        return chosen;
+    }
+
+    /// The squares of the angles [rad^2] from each seed to the rays near it, as chords.
+    [[nodiscard]] std::vector<std::vector<double>> near_seeds(
+        const std::vector<std::size_t>& chosen) const {
+        constexpr int cubes = 13;  // along a side, with one more at both ends
+        std::vector<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
+        const auto cube_of = [](const Eigen::Vector3d& d) {
+            const auto place = [&d](int a) { return static_cast<int>(d[a] / size + 6.5); };
+            return static_cast<std::size_t>((place(0) * cubes + place(1)) * cubes + place(2));
+        };
+        // From where the point of a seed is seen in nearly the same direction, rays count: stations
+        // apart do not see more finely by being many, the lines of a moving sensor do.
+        struct seed {
+            Eigen::Vector3d direction, origin;
+            double apart2;  // [m^2]
+        };
+        std::vector<seed> seeds;
+        for (std::size_t s = 0; s < chosen.size(); ++s) {
+            const point_index i = point_[chosen[s]];
+            const Eigen::Vector3d origin = viewpoints_[i];
+            seeds.push_back({directions_[chosen[s]], origin,
+                             most * most * squared_distance(origin, points_[i])});
+            for (int c = 0; c < 27; ++c) {
+                const int way = ((c / 9 - 1) * cubes + c / 3 % 3 - 1) * cubes + c % 3 - 1;
+                seeds_about[cube_of(seeds[s].direction) + static_cast<std::size_t>(way)] |= 1U << s;
+            }
+        }
+        const bool is_still = viewpoints_.positions().size() <= 1;
+        std::vector<std::vector<double>> near(chosen.size());
+        for (std::size_t r = 0; r < directions_.size(); ++r) {
+            const Eigen::Vector3d& d = directions_[r];
+            for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
+                const auto s = static_cast<std::size_t>(std::countr_zero(left));
+                const double squared = squared_distance(seeds[s].direction, d);
+                if (squared < reach2 &&
+                    (is_still ||
+                     squared_distance(seeds[s].origin, viewpoints_[point_[r]]) <= seeds[s].apart2))
+                    near[s].push_back(squared);
+            }
+        }
+        return near;
+    }
+
+    [[nodiscard]] std::array<double, 6> as_numbers(std::size_t r) const {
+        const Eigen::Vector3d p = points_[point_[r]], v = viewpoints_[point_[r]];
+        return {p[0], p[1], p[2], v[0], v[1], v[2]};
+    }
+
+    const Points& points_;
+    const viewpoint_table& viewpoints_;
+    std::vector<Eigen::Vector3d> directions_;
+    std::vector<point_index> point_;  // of each direction
+};
+
+}  // namespace detail
+
+/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
+/// 16 nearest rays has for itself, which is no more for three of four rays. From 32 rays, drawn as
+/// if by chance, but in whatever order the points are; O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    const viewpoint_table viewpoints = viewpoints_of(points);
+    return detail::rays_of_cloud(p, viewpoints).spacing();
+}
 
 }  // namespace gnomon
 
@@ -10769,8 +11675,9 @@ class range_image {
 
 /// @file
 /// What a sensor saw towards a place: a range image for each of its view points, be it one, one for
-/// each of several scans, or one for each scan line of a sensor that moves. So places are asked
-/// for, not pixels of one image, and gaps between points are walked in space.
+/// each of several scans, or one for each point of a sensor that moves. So places are asked for,
+/// not pixels of one image, and gaps between points are walked in space. View points that are
+/// nearer to each other than noise throws points share an image.
 ///
 /// Klasing 2010, Sec. 4.3.5, with the depth of the line at each pixel's ray instead of an
 /// interpolated one (specification of it, A19, F12).
@@ -10781,7 +11688,9 @@ namespace gnomon {
 struct sight_options {
     angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
     std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_format`
-    double sigma = 0.015;  ///< standard deviation of ranges [m]; three of them are no difference
+    /// Standard deviation of ranges [m]; three of them are no difference, and view points in a cube
+    /// of this size are one.
+    double sigma = 0.015;
 };
 
 /// How often something was seen, by kind of sighting.
@@ -10792,128 +11701,45 @@ struct sighting_count {
         return of[static_cast<std::size_t>(s)];
     }
     void add(sighting s) { ++of[static_cast<std::size_t>(s)]; }
+    sighting_count& operator+=(const sighting_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
 };
-
-namespace detail {
-
-/// See ray_spacing.
-/// @param p  a position_view
-[[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
-    constexpr std::size_t seeds = 24, neighbors = 16;
-    constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    std::vector<Eigen::Vector3d> directions;
-    directions.reserve(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const Eigen::Vector3d at = p[i], from = viewpoints[i];
-        if (!is_finite(at) || !is_finite(from)) continue;
-        const Eigen::Vector3d d = difference(at, from);
-        const double range = length(d);
-        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
-    }
-    if (directions.size() <= neighbors) return radians(most);
-
-    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
-    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
-    constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
-    static_assert(reach2 < size * size);
-    constexpr std::size_t cubes = 13;  // along a side, with one more at both ends
-    std::vector<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
-    const auto cube_of = [](const Eigen::Vector3d& d) {
-        const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
-        return (place(0) * cubes + place(1)) * cubes + place(2);
-    };
-    const auto seed = [&](std::size_t s) {
-        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
-    };
-    for (std::size_t s = 0; s < seeds; ++s) {
-        for (std::size_t c = 0; c < 27; ++c) {
-            const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
-            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
-        }
-    }
-    std::array<std::vector<double>, seeds> near;
-    for (const Eigen::Vector3d& d : directions) {
-        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
-            const auto s = static_cast<std::size_t>(std::countr_zero(left));
-            const double squared = squared_distance(seed(s), d);
-            if (squared < reach2) near[s].push_back(squared);
-        }
-    }
-    std::array<double, seeds> squared;
-    for (std::size_t s = 0; s < seeds; ++s) {
-        squared[s] = reach2;
-        if (near[s].size() <= neighbors) continue;
-        std::nth_element(near[s].begin(), near[s].begin() + neighbors, near[s].end());
-        squared[s] = near[s][neighbors];
-    }
-    std::nth_element(squared.begin(), squared.begin() + seeds * 3 / 4, squared.end());
-    const double side = std::sqrt(squared[seeds * 3 / 4] * std::numbers::pi / neighbors);
-    return radians(std::clamp(side, least, most));
-}
-
-}  // namespace detail
-
-/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, for three of four rays at least that. From 24 rays; O(n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
-    return detail::spacing_of_rays(position_view<R, Proj>(points, std::move(projection)),
-                                   viewpoints_of(points));
-}
 
 /// Knows what was seen towards any place.
 class lines_of_sight {
   public:
     /// What a whole cloud tells: also of points that belong to nothing, such as floor and ceiling
     /// that were left out before segmentation. The view points are those of the range, or else the
-    /// origin. O(n log n) in the view points, and a range image for each.
-    /// @throws std::invalid_argument  for a negative or NaN sigma, an angle of a pixel that is
-    ///                                negative or more than 90 degrees, or a pole of no length
+    /// origin. O(n log n), and a range image for each view point.
+    /// @throws std::invalid_argument  for a sigma that is negative or not finite, an angle of
+    ///                                a pixel that is neither 0 nor from a microradian to 90
+    ///                                degrees, or a pole of no length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit lines_of_sight(const R& points, const sight_options& options = {},
                             Proj projection = {})
         : sigma_(options.sigma) {
-        detail::require(options.sigma >= 0.0, "lines_of_sight: sigma must not be negative or NaN");
-        detail::require(
-            options.pixel.radians() >= 0.0 && options.pixel.radians() <= 0.5 * std::numbers::pi,
-            "lines_of_sight: a pixel has between 0 and 90 degrees");
+        detail::require(options.sigma >= 0.0 && std::isfinite(options.sigma),
+                        "lines_of_sight: sigma must be finite and not negative");
+        constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+        const double given = options.pixel.radians();
+        detail::require(given == 0.0 || (given >= least && given <= most),
+                        "lines_of_sight: a pixel has between a microradian and 90 degrees");
         const viewpoint_table viewpoints = viewpoints_of(points);
         const position_view<R, Proj> p(points, projection);
         const angle pixel =
-            options.pixel.radians() > 0.0 ? options.pixel : detail::spacing_of_rays(p, viewpoints);
+            given > 0.0 ? options.pixel : detail::rays_of_cloud(p, viewpoints).spacing();
         const auto height =
             static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
         pixel_ = std::numbers::pi / static_cast<double>(height);
         const range_image_format format{2 * height, height, options.pole};
 
-        // Points by view point. Those of a scan line follow one another, so that there is hardly
-        // anything to sort or to look up.
-        std::vector<sort_key> places;
-        for (const Eigen::Vector3d& v : viewpoints.positions())
-            if (is_finite(v) && (places.empty() || places.back() != key_of(v)))
-                places.push_back(key_of(v));
-        if (viewpoints.empty()) places.push_back({0.0, 0.0, 0.0});
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        std::vector<std::vector<point_index>> seen(places.size());
-        std::size_t latest = 0;
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d v = viewpoints[i];
-            if (!is_finite(p[i]) || !is_finite(v)) continue;
-            if (places[latest] != key_of(v))
-                latest = static_cast<std::size_t>(
-                    std::lower_bound(places.begin(), places.end(), key_of(v)) - places.begin());
-            seen[latest].push_back(static_cast<point_index>(i));
-        }
-        for (std::size_t v = 0; v < places.size(); ++v) {
-            if (seen[v].empty()) continue;
-            const auto& [x, y, z] = places[v];
-            images_.emplace_back(subset_view<R, Proj>(points, seen[v], projection),
-                                 Eigen::Vector3d(x, y, z), format);
-        }
+        for (const detail::sensor_place& place :
+             detail::places_of_sensor(p, viewpoints, options.sigma))
+            images_.emplace_back(points, place.seen, place.viewpoint(), format, projection);
     }
 
     /// The images, one for each view point.
@@ -10962,10 +11788,6 @@ class lines_of_sight {
     }
 
   private:
-    /// A view point, to sort by.
-    using sort_key = std::array<double, 3>;
-    static sort_key key_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
     /// What one view point has seen there.
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
         const double expected = image.distance_to(place);
@@ -11076,7 +11898,7 @@ template <class Segment, class Frame = std::identity>
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
-        if (!is_flat(all[s])) continue;
+        if (!std::invoke(is_flat, all[s])) continue;
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(std::invoke(frame, all[s]).centroid);
     }
@@ -11114,48 +11936,13 @@ template <class Members = std::identity>
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/occlusion/detail/gap_verdict.hpp ------------------------------------------------
-
-/// @file
-/// What a line across a gap says of it, by what was seen at its places (Klasing 2010, Sec. 4.3.5;
-/// specification of it, A19).
-
-namespace gnomon::detail {
-
-/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
-/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
-/// says.
-template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
-    if (seen.total() == 0) return policy(sighting::unseen);
-    std::size_t in_favor = 0, against = 0;
-    for (const sighting s :
-         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
-        if (policy(s))
-            in_favor += seen[s];
-        else if (s != sighting::level)
-            against += seen[s];
-    }
-    return in_favor > against;
-}
-
-/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
-/// ever so much in front of the others.
-template <merge_policy M>
-[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
-    return seen[sighting::farther] > 0 && !policy(sighting::farther);
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/occlusion/detail/seen_plane.hpp -------------------------------------------------
 
 /// @file
-/// The plane of a segment, as ranges tell of it, and whether two segments have the same. Noise lies
-/// along the rays, not across the surface: so planes are found by regression of the depth along a
-/// ray on the place across it, and compared as two regressions are (Chow 1960). Of what is narrower
-/// than noise, or seen at a grazing angle, the direction of least spread is that of nothing; the
-/// regression still knows how little it knows.
+/// The plane of a segment, as ranges tell of it. Noise lies along the rays, not across the surface:
+/// so planes are found by regression of the depth along a ray on the place across it. Of what is
+/// narrower than noise, or seen at a grazing angle, the direction of least spread is that of
+/// nothing; the regression still knows how little it knows.
 ///
 /// The rays to one segment count as parallel: those of a segment too wide for that tell so much
 /// that it does not matter.
@@ -11239,40 +12026,51 @@ struct depth_regression {
     [[nodiscard]] Eigen::Vector3d normal(const sight_axes& axes) const {
         return combined(1.0, axes.along, -slope[0], axes.x, -slope[1], axes.y);
     }
+
+    /// How well the slope is known by `count` points: the inverse of its covariance.
+    [[nodiscard]] matrix_across information(std::size_t count, double sigma) const {
+        return (static_cast<double>(count) / (sigma * sigma)) * spread;
+    }
 };
 
-/// What a segment tells of its plane by itself.
+/// What a sample tells of its plane by itself.
 struct plane_knowledge {
     double squared_width;    ///< variance of the places across the sight, the way it is wider [m^2]
-    angle direction;         ///< three standard deviations of that of the plane
+    angle uncertainty;       ///< of the direction of the plane, three standard deviations
     Eigen::Vector3d normal;  ///< towards the view point, not of unit length
 };
 
+/// @param sigma  the standard deviation of ranges [m]
 [[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
     const sight_axes axes = axes_towards(sample);
     const depth_regression plane(sample, axes);
-    const auto n = static_cast<double>(sample.count);
-    const double slope = sigma * std::sqrt(plane.spread.inverse().largest_eigenvalue() / n);
-    return {plane.spread.largest_eigenvalue(), radians(std::atan(3.0 * slope)),
+    const matrix_across of_slope = plane.information(sample.count, sigma).inverse();
+    return {plane.spread.largest_eigenvalue(),
+            radians(std::atan(3.0 * std::sqrt(of_slope.largest_eigenvalue()))),
             scaled(-1.0, plane.normal(axes))};
 }
 
-/// How far off a plane a point of it may be, in standard deviations of a range.
-inline constexpr double off_plane = 2.5;
+/// Tells of a point [m] whether it is on the plane of a sample, as far as noise lets it be.
+[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma) {
+    constexpr double at_most = 2.5;  // standard deviations of a range
+    const sight_axes axes = axes_towards(sample);
+    return [deeper = depth_regression(sample, axes).normal(axes), mean = sample.mean,
+            depth = at_most * sigma](const Eigen::Vector3d& p) {
+        return std::abs(dot(deeper, difference(p, mean))) <= depth;
+    };
+}
 
-/// Those of some points that are on the plane of a sample of them, as far as noise lets them.
+/// Those of some points that are on the plane of a sample of them.
 /// @param points   a position_view of the cloud
 /// @param members  indices of points of it
 /// Complexity: O(n).
 [[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
                                                        std::span<const point_index> members,
                                                        const plane_sample& sample, double sigma) {
-    const sight_axes axes = axes_towards(sample);
-    const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
+    const auto is_on_plane = is_on_plane_of(sample, sigma);
     std::vector<point_index> on;
     for (const point_index i : members)
-        if (std::abs(dot(off, difference(points[i], sample.mean))) <= off_plane * sigma)
-            on.push_back(i);
+        if (is_on_plane(points[i])) on.push_back(i);
     return on;
 }
 
@@ -11297,8 +12095,8 @@ inline constexpr double off_plane = 2.5;
     const auto take = [&](auto&& belongs) {
         moments m;
         for (const point_index i : members) {
-            const Eigen::Vector3d d = difference(points[i], origin);
-            if (all_finite(d) && belongs(d)) m.add(d);
+            const Eigen::Vector3d p = points[i];
+            if (is_finite(p) && belongs(p)) m.add(difference(p, origin));
         }
         if (2 * m.count < sample.count) return;
         sample.count = m.count;
@@ -11306,16 +12104,19 @@ inline constexpr double off_plane = 2.5;
         sample.covariance = m.covariance_of_neighbors();
     };
     take([](const Eigen::Vector3d&) { return true; });
-    for (int pass = 0; pass < 4; ++pass) {
-        const sight_axes axes = axes_towards(sample);
-        const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
-        const Eigen::Vector3d middle = difference(sample.mean, origin);
-        take([&](const Eigen::Vector3d& d) {
-            return std::abs(dot(off, difference(d, middle))) <= off_plane * sigma;
-        });
-    }
+    for (int pass = 0; pass < 4; ++pass) take(is_on_plane_of(sample, sigma));
     return sample;
 }
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/plane_comparison.hpp -------------------------------------------
+
+/// @file
+/// Whether two segments are of one plane, of two, or noise lets nobody tell: their planes are
+/// compared as two regressions are (Chow 1960).
+
+namespace gnomon::detail {
 
 /// Two samples, and what noise lets them tell of whether they are of one plane.
 class plane_comparison {
@@ -11336,7 +12137,8 @@ class plane_comparison {
 
         // The slope of parallel planes is that of both, as each knows it; else the wide one knows
         // more.
-        const matrix_across known_a = known(wide, a), known_b = known(slim, b);
+        const matrix_across known_a = a.information(wide.count, sigma),
+                            known_b = b.information(slim.count, sigma);
         const matrix_across sum = parallel_ ? known_a + known_b : known_a;
         const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
         const place_across slope =
@@ -11386,16 +12188,11 @@ class plane_comparison {
     static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
     static constexpr double no_noise = 0.1;    // in standard deviations
 
-    /// How well a slope is known: the inverse of its covariance.
-    [[nodiscard]] matrix_across known(const plane_sample& sample, const depth_regression& r) const {
-        return (static_cast<double>(sample.count) / (sigma_ * sigma_)) * r.spread;
-    }
-
-    /// The covariance of a slope.
+    /// The covariance of a slope, with what is no noise.
     [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
                                                 const depth_regression& r) const {
         const double more = no_noise * no_noise * static_cast<double>(sample.count);
-        return (1.0 + more) * known(sample, r).inverse();
+        return (1.0 + more) * r.information(sample.count, sigma_).inverse();
     }
 
     double sigma_;
@@ -11403,6 +12200,127 @@ class plane_comparison {
     double turned_, turned_by_noise_;                      // [rad]
     double offset_, offset_deviation_, tolerated_offset_;  // [m]
 };
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/fragment.hpp ---------------------------------------------------
+
+/// @file
+/// A segment as merging sees it: how flat it is, what it tells of its plane, and where gaps to
+/// others begin.
+
+namespace gnomon::detail {
+
+/// Where three points in four of a segment are in one plane, no thicker than twice the noise, the
+/// segment is flat, and gaps begin there: the others may be round a corner, or what something in
+/// front has lent it.
+struct fragment {
+    std::vector<point_index> members;
+    std::vector<point_index> on_plane;  ///< of a flat one: of these, if three in four, else all
+    principal_frame frame;
+    plane_sample plane;
+    /// Of its plane, or else the sum of those of its points; of any length.
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};
+    bool is_flat = false;
+    bool is_known = false;  ///< tells the direction of its plane by itself
+    bool is_spot = false;   ///< narrower than noise
+    bool is_new = true;     ///< since the round before
+};
+
+/// The sum of the normals of some points.
+[[nodiscard]] Eigen::Vector3d sum_of_normals(const auto& normals,
+                                             std::span<const point_index> members) {
+    Eigen::Vector3d sum(0.0, 0.0, 0.0);
+    for (const point_index i : members) {
+        const Eigen::Vector3d normal = normals[i].normal;
+        if (is_finite(normal)) sum = combined(1.0, sum, 1.0, normal);
+    }
+    return sum;
+}
+
+/// @param points         a point range
+/// @param normals        theirs, towards their view points
+/// @param members        the points of the segment
+/// @param max_variation  surface variation of a flat segment
+/// @param max_angle      by which planes may differ: a direction is known if it is known better
+/// @param sigma          the standard deviation of ranges [m]
+/// Complexity: O(n) for n points.
+template <class R, class Proj>
+[[nodiscard]] fragment fragment_of(const R& points, const Proj& projection, const auto& normals,
+                                   const viewpoint_table& viewpoints,
+                                   std::vector<point_index> members, double max_variation,
+                                   angle max_angle, double sigma) {
+    const position_view<R, Proj> p(points, projection);
+    fragment f;
+    f.members = std::move(members);
+    f.frame = principal_frame_of(subset_view<R, Proj>(points, f.members, projection));
+    f.plane = plane_sample_of(p, f.members, viewpoints, sigma);
+    const auto are_most = [&](std::size_t count) { return 4 * count >= 3 * f.members.size(); };
+    const double thickness2 = symmetric_eigen(f.plane.covariance).values[2];
+    f.is_flat =
+        f.plane.count > 0 && (f.frame.spectrum.surface_variation() <= max_variation ||
+                              (are_most(f.plane.count) && thickness2 <= 4.0 * sigma * sigma));
+    if (f.is_flat) f.on_plane = points_on_plane(p, f.members, f.plane, sigma);
+    if (f.is_flat && !are_most(f.on_plane.size())) f.on_plane = f.members;
+    const plane_knowledge known = knowledge_of(f.plane, sigma);
+    f.is_known = known.uncertainty <= max_angle;
+    f.normal = f.is_known ? known.normal : sum_of_normals(normals, f.members);
+    f.is_spot = known.squared_width < sigma * sigma;
+    return f;
+}
+
+/// What the planes of two tell of each other.
+[[nodiscard]] inline plane_comparison comparison_of(const fragment& a, const fragment& b,
+                                                    double sigma) {
+    const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
+    return {(first ? a : b).plane, (first ? b : a).plane, sigma};
+}
+
+/// Whether two that nothing hides between may go on in one another. What is hardly wider than noise
+/// tells too little of its plane for that: its normals must be like those of the other, and near a
+/// right angle are blended by half of it at most; those of a spot are noise, so that the other must
+/// be known.
+[[nodiscard]] inline bool may_adjoin(const fragment& a, const fragment& b) {
+    if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
+    constexpr double blended = 0.5;  // the square of the cosine of 45 degrees
+    const double product = dot(a.normal, b.normal);
+    return product >= 0.0 &&
+           product * product >= blended * dot(a.normal, a.normal) * dot(b.normal, b.normal);
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/gap_verdict.hpp ------------------------------------------------
+
+/// @file
+/// What a line across a gap says of it, by what was seen at its places (Klasing 2010, Sec. 4.3.5;
+/// specification of it, A19).
+
+namespace gnomon::detail {
+
+/// Whether a policy accepts a line: more of its places speak for merging than against. Where the
+/// surface itself is seen, nothing speaks against it; a line without a place says what nothing
+/// says.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const sighting_count& seen) {
+    if (seen.total() == 0) return policy(sighting::unseen);
+    std::size_t in_favor = 0, against = 0;
+    for (const sighting s :
+         {sighting::unseen, sighting::closer, sighting::level, sighting::farther}) {
+        if (policy(s))
+            in_favor += seen[s];
+        else if (s != sighting::level)
+            against += seen[s];
+    }
+    return in_favor > against;
+}
+
+/// Whether a line alone keeps a gap open: at one place of it something farther was seen, be there
+/// ever so much in front of the others.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const sighting_count& seen) {
+    return seen[sighting::farther] > 0 && !policy(sighting::farther);
+}
 
 }  // namespace gnomon::detail
 
@@ -11424,10 +12342,12 @@ namespace gnomon {
 
 /// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
 struct occlusion_merging {
-    double max_variation = 0.15;    ///< sigma_sv,max, surface variation of a flat segment
+    double max_variation = 0.15;    ///< sigma_sv,max of a flat segment: 0 a plane, 1/3 a ball
     angle max_angle = degrees(15);  ///< rho_a between coplanar segments
     double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
-    double max_gap = 0.20;          ///< rho_c [m]: narrower gaps only stay open if seen through
+    /// rho_c [m]: no limit, but narrower gaps are closed whatever the policy says, unless they are
+    /// seen through, or their sides are too slim to tell that they go on in one another.
+    double max_gap = 0.20;
     /// Standard deviation of ranges [m], greater than 0; of points across a surface it is no more.
     /// What is less flat, or less in one plane, than the thresholds want may be so by noise, and
     /// what keeps to them by less than noise would.
@@ -11442,6 +12362,7 @@ struct occlusion_merging {
 /// The gap between two segments whose merging was considered, and what became of it.
 struct considered_gap {
     std::vector<boundary_pair> lines;
+    sighting_count seen;  ///< along all of them
     bool merged;
 };
 
@@ -11452,6 +12373,15 @@ struct merged_segments {
 };
 
 namespace detail {
+
+/// Refuses what no form of the algorithm can work with.
+inline void require_thresholds(const occlusion_merging& options) {
+    require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
+            "occlusion_merging: the number of boundary pairs must be even and not 0");
+    require(options.max_variation >= 0.0 && options.max_offset >= 0.0 && options.max_gap >= 0.0 &&
+                options.max_angle.radians() >= 0.0,
+            "occlusion_merging: a threshold is negative or NaN");
+}
 
 /// Normals of points of which none has one.
 struct no_normals {
@@ -11478,62 +12408,30 @@ class occlusion_merger {
           options_(options) {
         require(parts.labels().size() == points_.size(),
                 "merge_occluded: the segments are of other points");
-        require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
-                "merge_occluded: the number of boundary pairs must be even and not 0");
-        require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
-                    options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
-                "merge_occluded: a threshold is negative or NaN");
-        require(options.sigma > 0.0, "merge_occluded: sigma must be greater than 0");
+        require_thresholds(options);
+        require(options.sigma > 0.0 && std::isfinite(options.sigma),
+                "merge_occluded: sigma must be greater than 0, and finite");
         for (std::size_t s = 0; s < parts.size(); ++s)
-            surfaces_.push_back(surface_of({parts[s].begin(), parts[s].end()}));
+            if (!parts[s].empty())
+                fragments_.push_back(fragment_with({parts[s].begin(), parts[s].end()}));
     }
 
     [[nodiscard]] merged_segments operator()() {
         while (merge_once()) {
         }
-        return {segments_of_groups(points_.size(), surfaces_, &surface::members), std::move(gaps_)};
+        return {segments_of_groups(points_.size(), fragments_, &fragment::members),
+                std::move(gaps_)};
     }
 
   private:
-    /// A segment as it is in a round.
-    struct surface {
-        std::vector<point_index> members;
-        std::vector<point_index> on_plane;  ///< of these, once asked for
-        principal_frame frame;
-        plane_sample plane;
-        Eigen::Vector3d normal;  ///< of its plane, or else the sum of those of its points
-        bool is_spot;            ///< narrower than noise
-        bool is_known;           ///< tells the direction of its plane by itself
-        bool is_new = true;      ///< since the round before
-    };
-
-    [[nodiscard]] surface surface_of(std::vector<point_index> members) const {
-        const auto frame = principal_frame_of(subset_view<R, Proj>(range_, members, projection_));
-        const auto plane = plane_sample_of(points_, members, viewpoints_, options_.sigma);
-        const plane_knowledge known = knowledge_of(plane, options_.sigma);
-        const bool is_known = known.direction <= options_.max_angle;
-        const Eigen::Vector3d normal = is_known ? known.normal : sum_of_normals(members);
-        return {.members = std::move(members),
-                .on_plane = {},
-                .frame = frame,
-                .plane = plane,
-                .normal = normal,
-                .is_spot = known.squared_width < options_.sigma * options_.sigma,
-                .is_known = is_known};
-    }
-
-    [[nodiscard]] Eigen::Vector3d sum_of_normals(std::span<const point_index> members) const {
-        Eigen::Vector3d sum(0.0, 0.0, 0.0);
-        for (const point_index i : members) {
-            const Eigen::Vector3d normal = normals_[i].normal;
-            if (is_finite(normal)) sum = combined(1.0, sum, 1.0, normal);
-        }
-        return sum;
+    [[nodiscard]] fragment fragment_with(std::vector<point_index> members) const {
+        return fragment_of(range_, projection_, normals_, viewpoints_, std::move(members),
+                           options_.max_variation, options_.max_angle, options_.sigma);
     }
 
     /// A gap that may be closed.
     struct link {
-        point_index first, second;  ///< the surfaces on both sides
+        point_index first, second;  ///< the fragments on both sides
         double offset;              ///< of one from the plane of the other [m]
         std::size_t gap;            ///< its number
     };
@@ -11542,18 +12440,18 @@ class occlusion_merger {
     /// @return whether it merged any
     bool merge_once() {
         std::vector<link> links;
-        for (const auto& [i, j] : pairs_to_compare(
-                 surfaces_, options_.candidates, [this](const surface& s) { return is_flat(s); },
-                 &surface::frame)) {
-            surface &a = surfaces_[i], &b = surfaces_[j];
+        for (const auto& [i, j] : pairs_to_compare(fragments_, options_.candidates,
+                                                   &fragment::is_flat, &fragment::frame)) {
+            const fragment &a = fragments_[i], &b = fragments_[j];
             if (!a.is_new && !b.is_new) continue;
-            const plane_comparison planes = planes_of(a, b);
+            const plane_comparison planes = comparison_of(a, b, options_.sigma);
             if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
             considered_gap gap{
-                boundary_pairs(points_, body_of(a), body_of(b),
+                boundary_pairs(points_, a.on_plane, b.on_plane,
                                {a.frame.centroid, b.frame.centroid}, options_.boundary_pairs),
+                {},
                 false};
-            if (is_closed(gap.lines, may_adjoin(a, b)))
+            if (is_closed(gap, may_adjoin(a, b)))
                 links.push_back({i, j, planes.offset(), gaps_.size()});
             gaps_.push_back(std::move(gap));
         }
@@ -11564,95 +12462,65 @@ class occlusion_merger {
         return true;
     }
 
-    /// What the links join, the closest planes first. A surface that tells little of its plane may
+    /// What the links join, the closest planes first. A fragment that tells little of its plane may
     /// be of one with two that are certainly of two: it does not join these, each set being judged
-    /// by its largest surface.
+    /// by its largest fragment.
     [[nodiscard]] union_find sets_of(std::vector<link>& links) const {
         std::sort(links.begin(), links.end(), [this](const link& a, const link& b) {
             if (a.offset != b.offset) return a.offset < b.offset;
             return coplanar_distance(gaps_[a.gap].lines) < coplanar_distance(gaps_[b.gap].lines);
         });
-        union_find sets(surfaces_.size());
-        std::vector<point_index> largest(surfaces_.size());
+        union_find sets(fragments_.size());
+        std::vector<point_index> largest(fragments_.size());
         std::iota(largest.begin(), largest.end(), point_index{0});
         for (const link& l : links) {
             const point_index a = largest[sets.find(l.first)], b = largest[sets.find(l.second)];
-            if (planes_of(surfaces_[a], surfaces_[b])
+            if (comparison_of(fragments_[a], fragments_[b], options_.sigma)
                     .is_of_two(options_.max_angle, options_.max_offset))
                 continue;
-            const bool first = surfaces_[a].members.size() >= surfaces_[b].members.size();
+            const bool first = fragments_[a].members.size() >= fragments_[b].members.size();
             largest[sets.unite(l.first, l.second)] = first ? a : b;
         }
         return sets;
     }
 
-    /// A segment is flat, whatever its variation, if three points in four are in one plane, no
-    /// thicker than twice the noise: the others may be round a corner.
-    [[nodiscard]] bool is_flat(const surface& s) const {
-        return s.frame.spectrum.surface_variation() <= options_.max_variation ||
-               (4 * s.plane.count >= 3 * s.members.size() &&
-                symmetric_eigen(s.plane.covariance).values[2] <=
-                    4.0 * options_.sigma * options_.sigma);
-    }
-
-    /// The points that a gap begins at: those on the plane, if they are three in four.
-    [[nodiscard]] std::span<const point_index> body_of(surface& s) const {
-        if (s.on_plane.empty())
-            s.on_plane = points_on_plane(points_, s.members, s.plane, options_.sigma);
-        return 4 * s.on_plane.size() >= 3 * s.members.size() ? s.on_plane : s.members;
-    }
-
-    /// Whether two surfaces that nothing hides between may go on in one another. What is hardly
-    /// wider than noise tells too little of its plane for that: its normals must be like those of
-    /// the other, and near a right angle are blended by half of it at most; those of a spot are
-    /// noise, so that the other must be known.
-    [[nodiscard]] static bool may_adjoin(const surface& a, const surface& b) {
-        if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
-        constexpr double blended = 0.5;                 // the square of the cosine of 45 degrees
-        const double cosine = dot(a.normal, b.normal);  // times both lengths
-        return cosine >= 0.0 &&
-               cosine * cosine >= blended * dot(a.normal, a.normal) * dot(b.normal, b.normal);
-    }
-
-    [[nodiscard]] plane_comparison planes_of(const surface& a, const surface& b) const {
-        const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
-        return {(first ? a : b).plane, (first ? b : a).plane, options_.sigma};
-    }
-
     /// Whether most of the lines across a gap are accepted by the policy, or, where it is narrow
     /// and its sides may adjoin, by whoever merges unless something farther is seen.
-    [[nodiscard]] bool is_closed(std::span<const boundary_pair> lines, bool may_adjoin) const {
+    /// @param gap  learns what was seen in it
+    [[nodiscard]] bool is_closed(considered_gap& gap, bool may_adjoin) const {
         std::size_t accepted = 0, passable = 0;
-        for (const boundary_pair& line : lines) {
+        bool is_kept_open = false;
+        for (const boundary_pair& line : gap.lines) {
             const Eigen::Vector3d v =
                 detail::combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
             const sighting_count seen =
                 sights_.between(points_[line.first], points_[line.second], v);
-            if (keeps_open(policy_, seen)) return false;
+            gap.seen += seen;
+            is_kept_open = is_kept_open || keeps_open(policy_, seen);
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
-        return 2 * accepted > lines.size() ||
-               (may_adjoin && coplanar_distance(lines) < options_.max_gap &&
-                2 * passable > lines.size());
+        return !is_kept_open && (2 * accepted > gap.lines.size() ||
+                                 (may_adjoin && coplanar_distance(gap.lines) < options_.max_gap &&
+                                  2 * passable > gap.lines.size()));
     }
 
     /// Makes one segment of each set.
     void gather(union_find& sets) {
-        for (surface& s : surfaces_) s.is_new = false;
-        for (std::size_t s = 0; s < surfaces_.size(); ++s) {
-            const point_index root = sets.find(static_cast<point_index>(s));
-            if (root == s) continue;
-            auto &from = surfaces_[s].members, &to = surfaces_[root].members;
+        for (fragment& f : fragments_) f.is_new = false;
+        for (std::size_t i = 0; i < fragments_.size(); ++i) {
+            const point_index root = sets.find(static_cast<point_index>(i));
+            if (root == i) continue;
+            auto &from = fragments_[i].members, &to = fragments_[root].members;
             to.insert(to.end(), from.begin(), from.end());
             from.clear();
-            surfaces_[root].is_new = true;
+            fragments_[root].is_new = true;
         }
-        std::erase_if(surfaces_, [](const surface& s) { return s.members.empty(); });
-        for (surface& s : surfaces_) {
-            if (!s.is_new) continue;
-            std::sort(s.members.begin(), s.members.end());
-            s = surface_of(std::move(s.members));
+        std::erase_if(fragments_, [](const fragment& f) { return f.members.empty(); });
+        for (fragment& f : fragments_) {
+            if (!f.is_new) continue;
+            std::sort(f.members.begin(), f.members.end());
+            f = fragment_with(std::move(f.members));
         }
     }
 
@@ -11664,7 +12532,7 @@ class occlusion_merger {
     viewpoint_table viewpoints_;
     const M& policy_;
     const occlusion_merging& options_;
-    std::vector<surface> surfaces_;
+    std::vector<fragment> fragments_;
     std::vector<considered_gap> gaps_;
 };
 
@@ -11673,15 +12541,15 @@ class occlusion_merger {
 /// Merges flat segments that are one surface behind something.
 ///
 /// @param points   any point range of n points; their view points as in `lines_of_sight`
-/// @param surface  their n surface elements, or anything with normals, towards the view points;
-/// what
+/// @param surface  their n surface elements, or anything with normals towards the view points; what
 ///                 has none is judged without
 /// @param parts    segments of these points
 /// @param sights   what was seen from where, best by the whole cloud
 /// @param policy   `conservative`, `liberal` or another
 /// @throws std::invalid_argument  if the surface or the segments are of another number of points,
 ///                                for an odd or no number of boundary pairs, a negative or NaN
-///                                threshold, or a sigma that is not greater than 0
+///                                threshold, or a sigma that is not finite and
+///                                greater than 0
 /// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
 template <class R, normal_range Surface, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -11779,7 +12647,8 @@ template <merge_policy M>
 
 /// Merges flat segments as Alg. 4.3 says. Parameters as of merge_occluded, of whose options sigma
 /// is not asked for; a pair of boundary points from different view points counts as not occluded.
-/// @throws std::invalid_argument  if the segments are of another number of points
+/// @throws std::invalid_argument  if the segments are of another number of points, and for
+///                                thresholds as in merge_occluded
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -11789,15 +12658,21 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: the segments are of other points");
+    detail::require_thresholds(options);
     const viewpoint_table viewpoints = viewpoints_of(points);
+    // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {
-        return std::find_if(
+        const auto distance = [&](const range_image& image) {
+            return squared_distance(image.viewpoint(), viewpoints[i]);
+        };
+        return std::min_element(
             sights.images().begin(), sights.images().end(),
-            [&](const range_image& image) { return image.viewpoint() == viewpoints[i]; });
+            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
     const auto is_occluded = [&](const boundary_pair& line) {
         const auto image = image_of(line.first);
-        return image != sights.images().end() && image == image_of(line.second) &&
+        return image != sights.images().end() && is_finite(viewpoints[line.first]) &&
+               is_finite(viewpoints[line.second]) && image == image_of(line.second) &&
                detail::most_pixels_speak_for(policy, *image, p[line.first], p[line.second]);
     };
 
@@ -11807,7 +12682,8 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     union_find sets(parts.size());
     for (const auto& [i, j] :
          detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
-             return f.spectrum.surface_variation() <= options.max_variation;
+             return f.spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
+                    f.spectrum.surface_variation() <= options.max_variation;
          })) {
         if (angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
@@ -13445,9 +14321,10 @@ void write_ply(const std::string& path, const R& points, const properties& colum
 
 /// @file
 /// The whole way from a scan to its surfaces in one object: what is left out first, who a point's
-/// neighbors are, how a normal is estimated, what a smooth surface is and what becomes of surfaces
-/// torn by something in front. Each step is a policy of its own floor, and the result tells what
-/// each of them gave and how long it took (Klasing 2010, Fig. 4.2, Table 4.1).
+/// neighbors are, how a normal is estimated, what a smooth surface is, and what becomes of surfaces
+/// torn by something in front, of stray points and of round things. Each step is a policy of its
+/// own floor, and the result tells what each of them gave and how long it took (Klasing 2010,
+/// Fig. 4.2, Table 4.1).
 
 namespace gnomon {
 
@@ -13468,7 +14345,7 @@ struct perception_seconds {
     double normals = 0.0;        ///< and their repair and orientation
     double segmentation = 0.0;
     double merging = 0.0;   ///< and range images
-    double claiming = 0.0;  ///< of strays
+    double claiming = 0.0;  ///< and releasing, of strays, and joining of what is round
 };
 
 /// What was perceived in n points.
@@ -13479,7 +14356,7 @@ struct perceived {
     std::vector<point_index> kept;          ///< the points that were not left out, ascending
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
     segments fragments;                     ///< of the n points, before merging
-    segments surfaces;                      ///< after merging and claiming strays
+    segments surfaces;                      ///< after merging and all that follows it
     std::vector<considered_gap> gaps;       ///< what merging looked into
     perception_seconds seconds;
 };
@@ -13488,9 +14365,13 @@ struct perceived {
 ///
 /// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
 /// `merge_policy`, or `unmerged{}`. Name these three, and the types follow; by members, name the
-/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}`.
+/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}` or
+/// `perception<knn, plane_pca, liberal>{.sights = {.sigma = 0.01}}`.
 template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
 struct perception {
+    static_assert(merge_policy<Merge> || std::same_as<Merge, unmerged>,
+                  "perception: merge by a merge_policy, or by unmerged{}");
+
     Neighborhood neighborhood{};
     Estimator estimate{};
     Merge merge{};
@@ -13502,11 +14383,25 @@ struct perception {
     anisotropy_repair repair{};
     /// Points without a segment go to flat ones that they are of.
     std::optional<stray_claiming> strays = stray_claiming{};
+    /// Before that, flat segments free what is not of their planes.
+    std::optional<stray_releasing> releasing = stray_releasing{};
+    /// At the end, vases, cups and columns that fell apart become one segment each.
+    std::optional<round_joining> round = round_joining{};
+
+    /// The same chain for ranges of this standard deviation [m], in all steps that know of noise.
+    [[nodiscard]] perception with_sigma(double sigma) const {
+        perception chain = *this;
+        chain.merging.sigma = chain.sights.sigma = sigma;
+        if (chain.strays) chain.strays->sigma = sigma;
+        if (chain.releasing) chain.releasing->sigma = sigma;
+        if (chain.round) chain.round->sigma = sigma;
+        return chain;
+    }
 
     /// Perceives n points: any point range; their view points as everywhere.
     /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
     ///                                view point of a point with a normal is not finite
-    /// Complexity: that of the steps; normals are the dearest.
+    /// Complexity: that of the steps; normals are the dearest of most scans.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
@@ -13534,14 +14429,16 @@ struct perception {
                 result.gaps = std::move(merged.gaps);
             });
         }
-        if (strays) {
+        if (releasing || strays || round) {
             result.seconds.claiming = seconds_of([&] {
                 std::vector<std::int32_t> labels(kept.size());
                 for (std::size_t i = 0; i < kept.size(); ++i)
                     labels[i] = result.surfaces.labels()[result.kept[i]];
-                const segments claimed =
-                    claim_strays(kept, segments(std::move(labels)), *strays, run);
-                result.surfaces = segments(of_all(claimed.labels(), result.kept, n));
+                segments settled(std::move(labels));
+                if (releasing) settled = release_strays(kept, surface, settled, *releasing, run);
+                if (strays) settled = claim_strays(kept, settled, *strays, run);
+                if (round) settled = join_round(kept, surface, settled, *round, run);
+                result.surfaces = segments(of_all(settled.labels(), result.kept, n));
             });
         }
         return result;
@@ -13595,7 +14492,9 @@ struct perception {
 template <class Neighborhood, class Estimator, class Merge>
 perception(Neighborhood, Estimator, Merge, surface_segmentation = {}, occlusion_merging = {},
            sight_options = {}, std::optional<floor_and_ceiling> = std::nullopt,
-           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{})
+           anisotropy_repair = {}, std::optional<stray_claiming> = stray_claiming{},
+           std::optional<stray_releasing> = stray_releasing{},
+           std::optional<round_joining> = round_joining{})
     -> perception<Neighborhood, Estimator, Merge>;
 
 }  // namespace gnomon

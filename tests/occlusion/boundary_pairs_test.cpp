@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <stdexcept>
 #include <utility>
 #include <vector>
 
@@ -133,6 +134,11 @@ TEST(boundary_pairs, pass_over_points_that_are_not_finite) {
     const std::pair<Eigen::Vector3d, Eigen::Vector3d> centroids{{0, 0, 0}, {3, 0, 0}};
     EXPECT_TRUE(boundary_pairs(points, std::span(none), std::span(some), centroids).empty());
     EXPECT_TRUE(boundary_pairs(points, std::span(some), std::span(none), centroids).empty());
+    const index_list no_point{static_cast<gnomon::point_index>(points.size())};
+    EXPECT_THROW((void)boundary_pairs(points, std::span(some), std::span(no_point), centroids),
+                 std::invalid_argument);
+    EXPECT_THROW((void)boundary_pairs(points, std::span(no_point), std::span(some), centroids),
+                 std::invalid_argument);
 }
 
 TEST(coplanar_distance, is_the_least_and_infinite_without_pairs) {

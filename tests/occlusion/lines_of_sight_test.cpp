@@ -28,24 +28,6 @@ TEST(sighting_count, counts_each_kind) {
     EXPECT_EQ(count.total(), 3u);
 }
 
-TEST(ray_spacing, is_that_of_the_rays) {
-    for (const double spacing : {0.5, 1.0, 2.0}) {
-        const auto seen = looks::look_at(looks::hidden(), {.spacing = spacing});
-        EXPECT_NEAR(gnomon::ray_spacing(seen.scan).degrees(), spacing, 0.25 * spacing);
-    }
-    const auto seen = looks::look_at(looks::hidden(), {.step = {0, 0.02, 0}});
-    EXPECT_NEAR(gnomon::ray_spacing(seen.scan).degrees(), 1.0, 0.25);
-}
-
-TEST(ray_spacing, is_between_a_twentieth_and_five_degrees) {
-    for (const auto& [name, points] : clouds::degenerate()) {
-        SCOPED_TRACE(name);
-        const double spacing = gnomon::ray_spacing(points).degrees();
-        EXPECT_GE(spacing, 0.05 - 1e-12);
-        EXPECT_LE(spacing, 5.0 + 1e-12);
-    }
-}
-
 /// Of a wall 3 m ahead, what is asked for is before it, in it, behind it or beside it.
 TEST(lines_of_sight, tell_what_was_seen_towards_a_place) {
     gnomon::scene world;
@@ -196,6 +178,34 @@ TEST(lines_of_sight, have_an_image_for_each_view_point) {
     EXPECT_EQ(lines_of_sight(clouds::cloud{}).towards({1, 0, 0}), sighting::unseen);
 }
 
+/// Those nearer to each other than noise throws points count as one, wherever they lie; without
+/// noise none do.
+TEST(lines_of_sight, share_images_of_near_view_points) {
+    clouds::cloud points, way;
+    for (int i = 0; i < 300; ++i) {
+        points.emplace_back(3.0, 0.01 * i, 0.0);
+        way.emplace_back(0.0, 0.0005 * i, 1.0);  // 15 cm
+    }
+    const auto sights = [&](double sigma, const Eigen::Vector3d& by) {
+        clouds::cloud p = points, v = way;
+        for (std::size_t i = 0; i < p.size(); ++i) p[i] += by, v[i] += by;
+        return lines_of_sight(gnomon::with_viewpoints(p, gnomon::viewpoint_table(v)),
+                              {.sigma = sigma});
+    };
+    const lines_of_sight here = sights(0.015, origin);
+    ASSERT_EQ(here.images().size(), 11u) << "the first and the last of half a cube";
+    for (std::size_t k = 1; k < 10; ++k)
+        EXPECT_NEAR(here.images()[k].viewpoint().y() / 0.015, static_cast<double>(k), 0.04);
+    EXPECT_EQ(sights(0.0, origin).images().size(), 300u);
+    EXPECT_EQ(sights(1e-300, origin).images().size(), 300u);
+    EXPECT_EQ(sights(1.0, origin).images().size(), 1u);
+    const Eigen::Vector3d far(524288.25, 4194304.5, -7.0);
+    const lines_of_sight there = sights(0.015, far);
+    ASSERT_NEAR(static_cast<double>(there.images().size()), 11.0, 1.0);
+    EXPECT_EQ(there.towards(Eigen::Vector3d(3.0, 1.0, 0.0) + far),
+              here.towards(Eigen::Vector3d(3.0, 1.0, 0.0)));
+}
+
 /// Two scans that see the wall behind a place outvote the one that sees something before it.
 TEST(lines_of_sight, let_view_points_vote) {
     clouds::cloud points;
@@ -235,9 +245,11 @@ TEST(lines_of_sight, refuse_what_makes_no_sense) {
     };
     EXPECT_THROW(make({.pixel = gnomon::degrees(-1)}), std::invalid_argument);
     EXPECT_THROW(make({.pixel = gnomon::degrees(91)}), std::invalid_argument);
+    EXPECT_THROW(make({.pixel = gnomon::radians(1e-300)}), std::invalid_argument);
     EXPECT_THROW(make({.pixel = gnomon::radians(clouds::nan)}), std::invalid_argument);
     EXPECT_THROW(make({.sigma = -0.1}), std::invalid_argument);
     EXPECT_THROW(make({.sigma = clouds::nan}), std::invalid_argument);
+    EXPECT_THROW(make({.sigma = clouds::infinity}), std::invalid_argument);
     EXPECT_THROW(make({.pole = origin}), std::invalid_argument);
     EXPECT_NO_THROW(make({.pixel = gnomon::degrees(90), .sigma = 0.0}));
 }

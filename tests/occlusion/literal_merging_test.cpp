@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cstddef>
+#include <cstdint>
 #include <stdexcept>
 #include <tuple>
 #include <vector>
@@ -52,6 +53,41 @@ TEST(merge_occluded_literally, does_not_look_between_view_points) {
     const auto seen =
         looks::look_at(looks::hidden(), {.first = {0, 0.5, 0}, .step = {0, -0.01, 0}});
     EXPECT_EQ(remaining_literally(seen, liberal{}), 2u);
+}
+
+/// View points that noise makes one share an image, and what both have seen is in it.
+TEST(merge_occluded_literally, looks_from_view_points_that_are_one_but_for_noise) {
+    const auto seen =
+        looks::look_at(looks::hidden(), {.first = {0, 0.003, 0}, .step = {0, -0.0001, 0}});
+    EXPECT_EQ(remaining_literally(seen, conservative{}), 1u);
+}
+
+/// Numbers that no segment has are no segments, however many.
+TEST(merge_occluded_literally, passes_over_empty_segments) {
+    const auto seen = looks::look_at(looks::hidden());
+    std::vector<std::int32_t> labels = looks::halves(seen).labels();
+    for (std::int32_t& l : labels)
+        if (l != gnomon::unlabeled) l += 400;
+    EXPECT_EQ(merge_occluded_literally(seen.scan, segments(labels), lines_of_sight(seen.scan),
+                                       conservative{})
+                  .size(),
+              1u);
+    EXPECT_EQ(gnomon::merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan),
+                                     conservative{}, {.candidates = 1})
+                  .segments.size(),
+              1u);
+}
+
+TEST(merge_occluded_literally, refuses_thresholds_of_no_sense) {
+    const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
+    const auto refused = [&](const gnomon::occlusion_merging& options) {
+        EXPECT_THROW((void)remaining_literally(seen, conservative{}, options),
+                     std::invalid_argument);
+    };
+    refused({.max_variation = -1.0});
+    refused({.max_offset = clouds::nan});
+    refused({.max_gap = -1.0});
+    refused({.boundary_pairs = 3});
 }
 
 TEST(merge_occluded_literally, keeps_what_is_not_in_one_plane) {

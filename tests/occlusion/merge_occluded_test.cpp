@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <ostream>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 
 #include "laws/clouds.hpp"
 #include "laws/partitions.hpp"
+#include "occlusion/drawn.hpp"
 #include "occlusion/looks.hpp"
 #include <gnomon/occlusion/merge_occluded.hpp>
 
@@ -20,7 +20,7 @@ namespace {
 using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight, gnomon::merge_occluded,
     gnomon::occlusion_merging, gnomon::segments, gnomon::unlabeled;
 
-using looks::origin;
+using looks::drawn, looks::element, looks::origin;
 
 TEST(merge_occluded, has_the_defaults_of_the_thesis) {
     const occlusion_merging options;
@@ -128,35 +128,6 @@ TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
     EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
 }
 
-/// Points by hand, with their labels.
-struct drawn {
-    clouds::cloud points;
-    std::vector<std::int32_t> labels;
-
-    /// A grid of points 2 cm apart about a place, `deep` layers of it along its normal, which is
-    /// the x-axis turned about the z-axis.
-    void add(const Eigen::Vector3d& center, int wide, int high, int deep = 1, double degrees = 0) {
-        const std::int32_t label = labels.empty() ? 0 : labels.back() + 1;
-        const gnomon::angle turned = gnomon::degrees(degrees);
-        const Eigen::Vector3d along(-sin(turned), cos(turned), 0), out(cos(turned), sin(turned), 0);
-        for (int i = 0; i < wide; ++i) {
-            for (int j = 0; j < high; ++j) {
-                for (int k = 0; k < deep; ++k) {
-                    points.push_back(center + 0.02 * (i - 0.5 * (wide - 1)) * along +
-                                     0.02 * (k - 0.5 * (deep - 1)) * out +
-                                     Eigen::Vector3d(0, 0, 0.02 * (j - 0.5 * (high - 1))));
-                    labels.push_back(label);
-                }
-            }
-        }
-    }
-
-    [[nodiscard]] gnomon::merged_segments merged(const occlusion_merging& options = {}) const {
-        return merge_occluded(points, segments(labels), lines_of_sight(points), conservative{},
-                              options);
-    }
-};
-
 TEST(merge_occluded, wants_planes_at_a_small_angle) {
     for (const auto& [turned, rest] : {std::pair(0.0, 1u), {10.0, 1u}, {25.0, 2u}, {80.0, 2u}}) {
         drawn wall;
@@ -202,103 +173,6 @@ TEST(merge_occluded, joins_no_two_planes_by_a_chain) {
     const auto again =
         merge_occluded(corner.points, merged.segments, lines_of_sight(corner.points));
     EXPECT_EQ(again.segments, merged.segments);
-}
-
-/// Something as thick as wide is no wall, be its middle in the wall's plane.
-TEST(merge_occluded, looks_only_at_flat_segments) {
-    drawn wall;
-    wall.add({3, -0.5, 0}, 50, 50);
-    wall.add({3, 0.35, 0}, 25, 30, 20);
-    EXPECT_TRUE(wall.merged().gaps.empty());
-    EXPECT_EQ(wall.merged({.max_variation = 1.0}).gaps.size(), 1u);
-}
-
-/// A wall of which some went round a corner is flat, if most of it is a wall.
-TEST(merge_occluded, looks_at_segments_that_are_flat_but_for_a_corner) {
-    for (const auto& [deep, rest] : {std::pair(12, 1u), {16, 2u}}) {
-        drawn wall;
-        wall.add({3, 0.36, 0}, 25, 20);
-        // Round the corner, to both sides, with 22 or 29 in 100 of the points off the plane.
-        wall.add({3, 0.62, 0}, 1, 20, deep);
-        for (std::int32_t& label : wall.labels) label = 0;
-        wall.add({3, -0.5, 0}, 50, 50);
-        const auto merged = wall.merged({.max_variation = 0.001});
-        EXPECT_EQ(merged.gaps.size(), 2 - rest);
-        EXPECT_EQ(merged.segments.size(), rest);
-    }
-}
-
-struct element {
-    Eigen::Vector3d normal;
-};
-
-/// Two strips hardly wider than noise, side by side, say little of their planes: their normals do.
-TEST(merge_occluded, lets_adjoin_what_has_like_normals) {
-    drawn strips;
-    strips.add({3, -0.03, 0}, 2, 20);
-    strips.add({3, 0.03, 0}, 2, 20);
-    const segments parts(strips.labels);
-    const lines_of_sight sights(strips.points);
-    const auto rest = [&](double degrees) {
-        const gnomon::angle turned = gnomon::degrees(degrees);
-        std::vector<element> surface(40, {{-1.0, 0.0, 0.0}});
-        surface.resize(80, {{-cos(turned), sin(turned), 0.0}});
-        surface[3].normal.setZero();
-        surface[7].normal.setConstant(std::numeric_limits<double>::quiet_NaN());
-        return merge_occluded(strips.points, surface, parts, sights).segments.size();
-    };
-    for (const double alike : {0.0, 30.0, 44.0}) EXPECT_EQ(rest(alike), 1u) << alike;
-    for (const double unlike : {46.0, 90.0, 180.0}) EXPECT_EQ(rest(unlike), 2u) << unlike;
-    const std::vector<element> none(80, {{0.0, 0.0, 0.0}});
-    EXPECT_EQ(merge_occluded(strips.points, none, parts, sights).segments,
-              merge_occluded(strips.points, parts, sights).segments);
-    EXPECT_EQ(strips.merged().segments.size(), 1u);
-}
-
-/// A spot narrower than noise has normals of noise: it goes on in a wall, but not in another spot.
-TEST(merge_occluded, lets_a_spot_adjoin_only_what_knows_its_plane) {
-    drawn spots;
-    spots.add({3, 0, 0}, 2, 2, 3);
-    spots.add({3, 0.1, 0}, 2, 2, 3);
-    EXPECT_EQ(spots.merged().segments.size(), 2u);
-
-    drawn wall;
-    wall.add({3, -0.5, 0}, 50, 50);
-    wall.add({3, 0.1, 0}, 2, 2, 3);
-    std::vector<element> surface(2500, {{-1.0, 0.0, 0.0}});
-    surface.resize(2512, {{0.0, 1.0, 0.0}});
-    EXPECT_EQ(
-        merge_occluded(wall.points, surface, segments(wall.labels), lines_of_sight(wall.points))
-            .segments.size(),
-        1u);
-}
-
-/// A fragment above a piece of furniture that has lent it some points, the nearest to the wall
-/// among them: between these and the wall the wall itself seems to be seen through a gap.
-TEST(merge_occluded, begins_gaps_on_the_plane) {
-    drawn wall;
-    wall.add({3, 0, 0.8}, 80, 40);
-    wall.add({3, 0, -0.25}, 20, 15);
-    wall.add({2.8, 0, 0.0}, 20, 2);
-    for (std::int32_t& label : wall.labels) label = std::min(label, 1);
-    const auto merged = wall.merged({.max_gap = 0.6});
-    EXPECT_EQ(merged.segments.size(), 1u);
-    ASSERT_EQ(merged.gaps.size(), 1u);
-    for (const gnomon::boundary_pair& line : merged.gaps[0].lines)
-        EXPECT_EQ(wall.points[line.second].x(), 3.0);
-}
-
-/// What hides the gap tells more than normals, which are of points on both sides of an edge.
-TEST(merge_occluded, asks_no_normals_across_a_hidden_gap) {
-    const auto seen = looks::look_at(looks::hidden());
-    const auto parts = looks::halves(seen);
-    std::vector<element> surface;
-    for (const std::int32_t label : parts.labels())
-        surface.push_back({label == 0 ? Eigen::Vector3d(-1, 0, 0) : Eigen::Vector3d(0, 1, 0)});
-    const lines_of_sight sights(seen.scan);
-    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, sights).segments,
-              merge_occluded(seen.scan, parts, sights).segments);
-    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, sights).segments.size(), 1u);
 }
 
 /// Four tiles tell together what each does not know alone: that the fifth lies in their plane. So
@@ -364,6 +238,10 @@ TEST(merge_occluded, tells_what_it_has_looked_into) {
     std::size_t closed = 0;
     for (const gnomon::considered_gap& gap : merged.gaps) {
         EXPECT_EQ(gap.lines.size(), 6u);
+        if (gap.merged) {
+            EXPECT_GT(gap.seen[gnomon::sighting::closer], 0u);
+            EXPECT_EQ(gap.seen[gnomon::sighting::farther], 0u);
+        }
         closed += gap.merged ? 1 : 0;
         for (const gnomon::boundary_pair& line : gap.lines) {
             const auto a = merged.segments.labels()[line.first];
@@ -525,6 +403,7 @@ TEST(merge_occluded, refuses_what_makes_no_sense) {
     EXPECT_THROW(merge({.max_offset = -0.1}), std::invalid_argument);
     EXPECT_THROW(merge({.max_gap = -0.1}), std::invalid_argument);
     EXPECT_THROW(merge({.sigma = 0.0}), std::invalid_argument);
+    EXPECT_THROW(merge({.sigma = clouds::infinity}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 0}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
     EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));

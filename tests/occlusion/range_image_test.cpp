@@ -120,6 +120,42 @@ TEST(range_image, of_any_cloud_holds_its_nearest_returns) {
     expect_nearest_returns(range_image(around, origin, {.width = 40, .height = 20}), around);
 }
 
+/// However few of its pixels are taken, each is found again, and nothing else.
+TEST(range_image, of_few_points_in_many_pixels_holds_them) {
+    for (const std::size_t n : {1u, 5u, 60u, 3000u}) {
+        clouds::cloud points = clouds::in_cube(n, n);
+        for (Eigen::Vector3d& p : points) p -= Eigen::Vector3d(0.5, 0.5, 0.5);
+        points.push_back(2.0 * points.front());  // hidden
+        points.push_back(0.5 * points.front());  // hides
+        const range_image image(points, Eigen::Vector3d(0, 0, 0), {.width = 7200, .height = 3600});
+        for (std::size_t i = 1; i + 2 < points.size(); ++i) {
+            const auto at = image.pixel_of(points[i]);
+            ASSERT_TRUE(image.index(at).has_value());
+            EXPECT_LE(image.range(at), points[i].norm() * (1.0 + 1e-12));
+        }
+        EXPECT_EQ(image.index(image.pixel_of(points.front())), points.size() - 1);
+        std::size_t taken = 0;
+        for (std::size_t e = 0; e < image.height(); e += 7) {
+            for (std::size_t a = 0; a < image.width(); a += 11) {
+                if (const auto index = image.index({a, e})) {
+                    EXPECT_EQ(image.pixel_of(points[*index]), (range_image::pixel{a, e}));
+                    ++taken;
+                }
+            }
+        }
+        EXPECT_LE(taken, points.size());
+    }
+}
+
+/// So near that the square of their distance underflows: they are in the view point.
+TEST(range_image, does_not_see_what_is_next_to_the_view_point) {
+    clouds::cloud points = clouds::in_cube(100, 1);
+    for (const double tiny : {2.71e-162, 1e-160, 1e-200, 5e-324})
+        points.emplace_back(tiny, 0.0, 0.0);
+    const range_image image(points, Eigen::Vector3d(0, 0, 0));
+    EXPECT_EQ(image.range(image.pixel_of(Eigen::Vector3d(1, 0, 0))), range_image::nothing);
+}
+
 TEST(range_image, does_not_see_what_is_in_the_view_point_or_nowhere) {
     const clouds::cloud points{origin, {clouds::nan, 1, 1}, {1, clouds::infinity, 0}};
     for (const auto& cloud : {points, clouds::cloud{}}) {
@@ -181,10 +217,14 @@ TEST(range_image, turns_with_its_cloud) {
 TEST(range_image, takes_any_pole) {
     const auto points = all_around(2000, 4);
     for (const Eigen::Vector3d& pole :
-         {Eigen::Vector3d(1, 0, 0), {-1, 0, 0}, {0, 1, 0}, {0.9, 0.1, 0}, {1e-100, 0, 1e-100}}) {
-        const range_image image(points, origin, {.width = 20, .height = 10, .pole = pole});
-        EXPECT_EQ(image.pixel_of(pole.normalized()).elevation, 9u);
-        expect_nearest_returns(image, points);
+         {Eigen::Vector3d(1, 0, 0), {-1, 0, 0}, {0, 1, 0}, {0.9, 0.1, 0}, {1, 0, 1}}) {
+        for (const double length : {1e-300, 1.0, 1e300}) {
+            const range_image image(
+                points, origin,
+                {.width = 20, .height = 10, .pole = Eigen::Vector3d(length * pole)});
+            EXPECT_EQ(image.pixel_of(pole.normalized()).elevation, 9u);
+            expect_nearest_returns(image, points);
+        }
     }
 }
 
@@ -195,6 +235,10 @@ TEST(range_image, refuses_what_is_no_format_or_view_point) {
     };
     EXPECT_THROW(make({.width = 0}, origin), std::invalid_argument);
     EXPECT_THROW(make({.height = 0}, origin), std::invalid_argument);
+    constexpr std::size_t wide = std::size_t{1} << 62;  // four rows of which are none, in 64 bits
+    EXPECT_THROW(make({.width = wide, .height = 4}, origin), std::invalid_argument);
+    EXPECT_THROW(make({.height = wide}, origin), std::invalid_argument);
+    EXPECT_NO_THROW(make({.width = std::size_t{1} << 31, .height = 1000}, origin));
     EXPECT_THROW(make({}, {0, clouds::nan, 0}), std::invalid_argument);
     EXPECT_THROW(make({}, {clouds::infinity, 0, 0}), std::invalid_argument);
     EXPECT_THROW(make({.pole = origin}, origin), std::invalid_argument);
@@ -204,7 +248,7 @@ TEST(range_image, refuses_what_is_no_format_or_view_point) {
     EXPECT_NO_THROW(make({}, origin));
 }
 
-/// What the quick look denies, no pixel about the place shows.
+/// What the quick look denies, no pixel up to two beside the place shows.
 TEST(range_image, a_quick_look_overlooks_nothing) {
     gnomon::random_stream random(5);
     const auto any = [&](double low, double high) {
@@ -222,12 +266,36 @@ TEST(range_image, a_quick_look_overlooks_nothing) {
             if (image.may_show(place)) continue;
             ++denied;
             const auto at = image.pixel_of(place);
-            for (std::size_t e = at.elevation - (at.elevation > 0 ? 1 : 0);
-                 e <= std::min<std::size_t>(at.elevation + 1, 35); ++e)
+            for (std::size_t e = at.elevation - std::min<std::size_t>(at.elevation, 2);
+                 e <= std::min<std::size_t>(at.elevation + 2, 35); ++e)
                 for (std::size_t a = 0; a < 72; ++a) EXPECT_FALSE(image.index({a, e}));
         }
     }
     EXPECT_GT(denied, 1000u);
+}
+
+/// Whoever looks at some points of a cloud asks the whole of it what a pixel shows.
+TEST(range_image, of_some_points_tells_their_indices_in_the_cloud) {
+    const clouds::cloud points = all_around(500, 5);
+    std::vector<point_index> some;
+    clouds::cloud alone;
+    for (std::size_t i = 3; i < points.size(); i += 3) {
+        some.push_back(static_cast<point_index>(i));
+        alone.push_back(points[i]);
+    }
+    const range_image_format format{.width = 36, .height = 18};
+    const range_image image(points, some, origin, format), other(alone, origin, format);
+    for (std::size_t e = 0; e < 18; ++e) {
+        for (std::size_t a = 0; a < 36; ++a) {
+            EXPECT_EQ(image.range({a, e}), other.range({a, e}));
+            ASSERT_EQ(image.index({a, e}).has_value(), other.index({a, e}).has_value());
+            if (image.index({a, e})) {
+                EXPECT_EQ(*image.index({a, e}), some[*other.index({a, e})]);
+            }
+        }
+    }
+    some.push_back(static_cast<point_index>(points.size()));
+    EXPECT_THROW(range_image(points, some, origin), std::invalid_argument);
 }
 
 }  // namespace

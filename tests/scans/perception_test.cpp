@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <stdexcept>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include "laws/clouds.hpp"
+#include "laws/partitions.hpp"
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
@@ -42,7 +45,9 @@ TEST(perception, is_its_steps) {
     gnomon::orient_normals(rest, surface);
     const gnomon::segments parts = gnomon::segment_surfaces(rest, surface);
     const auto merged = gnomon::merge_occluded(rest, surface, parts, gnomon::lines_of_sight(scan));
-    const gnomon::segments whole = gnomon::claim_strays(rest, merged.segments);
+    const gnomon::segments whole = gnomon::join_round(
+        rest, surface,
+        gnomon::claim_strays(rest, gnomon::release_strays(rest, surface, merged.segments)));
 
     std::vector<bool> left_out(scan.size(), true);
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -69,11 +74,35 @@ TEST(perception, is_its_steps) {
     EXPECT_GT(result.seconds.claiming, 0.0);
 }
 
+/// No step draws points by where they are stored, or lets those that come first win.
+TEST(perception, depends_on_no_order_of_points) {
+    const gnomon::scan& scan = scan_of_kitchen();
+    const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
+    const auto expected = chain(scan);
+    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+        std::vector<std::size_t> order;
+        gnomon::scan shuffled;
+        shuffled.points = clouds::permuted(scan.points, seed, order);
+        std::vector<Eigen::Vector3d> viewpoints;
+        std::vector<std::int32_t> labels;
+        for (const std::size_t i : order) {
+            viewpoints.push_back(scan.viewpoints[i]);
+            labels.push_back(expected.surfaces.labels()[i]);
+        }
+        shuffled.viewpoints = gnomon::viewpoint_table(viewpoints);
+        const auto result = chain(shuffled);
+        EXPECT_EQ(result.surfaces.size(), expected.surfaces.size());
+        EXPECT_EQ(laws::rand_index(result.surfaces.labels(), labels), 1.0);
+    }
+}
+
 TEST(perception, leaves_torn_what_is_not_to_be_merged) {
     perception chain{gnomon::knn{.k = 30},
                      gnomon::plane_pca{},
                      gnomon::unmerged{},
                      {.max_angle = gnomon::degrees(4)}};
+    chain.releasing.reset();  // which may make new segments,
+    chain.round.reset();      // and this fewer
     EXPECT_EQ(chain(scan_of_kitchen()).surfaces.size(), chain(scan_of_kitchen()).fragments.size());
     chain.strays.reset();
     const auto result = chain(scan_of_kitchen(), gnomon::threads{2});
@@ -129,6 +158,19 @@ TEST(perception, survives_clouds_of_nothing) {
     }
 }
 
+TEST(perception, tells_all_steps_of_the_noise) {
+    perception<> chain = perception<>{}.with_sigma(0.002);
+    for (const double sigma : {chain.merging.sigma, chain.sights.sigma, chain.strays->sigma,
+                               chain.releasing->sigma, chain.round->sigma})
+        EXPECT_EQ(sigma, 0.002);
+    chain.strays.reset();
+    chain.releasing.reset();
+    chain.round.reset();
+    chain = chain.with_sigma(0.003);
+    EXPECT_EQ(chain.merging.sigma, 0.003);
+    EXPECT_FALSE(chain.strays || chain.releasing || chain.round);
+}
+
 TEST(perception, refuses_what_its_steps_refuse) {
     const std::vector<Eigen::Vector3d> points(100, Eigen::Vector3d(1, 2, 3));
     const auto refused = [&](const auto& chain) {
@@ -137,7 +179,9 @@ TEST(perception, refuses_what_its_steps_refuse) {
     refused(perception{gnomon::knn{.k = 0}, gnomon::plane_pca{}, gnomon::conservative{}});
     refused(perception<>{.segmentation = {.max_distance = -1.0}});
     refused(perception<>{.merging = {.boundary_pairs = 3}});
+    refused(perception<>{.releasing = gnomon::stray_releasing{.sigma = 0.0}});
     refused(perception<>{.strays = gnomon::stray_claiming{.sigma = 0.0}});
+    refused(perception<>{.round = gnomon::round_joining{.sigma = -1.0}});
     refused(perception<>{.sights = {.sigma = -1.0}});
     refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.up = Eigen::Vector3d(0, 0, 2)}});
 }

@@ -52,8 +52,9 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
 /// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
 struct moments {
     std::size_t count = 0;
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of d_j d_j^T [m^2], its lower half
+    Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of d_j [m]
+    Eigen::Matrix3d outer =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of d_j d_j^T [m^2], its lower half
 
     /// Takes in the neighbor at `offset` [m] from the point.
     void add(const Eigen::Vector3d& offset) {
@@ -87,9 +88,10 @@ struct moments {
 
 /// The same with weights.
 struct weighted_moments {
-    double weight = 0.0;                              ///< sum of w_j
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();    ///< sum of w_j d_j [m]
-    Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();  ///< sum of w_j d_j d_j^T [m^2], lower half
+    double weight = 0.0;                 ///< sum of w_j
+    Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of w_j d_j [m]
+    Eigen::Matrix3d outer =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of w_j d_j d_j^T [m^2], lower half
 
     /// Takes in what lies at `offset` [m] from the point, with weight `w`.
     void add(const Eigen::Vector3d& offset, double w) {

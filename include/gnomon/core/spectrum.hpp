@@ -20,7 +20,7 @@ namespace gnomon {
 /// lambda_i = s_i^2 / m for the singular values s_i of the m x 3 matrix of centered points; for
 /// exactly planar sets the smallest is zero up to rounding of about 1e-16 times the largest.
 struct spectrum {
-    Eigen::Vector3d lambda = Eigen::Vector3d::Zero();
+    Eigen::Vector3d lambda{0.0, 0.0, 0.0};
 
     spectrum() = default;
     /// Clamps what rounding made negative.

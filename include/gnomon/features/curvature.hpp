@@ -41,8 +41,8 @@ struct curvature {
     /// The principal directions, perpendicular unit vectors of arbitrary sign; direction1 x
     /// direction2 is the normal of the fitted surface. Where kappa1 = kappa2, as on a sphere and on
     /// a plane, any two directions are principal, and the data's noise chooses.
-    Eigen::Vector3d direction1 = Eigen::Vector3d::Zero();
-    Eigen::Vector3d direction2 = Eigen::Vector3d::Zero();
+    Eigen::Vector3d direction1{0.0, 0.0, 0.0};
+    Eigen::Vector3d direction2{0.0, 0.0, 0.0};
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 
     /// K [1/m^2], Eq. (3.23).

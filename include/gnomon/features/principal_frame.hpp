@@ -25,11 +25,11 @@ namespace gnomon {
 
 /// A right-handed frame along the principal axes of a point set, and the box that fits it there.
 struct principal_frame {
-    Eigen::Vector3d centroid = Eigen::Vector3d::Zero();    ///< mean of the points [m]
-    Eigen::Matrix3d axes = Eigen::Matrix3d::Identity();    ///< columns: largest spread first
-    gnomon::spectrum spectrum;                             ///< variances along the axes [m^2]
-    Eigen::Vector3d box_center = Eigen::Vector3d::Zero();  ///< [m]
-    Eigen::Vector3d box_size = Eigen::Vector3d::Zero();    ///< edge lengths along the axes [m]
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};                 ///< mean of the points [m]
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);  ///< columns: largest spread first
+    gnomon::spectrum spectrum;                               ///< variances along the axes [m^2]
+    Eigen::Vector3d box_center{0.0, 0.0, 0.0};               ///< [m]
+    Eigen::Vector3d box_size{0.0, 0.0, 0.0};                 ///< edge lengths along the axes [m]
 
     /// The direction of least spread: of a flat segment, its normal (sign arbitrary).
     [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }

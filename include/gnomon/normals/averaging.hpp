@@ -48,20 +48,19 @@ struct averaging {
     triangle_sign sign = triangle_sign::from_order;
     [[no_unique_address]] Weight weight = {};
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
         const std::size_t k = ring.size();
         if (k < 2) return fit;
-        const Eigen::Vector3d to_viewpoint = viewpoint - p;
+        const Eigen::Vector3d to_viewpoint = detail::difference(viewpoint, p);
         // The fan is closed unless it ends at a boundary; of two neighbors there is one triangle.
         const std::size_t triangles = ring.open() || k == 2 ? k - 1 : k;
         Eigen::Vector3d sum(0.0, 0.0, 0.0);
         double weights = 0.0;
         for (std::size_t j = 0; j < triangles; ++j) {
-            const Eigen::Vector3d a = ring[j] - p;
-            const Eigen::Vector3d b = ring[j + 1 < k ? j + 1 : 0] - p;
+            const Eigen::Vector3d a = detail::difference(ring[j], p);
+            const Eigen::Vector3d b = detail::difference(ring[j + 1 < k ? j + 1 : 0], p);
             const Eigen::Vector3d c = detail::cross(a, b);
             const double double_area = detail::length(c);
             if (double_area == 0.0) continue;

@@ -57,7 +57,7 @@ concept normal_estimate = std::default_initializable<T> && requires(T& estimate)
 /// No more than that: of methods that give nothing else for free, and of bare vectors, which the
 /// driver normalises.
 struct normal_fit {
-    Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< unit length, or zero if not usable
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< unit length, or zero if not usable
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 };
 

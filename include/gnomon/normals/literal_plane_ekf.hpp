@@ -38,9 +38,9 @@ struct literal_plane_ekf {
 
     /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
     ///                                there is a pass
-    [[nodiscard]] normal_belief operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_belief operator()(const Eigen::Vector3d& p, ring_view ring,
+                                           const Eigen::Vector3d& viewpoint = {0.0, 0.0,
+                                                                               0.0}) const {
         detail::require_sigma(sigma);
         detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
                         "literal_plane_ekf: needs a pass and a positive prior variance");

@@ -56,8 +56,7 @@ struct tangent_basis {
 
     /// The 3 x 3 covariance of a covariance in the coordinates (b1, b2).
     [[nodiscard]] Eigen::Matrix3d in_space(double p11, double p12, double p22) const {
-        Eigen::Matrix3d p;
-        p.setZero();
+        Eigen::Matrix3d p = diagonal(0.0, 0.0, 0.0);
         add_outer(p, p11, b1, b1);
         add_outer(p, p12, b1, b2);
         add_outer(p, p12, b2, b1);
@@ -74,7 +73,8 @@ inline constexpr double grazing_cosine = 0.02;
 /// An estimate together with the covariance of its normal; zero where that is not usable.
 template <normal_estimate Estimate = normal_fit>
 struct with_covariance_of : Estimate {
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();  ///< [rad^2], covariance * normal = 0
+    Eigen::Matrix3d covariance =
+        detail::diagonal(0.0, 0.0, 0.0);  ///< [rad^2], covariance * normal = 0
 
     /// The expected square of the angle between the normal and the true one [rad^2].
     [[nodiscard]] double trace() const {

@@ -26,9 +26,9 @@ struct plane_eif {
     ray_ls fit = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite
-    [[nodiscard]] with_covariance_of<ray_fit> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<ray_fit> operator()(const Eigen::Vector3d& p, ring_view ring,
+                                                         const Eigen::Vector3d& viewpoint = {
+                                                             0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         with_covariance_of<ray_fit> belief;
         if (ring.size() < 3) return belief;

@@ -41,7 +41,7 @@ namespace gnomon {
 struct plane_state {
     detail::tangent_basis frame{Eigen::Vector3d(0.0, 0.0, 1.0)};
     double distance = 0.0;  ///< of the plane from the anchor [m]
-    Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
+    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
 
     /// The state at `delta` from this one, without a covariance.
     [[nodiscard]] plane_state moved(const Eigen::Vector3d& delta) const {
@@ -145,9 +145,9 @@ struct plane_filter {
 
     /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
     ///                                finite, and there is an iteration
-    [[nodiscard]] with_covariance_of<plane_fit> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<plane_fit> operator()(const Eigen::Vector3d& p, ring_view ring,
+                                                           const Eigen::Vector3d& viewpoint = {
+                                                               0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         detail::require(max_iterations >= 1, "plane_filter: needs an iteration");
         detail::require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
@@ -219,7 +219,7 @@ struct plane_filter {
     }
 
     static with_covariance_of<plane_fit> unsettled(with_covariance_of<plane_fit> belief) {
-        belief.normal.setZero();
+        belief.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
         belief.trust = trust::degenerate;
         return belief;
     }

@@ -37,9 +37,8 @@ struct plane_svd {
     /// unit.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         if (ring.size() < 2) return {};
         if (centred) return plane_pca{}(p, ring);
 

@@ -36,9 +36,8 @@ struct quad_svd {
     /// that neither units nor the view point matter; the thesis does not.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                        const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
         if (ring.size() < 9) return fit;
         const Eigen::Vector3d origin = centred ? p : viewpoint;

@@ -62,9 +62,8 @@ namespace detail {
 struct ray_ls {
     double min_aspect_ratio = 0.05;  ///< of the rays, below which the normal is weak
 
-    [[nodiscard]] ray_fit operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] ray_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+                                     const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         if (ring.size() < 2) return {};
         return detail::plane_seen(detail::regression_of(p, ring, viewpoint), min_aspect_ratio);
     }

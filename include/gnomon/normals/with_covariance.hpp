@@ -38,9 +38,10 @@ struct with_covariance {
     E estimate = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite
-    [[nodiscard]] with_covariance_of<estimate_t<E>> operator()(
-        const Eigen::Vector3d& p, ring_view ring,
-        const Eigen::Vector3d& viewpoint = Eigen::Vector3d::Zero()) const {
+    [[nodiscard]] with_covariance_of<estimate_t<E>> operator()(const Eigen::Vector3d& p,
+                                                               ring_view ring,
+                                                               const Eigen::Vector3d& viewpoint = {
+                                                                   0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
         with_covariance_of<estimate_t<E>> belief;
         if constexpr (ray_estimator<E>) {

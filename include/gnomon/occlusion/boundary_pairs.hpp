@@ -37,6 +37,7 @@ template <class Points>
     std::vector<neighbor> nearest;
     if (count == 0) return nearest;
     for (const point_index i : some) {
+        require(i < points.size(), "boundary_pairs: an index of no point");
         const neighbor candidate{squared_distance(points[i], place), i};
         if (nearest.size() == count && !(candidate < nearest.back())) continue;
         if (!is_finite(points[i])) continue;
@@ -79,6 +80,7 @@ template <class Points>
 /// @param centroids  of both
 /// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
 ///                   finite points
+/// @throws std::invalid_argument  for an index of no point
 /// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
 [[nodiscard]] std::vector<boundary_pair> boundary_pairs(

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// What a sensor saw towards a place: a range image for each of its view points, be it one, one for
-/// each of several scans, or one for each scan line of a sensor that moves. So places are asked
-/// for, not pixels of one image, and gaps between points are walked in space.
+/// each of several scans, or one for each point of a sensor that moves. So places are asked for,
+/// not pixels of one image, and gaps between points are walked in space. View points that are
+/// nearer to each other than noise throws points share an image.
 ///
 /// Klasing 2010, Sec. 4.3.5, with the depth of the line at each pixel's ray instead of an
 /// interpolated one (specification of it, A19, F12).
@@ -10,9 +11,7 @@
 
 #include <algorithm>
 #include <array>
-#include <bit>
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -27,10 +26,11 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/occlusion/detail/sensor_places.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
+#include <gnomon/occlusion/ray_spacing.hpp>
 
 namespace gnomon {
 
@@ -38,7 +38,9 @@ namespace gnomon {
 struct sight_options {
     angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
     std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_format`
-    double sigma = 0.015;  ///< standard deviation of ranges [m]; three of them are no difference
+    /// Standard deviation of ranges [m]; three of them are no difference, and view points in a cube
+    /// of this size are one.
+    double sigma = 0.015;
 };
 
 /// How often something was seen, by kind of sighting.
@@ -49,128 +51,45 @@ struct sighting_count {
         return of[static_cast<std::size_t>(s)];
     }
     void add(sighting s) { ++of[static_cast<std::size_t>(s)]; }
+    sighting_count& operator+=(const sighting_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
 };
-
-namespace detail {
-
-/// See ray_spacing.
-/// @param p  a position_view
-[[nodiscard]] angle spacing_of_rays(const auto& p, const viewpoint_table& viewpoints) {
-    constexpr std::size_t seeds = 24, neighbors = 16;
-    constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    std::vector<Eigen::Vector3d> directions;
-    directions.reserve(p.size());
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const Eigen::Vector3d at = p[i], from = viewpoints[i];
-        if (!is_finite(at) || !is_finite(from)) continue;
-        const Eigen::Vector3d d = difference(at, from);
-        const double range = length(d);
-        if (range > 0.0 && std::isfinite(range)) directions.push_back(scaled(1.0 / range, d));
-    }
-    if (directions.size() <= neighbors) return radians(most);
-
-    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
-    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
-    constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
-    static_assert(reach2 < size * size);
-    constexpr std::size_t cubes = 13;  // along a side, with one more at both ends
-    std::vector<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
-    const auto cube_of = [](const Eigen::Vector3d& d) {
-        const auto place = [&d](int a) { return static_cast<std::size_t>(d[a] / size + 6.5); };
-        return (place(0) * cubes + place(1)) * cubes + place(2);
-    };
-    const auto seed = [&](std::size_t s) {
-        return directions[(2 * s + 1) * directions.size() / (2 * seeds)];
-    };
-    for (std::size_t s = 0; s < seeds; ++s) {
-        for (std::size_t c = 0; c < 27; ++c) {
-            const std::size_t way = (c / 9 * cubes + c / 3 % 3) * cubes + c % 3;
-            seeds_about[cube_of(seed(s)) + way - (cubes + 1) * cubes - 1] |= 1U << s;
-        }
-    }
-    std::array<std::vector<double>, seeds> near;
-    for (const Eigen::Vector3d& d : directions) {
-        for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
-            const auto s = static_cast<std::size_t>(std::countr_zero(left));
-            const double squared = squared_distance(seed(s), d);
-            if (squared < reach2) near[s].push_back(squared);
-        }
-    }
-    std::array<double, seeds> squared;
-    for (std::size_t s = 0; s < seeds; ++s) {
-        squared[s] = reach2;
-        if (near[s].size() <= neighbors) continue;
-        std::nth_element(near[s].begin(), near[s].begin() + neighbors, near[s].end());
-        squared[s] = near[s][neighbors];
-    }
-    std::nth_element(squared.begin(), squared.begin() + seeds * 3 / 4, squared.end());
-    const double side = std::sqrt(squared[seeds * 3 / 4] * std::numbers::pi / neighbors);
-    return radians(std::clamp(side, least, most));
-}
-
-}  // namespace detail
-
-/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, for three of four rays at least that. From 24 rays; O(n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
-    return detail::spacing_of_rays(position_view<R, Proj>(points, std::move(projection)),
-                                   viewpoints_of(points));
-}
 
 /// Knows what was seen towards any place.
 class lines_of_sight {
   public:
     /// What a whole cloud tells: also of points that belong to nothing, such as floor and ceiling
     /// that were left out before segmentation. The view points are those of the range, or else the
-    /// origin. O(n log n) in the view points, and a range image for each.
-    /// @throws std::invalid_argument  for a negative or NaN sigma, an angle of a pixel that is
-    ///                                negative or more than 90 degrees, or a pole of no length
+    /// origin. O(n log n), and a range image for each view point.
+    /// @throws std::invalid_argument  for a sigma that is negative or not finite, an angle of
+    ///                                a pixel that is neither 0 nor from a microradian to 90
+    ///                                degrees, or a pole of no length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit lines_of_sight(const R& points, const sight_options& options = {},
                             Proj projection = {})
         : sigma_(options.sigma) {
-        detail::require(options.sigma >= 0.0, "lines_of_sight: sigma must not be negative or NaN");
-        detail::require(
-            options.pixel.radians() >= 0.0 && options.pixel.radians() <= 0.5 * std::numbers::pi,
-            "lines_of_sight: a pixel has between 0 and 90 degrees");
+        detail::require(options.sigma >= 0.0 && std::isfinite(options.sigma),
+                        "lines_of_sight: sigma must be finite and not negative");
+        constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+        const double given = options.pixel.radians();
+        detail::require(given == 0.0 || (given >= least && given <= most),
+                        "lines_of_sight: a pixel has between a microradian and 90 degrees");
         const viewpoint_table viewpoints = viewpoints_of(points);
         const position_view<R, Proj> p(points, projection);
         const angle pixel =
-            options.pixel.radians() > 0.0 ? options.pixel : detail::spacing_of_rays(p, viewpoints);
+            given > 0.0 ? options.pixel : detail::rays_of_cloud(p, viewpoints).spacing();
         const auto height =
             static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
         pixel_ = std::numbers::pi / static_cast<double>(height);
         const range_image_format format{2 * height, height, options.pole};
 
-        // Points by view point. Those of a scan line follow one another, so that there is hardly
-        // anything to sort or to look up.
-        std::vector<sort_key> places;
-        for (const Eigen::Vector3d& v : viewpoints.positions())
-            if (is_finite(v) && (places.empty() || places.back() != key_of(v)))
-                places.push_back(key_of(v));
-        if (viewpoints.empty()) places.push_back({0.0, 0.0, 0.0});
-        std::sort(places.begin(), places.end());
-        places.erase(std::unique(places.begin(), places.end()), places.end());
-        std::vector<std::vector<point_index>> seen(places.size());
-        std::size_t latest = 0;
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d v = viewpoints[i];
-            if (!is_finite(p[i]) || !is_finite(v)) continue;
-            if (places[latest] != key_of(v))
-                latest = static_cast<std::size_t>(
-                    std::lower_bound(places.begin(), places.end(), key_of(v)) - places.begin());
-            seen[latest].push_back(static_cast<point_index>(i));
-        }
-        for (std::size_t v = 0; v < places.size(); ++v) {
-            if (seen[v].empty()) continue;
-            const auto& [x, y, z] = places[v];
-            images_.emplace_back(subset_view<R, Proj>(points, seen[v], projection),
-                                 Eigen::Vector3d(x, y, z), format);
-        }
+        for (const detail::sensor_place& place :
+             detail::places_of_sensor(p, viewpoints, options.sigma))
+            images_.emplace_back(points, place.seen, place.viewpoint(), format, projection);
     }
 
     /// The images, one for each view point.
@@ -219,10 +138,6 @@ class lines_of_sight {
     }
 
   private:
-    /// A view point, to sort by.
-    using sort_key = std::array<double, 3>;
-    static sort_key key_of(const Eigen::Vector3d& v) { return {v[0], v[1], v[2]}; }
-
     /// What one view point has seen there.
     [[nodiscard]] sighting towards(const Eigen::Vector3d& place, const range_image& image) const {
         const double expected = image.distance_to(place);

@@ -59,7 +59,8 @@ template <merge_policy M>
 
 /// Merges flat segments as Alg. 4.3 says. Parameters as of merge_occluded, of whose options sigma
 /// is not asked for; a pair of boundary points from different view points counts as not occluded.
-/// @throws std::invalid_argument  if the segments are of another number of points
+/// @throws std::invalid_argument  if the segments are of another number of points, and for
+///                                thresholds as in merge_occluded
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -69,15 +70,21 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: the segments are of other points");
+    detail::require_thresholds(options);
     const viewpoint_table viewpoints = viewpoints_of(points);
+    // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {
-        return std::find_if(
+        const auto distance = [&](const range_image& image) {
+            return squared_distance(image.viewpoint(), viewpoints[i]);
+        };
+        return std::min_element(
             sights.images().begin(), sights.images().end(),
-            [&](const range_image& image) { return image.viewpoint() == viewpoints[i]; });
+            [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
     const auto is_occluded = [&](const boundary_pair& line) {
         const auto image = image_of(line.first);
-        return image != sights.images().end() && image == image_of(line.second) &&
+        return image != sights.images().end() && is_finite(viewpoints[line.first]) &&
+               is_finite(viewpoints[line.second]) && image == image_of(line.second) &&
                detail::most_pixels_speak_for(policy, *image, p[line.first], p[line.second]);
     };
 
@@ -87,7 +94,8 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     union_find sets(parts.size());
     for (const auto& [i, j] :
          detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
-             return f.spectrum.surface_variation() <= options.max_variation;
+             return f.spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
+                    f.spectrum.surface_variation() <= options.max_variation;
          })) {
         if (angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             orthogonal_distance(frames[i], frames[j]) >= options.max_offset)

@@ -20,13 +20,15 @@ enum class sighting : char {
     farther  ///< something behind it: the place is empty
 };
 
-/// Whether a sighting speaks for merging.
+/// Whether a sighting speaks for merging. Most of what is seen along most of the lines across a gap
+/// must; narrow gaps need nobody's word (occlusion_merging::max_gap), and one place that is seen to
+/// be empty keeps any gap open, unless the policy merges even there.
 template <class M>
 concept merge_policy = requires(const M& policy, sighting seen) {
     { policy(seen) } -> std::convertible_to<bool>;
 };
 
-/// Merges if and only if something closer was seen in the gap.
+/// Merges where something closer was seen in the gap (Sec. 4.3.2).
 struct conservative {
     [[nodiscard]] bool operator()(sighting seen) const { return seen == sighting::closer; }
 };

@@ -13,6 +13,8 @@
 #include <functional>
 #include <numbers>
 #include <optional>
+#include <span>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -49,46 +51,41 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all points at a finite distance from the view point [m], but of those in it.
-    /// O(n).
-    /// @throws std::invalid_argument  without a pixel, or for a view point or a pole that is not
-    ///                                finite, or a pole of no length
+    /// The image of all points at a finite distance from the view point [m], but of those in it. It
+    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
+    /// O(n log n).
+    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, or
+    /// for
+    ///                                a view point or a pole that is not finite, or a pole of no
+    ///                                length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,
                 const range_image_format& format = {}, Proj projection = {})
-        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
-        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+        : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
         std::vector<sight> sights;
         sights.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d d = detail::difference(p[i], viewpoint_);
-            const double range = detail::length(d);
-            if (std::isfinite(range) && range > 0.0)
-                sights.push_back({d, {range, static_cast<point_index>(i)}});
+        for (std::size_t i = 0; i < p.size(); ++i) add(sights, p[i], i);
+        show(sights, format);
+    }
+
+    /// The image of some points of a cloud: what it shows has its index in the whole of it.
+    /// @throws std::invalid_argument  as above, or for an index of no point
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, std::span<const point_index> some,
+                const Eigen::Vector3d& viewpoint, const range_image_format& format = {},
+                Proj projection = {})
+        : range_image(viewpoint, format) {
+        const position_view<R, Proj> p(points, std::move(projection));
+        std::vector<sight> sights;
+        sights.reserve(some.size());
+        for (const point_index i : some) {
+            detail::require(i < p.size(), "range_image: an index of no point");
+            add(sights, p[i], i);
         }
-        turn(format.pole ? *format.pole : least_seen(sights));
-        project(sights);
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        std::size_t lowest = height_, highest = 0;
-        for (const sight& s : sights) {
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
-        }
-        first_row_ = lowest;
-        const auto sine_of_row = [this](double row) {
-            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
-            return std::sin(turn * std::numbers::pi);
-        };
-        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - 1.5);
-        highest_sine_ = sine_of_row(static_cast<double>(highest) + 2.5);
-        if (lowest <= highest) seen_.resize((highest - lowest + 1) * width_);
-        for (const sight& s : sights) {
-            view& v = seen_[place_of(s.at)];
-            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
-        }
+        show(sights, format);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -117,7 +114,8 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
-    /// False only if nothing was seen in the pixel of a place, nor in any about that: a quick look.
+    /// False only if nothing was seen in the pixel of a place, nor in any up to two beside it: a
+    /// quick look.
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         const double up = detail::dot(z_, d), distance = detail::length(d);
@@ -137,10 +135,74 @@ class range_image {
         pixel at = {};
     };
 
+    range_image(const Eigen::Vector3d& viewpoint, const range_image_format& format)
+        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
+        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
+        constexpr std::size_t most = std::size_t{1} << 31;
+        detail::require(width_ <= most && height_ <= most,
+                        "range_image: at most 2^31 pixels in a row or column");
+        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+    }
+
+    void add(std::vector<sight>& sights, const Eigen::Vector3d& p, std::size_t i) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        if (detail::has_length(d))
+            sights.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
+    }
+
+    void show(std::vector<sight>& sights, const range_image_format& format) {
+        turn(format.pole ? *format.pole : least_seen(sights));
+        project(sights);
+        // Only rows in which something is seen are kept, for scan lines a single one.
+        std::size_t lowest = height_, highest = 0;
+        for (const sight& s : sights) {
+            lowest = std::min(lowest, s.at.elevation);
+            highest = std::max(highest, s.at.elevation);
+        }
+        first_row_ = lowest;
+        const auto sine_of_row = [this](double row) {
+            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
+            return std::sin(turn * std::numbers::pi);
+        };
+        constexpr double about = 2.0 + 1e-3;  // rows, and what rounding may make of that
+        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - about);
+        highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
+        keep(sights, lowest <= highest ? (highest - lowest + 1) * width_ : 0);
+    }
+
     [[nodiscard]] view view_of(const pixel& at) const {
         if (at.elevation < first_row_) return {};
-        const std::size_t place = place_of(at);
+        std::size_t place = place_of(at);
+        if (is_sparse_) {
+            const auto found = std::lower_bound(taken_.begin(), taken_.end(), place);
+            if (found == taken_.end() || *found != place) return {};
+            place = static_cast<std::size_t>(found - taken_.begin());
+        }
         return place < seen_.size() ? seen_[place] : view{};
+    }
+
+    /// Stores the nearest sight of each pixel, of so many.
+    void keep(std::vector<sight>& sights, std::size_t pixels) {
+        constexpr std::size_t few = 32;  // pixels for each sight take no more than looking it up
+        is_sparse_ = pixels / few > sights.size();
+        if (is_sparse_) {
+            const auto key = [this](const sight& s) {
+                return std::tuple(place_of(s.at), s.what.range, s.what.index);
+            };
+            std::sort(sights.begin(), sights.end(),
+                      [&](const sight& a, const sight& b) { return key(a) < key(b); });
+            for (const sight& s : sights) {
+                if (!taken_.empty() && taken_.back() == place_of(s.at)) continue;
+                taken_.push_back(place_of(s.at));
+                seen_.push_back(s.what);
+            }
+            return;
+        }
+        seen_.resize(pixels);
+        for (const sight& s : sights) {
+            view& v = seen_[place_of(s.at)];
+            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+        }
     }
 
     [[nodiscard]] std::size_t place_of(const pixel& at) const {
@@ -183,7 +245,7 @@ class range_image {
 
     /// The axis along which the directions to the points spread least; z where there are none.
     [[nodiscard]] static Eigen::Vector3d least_seen(const std::vector<sight>& sights) {
-        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        Eigen::Matrix3d sum = detail::diagonal(0.0, 0.0, 0.0);
         for (const sight& s : sights) {
             const Eigen::Vector3d& d = s.offset;
             const double weight = 1.0 / detail::dot(d, d);
@@ -198,10 +260,10 @@ class range_image {
     }
 
     void turn(const Eigen::Vector3d& pole) {
-        const double length = std::sqrt(detail::dot(pole, pole));
-        detail::require(length > 0.0 && std::isfinite(length),
+        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
+        detail::require(detail::all_finite(pole) && has_direction,
                         "range_image: the pole must be a finite direction");
-        z_ = Eigen::Vector3d(pole[0] / length, pole[1] / length, pole[2] / length);
+        z_ = detail::direction_of(pole);
         // Azimuth counts from the x-axis; where that is the pole, from the y-axis.
         const Eigen::Vector3d start =
             std::abs(z_[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
@@ -217,6 +279,8 @@ class range_image {
     std::size_t first_row_ = 0;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
     std::vector<view> seen_;  // row by row, from the first in which something is seen
+    bool is_sparse_ = false;  // only pixels in which something is seen, whose places are
+    std::vector<std::size_t> taken_;
 };
 
 }  // namespace gnomon

@@ -17,6 +17,7 @@
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
@@ -48,7 +49,7 @@ struct two_thresholds {
     [[nodiscard]] auto criterion() const {
         const double cosine = detail::min_cosine(max_angle);
         return [cosine](double, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
-            return std::abs(n_i.dot(n_j)) >= cosine;
+            return std::abs(detail::dot(n_i, n_j)) >= cosine;
         };
     }
 };

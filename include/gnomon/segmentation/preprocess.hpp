@@ -48,7 +48,7 @@ struct height_bands {
 
 /// A rigid motion after which the floor is the plane z = 0.
 struct leveling {
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
@@ -127,10 +127,11 @@ template <class R, class Proj = std::identity>
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
         plane next{detail::column(e.vectors, 2), 0.0};
-        if (next.normal.dot(floor.normal) < 0.0) next.normal = detail::scaled(-1.0, next.normal);
+        if (detail::dot(next.normal, floor.normal) < 0.0)
+            next.normal = detail::scaled(-1.0, next.normal);
         Eigen::Vector3d centroid = *origin;
         for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
-        next.offset = next.normal.dot(centroid);
+        next.offset = detail::dot(next.normal, centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
         // deviations of what lies there (1.4826 times the median for a normal distribution).

@@ -62,6 +62,9 @@ namespace gnomon::detail {
     return {b[0] / size, b[1] / size, b[2] / size};
 }
 
+/// Whether the length of a can be calculated from its square, which neither under- nor overflows.
+[[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
+
 /// M a
 [[nodiscard]] inline Eigen::Vector3d product(const Eigen::Matrix3d& m, const Eigen::Vector3d& a) {
     Eigen::Vector3d r;
@@ -81,7 +84,7 @@ namespace gnomon::detail {
 /// The diagonal matrix of a, b and c.
 [[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
     Eigen::Matrix3d m;
-    m.setZero();
+    std::fill_n(m.data(), 9, 0.0);
     m(0, 0) = a;
     m(1, 1) = b;
     m(2, 2) = c;

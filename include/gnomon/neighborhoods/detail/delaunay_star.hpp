@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
@@ -183,7 +182,7 @@ template <class Points>
 
 /// The square of the largest circumradius of the triangles of a closed star: all circles lie within
 /// twice its root about the origin.
-[[nodiscard]] inline double largest_squared_circumradius(std::span<const planar_point> star) {
+[[nodiscard]] inline double largest_squared_circumradius(const std::vector<planar_point>& star) {
     double largest = 0.0;
     for (std::size_t i = 0; i < star.size(); ++i) {
         const planar_point& a = star[i];

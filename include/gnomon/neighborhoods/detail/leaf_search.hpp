@@ -41,6 +41,7 @@ struct nearest_wanted {
     std::size_t k;
     tie_rule ties = tie_rule::by_index;
     double radius = std::numeric_limits<double>::infinity();  // [m]
+    const std::vector<bool>* of = nullptr;  // the points whose neighbors are looked for; of all
 };
 
 /// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
@@ -54,24 +55,29 @@ class leaf_search {
           k_(std::min(wanted.k, tree.size() - 1)),
           ties_(wanted.ties),
           radius_(wanted.radius),
+          of_(wanted.of),
           list_(tree) {}
 
-    /// Calls visit(place, places of its k nearest) for each point of the group number `group`.
+    /// Calls visit(place, places of its k nearest) for each point of the group number `group` whose
+    /// neighbors are looked for.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t first = group * Tree::points_per_group;
         const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
-        for (std::size_t p = first; p < last; ++p) waiting_.push_back(p);
+        for (std::size_t p = first; p < last; ++p)
+            if (of_ == nullptr || (*of_)[tree_.index()[p]]) waiting_.push_back(p);
+        if (waiting_.empty()) return;
         list_.enclose(waiting_);
-        // The box of the group, with its diagonal, holds that many neighbors of each.
-        if (last - first > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
+        // The box of these, with its diagonal, holds that many neighbors of each.
+        if (waiting_.size() > k_) reach_ = std::min(reach_, 2.0 * list_.half_diagonal());
         reached_.clear();
         if (list_.half_diagonal() <= list_.widest * reach_ || !(reach_ > 0.0)) {
             find_waiting(visit);
         } else {
             // Far apart for what is near them, as where the group holds a stray: one by one.
-            for (std::size_t p = first; p < last; ++p) {
+            alone_ = waiting_;
+            for (const std::size_t p : alone_) {
                 waiting_.assign(1, p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
                 list_.enclose(waiting_);
@@ -228,7 +234,7 @@ class leaf_search {
         std::size_t kept = wanted;
         if (ties_ == tie_rule::all) {
             const auto nearest = std::span(doubtful_).first(std::min(most, doubtful_.size()));
-            std::ranges::sort(nearest, nearer);
+            std::sort(nearest.begin(), nearest.end(), nearer);
             kept = size_with_ties(nearest, wanted, most, [](const auto& d) { return d.first; });
         }
         for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
@@ -239,12 +245,13 @@ class leaf_search {
     std::size_t k_;
     tie_rule ties_;
     double radius_;
+    const std::vector<bool>* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
     double guess_ = 0.0;                                     // of the next one
     double reach_ = 0.0;                                     // within which leaves are listed [m]
     std::vector<double> reached_;                            // the k-th distances in a group [m]
-    std::vector<std::size_t> waiting_;
+    std::vector<std::size_t> waiting_, alone_;
     std::span<std::uint32_t> selected_;
     std::vector<float> between_;
     std::vector<std::pair<neighbor, std::size_t>> doubtful_;

@@ -114,13 +114,13 @@ class ray_regression {
   private:
     double range_ = 0.0;
     trust status_ = trust::good;
-    Eigen::Vector3d e1_ = Eigen::Vector3d::Zero();
-    Eigen::Vector3d e2_ = Eigen::Vector3d::Zero();
-    Eigen::Vector3d e3_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d e1_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e2_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e3_{0.0, 0.0, 0.0};
     double w_ = 1.0, xi_ = 0.0, eta_ = 0.0, y_ = 0.0;
     double xx_ = 0.0, xe_ = 0.0, ee_ = 0.0, xy_ = 0.0, ey_ = 0.0;
     double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, aspect_ratio_ = 0.0;  // of the solution
-    Eigen::Vector3d m_ = Eigen::Vector3d::Zero();
+    Eigen::Vector3d m_{0.0, 0.0, 0.0};
 };
 
 }  // namespace gnomon::detail

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The plane of a segment, as ranges tell of it, and whether two segments have the same. Noise lies
-/// along the rays, not across the surface: so planes are found by regression of the depth along a
-/// ray on the place across it, and compared as two regressions are (Chow 1960). Of what is narrower
-/// than noise, or seen at a grazing angle, the direction of least spread is that of nothing; the
-/// regression still knows how little it knows.
+/// The plane of a segment, as ranges tell of it. Noise lies along the rays, not across the surface:
+/// so planes are found by regression of the depth along a ray on the place across it. Of what is
+/// narrower than noise, or seen at a grazing angle, the direction of least spread is that of
+/// nothing; the regression still knows how little it knows.
 ///
 /// The rays to one segment count as parallel: those of a segment too wide for that tell so much
 /// that it does not matter.
@@ -105,40 +104,51 @@ struct depth_regression {
     [[nodiscard]] Eigen::Vector3d normal(const sight_axes& axes) const {
         return combined(1.0, axes.along, -slope[0], axes.x, -slope[1], axes.y);
     }
+
+    /// How well the slope is known by `count` points: the inverse of its covariance.
+    [[nodiscard]] matrix_across information(std::size_t count, double sigma) const {
+        return (static_cast<double>(count) / (sigma * sigma)) * spread;
+    }
 };
 
-/// What a segment tells of its plane by itself.
+/// What a sample tells of its plane by itself.
 struct plane_knowledge {
     double squared_width;    ///< variance of the places across the sight, the way it is wider [m^2]
-    angle direction;         ///< three standard deviations of that of the plane
+    angle uncertainty;       ///< of the direction of the plane, three standard deviations
     Eigen::Vector3d normal;  ///< towards the view point, not of unit length
 };
 
+/// @param sigma  the standard deviation of ranges [m]
 [[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
     const sight_axes axes = axes_towards(sample);
     const depth_regression plane(sample, axes);
-    const auto n = static_cast<double>(sample.count);
-    const double slope = sigma * std::sqrt(plane.spread.inverse().largest_eigenvalue() / n);
-    return {plane.spread.largest_eigenvalue(), radians(std::atan(3.0 * slope)),
+    const matrix_across of_slope = plane.information(sample.count, sigma).inverse();
+    return {plane.spread.largest_eigenvalue(),
+            radians(std::atan(3.0 * std::sqrt(of_slope.largest_eigenvalue()))),
             scaled(-1.0, plane.normal(axes))};
 }
 
-/// How far off a plane a point of it may be, in standard deviations of a range.
-inline constexpr double off_plane = 2.5;
+/// Tells of a point [m] whether it is on the plane of a sample, as far as noise lets it be.
+[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma) {
+    constexpr double at_most = 2.5;  // standard deviations of a range
+    const sight_axes axes = axes_towards(sample);
+    return [deeper = depth_regression(sample, axes).normal(axes), mean = sample.mean,
+            depth = at_most * sigma](const Eigen::Vector3d& p) {
+        return std::abs(dot(deeper, difference(p, mean))) <= depth;
+    };
+}
 
-/// Those of some points that are on the plane of a sample of them, as far as noise lets them.
+/// Those of some points that are on the plane of a sample of them.
 /// @param points   a position_view of the cloud
 /// @param members  indices of points of it
 /// Complexity: O(n).
 [[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
                                                        std::span<const point_index> members,
                                                        const plane_sample& sample, double sigma) {
-    const sight_axes axes = axes_towards(sample);
-    const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
+    const auto is_on_plane = is_on_plane_of(sample, sigma);
     std::vector<point_index> on;
     for (const point_index i : members)
-        if (std::abs(dot(off, difference(points[i], sample.mean))) <= off_plane * sigma)
-            on.push_back(i);
+        if (is_on_plane(points[i])) on.push_back(i);
     return on;
 }
 
@@ -163,8 +173,8 @@ inline constexpr double off_plane = 2.5;
     const auto take = [&](auto&& belongs) {
         moments m;
         for (const point_index i : members) {
-            const Eigen::Vector3d d = difference(points[i], origin);
-            if (all_finite(d) && belongs(d)) m.add(d);
+            const Eigen::Vector3d p = points[i];
+            if (is_finite(p) && belongs(p)) m.add(difference(p, origin));
         }
         if (2 * m.count < sample.count) return;
         sample.count = m.count;
@@ -172,102 +182,8 @@ inline constexpr double off_plane = 2.5;
         sample.covariance = m.covariance_of_neighbors();
     };
     take([](const Eigen::Vector3d&) { return true; });
-    for (int pass = 0; pass < 4; ++pass) {
-        const sight_axes axes = axes_towards(sample);
-        const Eigen::Vector3d off = depth_regression(sample, axes).normal(axes);
-        const Eigen::Vector3d middle = difference(sample.mean, origin);
-        take([&](const Eigen::Vector3d& d) {
-            return std::abs(dot(off, difference(d, middle))) <= off_plane * sigma;
-        });
-    }
+    for (int pass = 0; pass < 4; ++pass) take(is_on_plane_of(sample, sigma));
     return sample;
 }
-
-/// Two samples, and what noise lets them tell of whether they are of one plane.
-class plane_comparison {
-  public:
-    /// With a sample of no points nothing is of one plane, nor of two.
-    /// @param wide  that of the wider segment
-    plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
-        : sigma_(sigma), both_have_points_(wide.count > 0 && slim.count > 0) {
-        const sight_axes axes = axes_towards(slim);  // which depends more on how the rays go
-        const depth_regression a(wide, axes), b(slim, axes);
-        constexpr double square_of_two = 11.8;  // 99.7 % of chi-squared, of two numbers
-        const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
-        const matrix_across spread = spread_of_slope(wide, a) + spread_of_slope(slim, b);
-        parallel_ = dot(turn, spread.solved(turn)) <= square_of_two;
-        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
-        turned_ = std::atan2(length(cross(normal, other)), dot(normal, other));
-        turned_by_noise_ = std::atan(deviations * std::sqrt(spread.largest_eigenvalue()));
-
-        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
-        // more.
-        const matrix_across known_a = known(wide, a), known_b = known(slim, b);
-        const matrix_across sum = parallel_ ? known_a + known_b : known_a;
-        const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
-        const place_across slope =
-            parallel_ ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
-        const Eigen::Vector3d between = difference(slim.mean, wide.mean);
-        const place_across way{dot(axes.x, between), dot(axes.y, between)};
-        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
-        offset_ = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
-        const double variance = sigma * sigma;
-        offset_deviation_ = cosine * std::sqrt(variance / static_cast<double>(wide.count) +
-                                               variance / static_cast<double>(slim.count) +
-                                               dot(way, sum.solved(way)));
-        // What is hardly wider than noise became a segment by chance, and its points are no fair
-        // sample of the noise.
-        constexpr double chosen = 1.0;  // in standard deviations
-        tolerated_offset_ = no_noise * sigma;
-        if (b.spread.largest_eigenvalue() < 9.0 * variance)
-            tolerated_offset_ = std::max(cosine * chosen * sigma, tolerated_offset_);
-    }
-
-    /// How far the slim one is off the plane of both, or of the wide one [m].
-    [[nodiscard]] double offset() const { return offset_; }
-
-    /// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and
-    /// of what is no noise, such as round edges, a tenth of a standard deviation more; an angle
-    /// that is well known may be up to max_angle. Nothing is told if noise would hide an offset of
-    /// max_offset more often than one time in six.
-    [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
-        constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-        return both_have_points_ &&
-               (parallel_ ||
-                (turned_ <= max_angle.radians() && turned_by_noise_ <= max_angle.radians())) &&
-               offset_ < max_offset &&
-               not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
-               offset_ <= deviations * offset_deviation_ + tolerated_offset_;
-    }
-
-    /// Whether their angle is greater than max_angle, or their offset than max_offset, by more than
-    /// three standard deviations. Of what is neither of one plane nor of two, nothing is known.
-    [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
-        return both_have_points_ &&
-               ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
-                offset_ - deviations * offset_deviation_ - tolerated_offset_ > max_offset);
-    }
-
-  private:
-    static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
-    static constexpr double no_noise = 0.1;    // in standard deviations
-
-    /// How well a slope is known: the inverse of its covariance.
-    [[nodiscard]] matrix_across known(const plane_sample& sample, const depth_regression& r) const {
-        return (static_cast<double>(sample.count) / (sigma_ * sigma_)) * r.spread;
-    }
-
-    /// The covariance of a slope.
-    [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
-                                                const depth_regression& r) const {
-        const double more = no_noise * no_noise * static_cast<double>(sample.count);
-        return (1.0 + more) * known(sample, r).inverse();
-    }
-
-    double sigma_;
-    bool both_have_points_, parallel_;
-    double turned_, turned_by_noise_;                      // [rad]
-    double offset_, offset_deviation_, tolerated_offset_;  // [m]
-};
 
 }  // namespace gnomon::detail

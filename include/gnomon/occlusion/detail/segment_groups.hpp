@@ -32,7 +32,7 @@ template <class Segment, class Frame = std::identity>
     std::vector<point_index> flat;
     std::vector<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
-        if (!is_flat(all[s])) continue;
+        if (!std::invoke(is_flat, all[s])) continue;
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(std::invoke(frame, all[s]).centroid);
     }
