@@ -195,7 +195,7 @@ TEST(join_round, is_of_a_size) {
     EXPECT_FALSE(joins({.max_distance = 0.5 * grid_step}));
 }
 
-/// A vase in shreds on something of another segment: a long tread, or a small piece of a table,
+/// A vase in shreds on something of another segment: a long board, or a small piece of a table,
 /// whose normals meet the axis as well as any. Either keeps its points, and the vase is whole.
 TEST(join_round, what_a_vase_stands_on_keeps_its_points) {
     for (const double length : {0.1, 1.5}) {
@@ -213,9 +213,9 @@ TEST(join_round, what_a_vase_stands_on_keeps_its_points) {
         for (std::size_t i = 0; i < below; ++i) surface[i].normal = Eigen::Vector3d(0, 0, 1);
         const segments joined = join_round(points, surface, segments(labels));
         ASSERT_EQ(joined.size(), 2u) << length;
-        const std::int32_t of_tread = joined.labels()[0], of_vase = joined.labels().back();
+        const std::int32_t of_board = joined.labels()[0], of_vase = joined.labels().back();
         for (std::size_t i = 0; i < points.size(); ++i)
-            EXPECT_EQ(joined.labels()[i], i < below ? of_tread : of_vase);
+            EXPECT_EQ(joined.labels()[i], i < below ? of_board : of_vase);
     }
 }
 
