@@ -72,7 +72,7 @@ struct perceived {
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
     segments fragments;                     ///< of the n points, before merging
     segments surfaces;                      ///< after merging and all that follows it
-    std::vector<considered_gap> gaps;       ///< what merging looked into
+    std::vector<considered_gap> gaps;       ///< what merging looked into, and what it closed later
     perception_seconds seconds;
 };
 
@@ -98,7 +98,7 @@ struct perception {
     anisotropy_repair repair{};
     /// Points without a segment go to flat ones that they are of.
     std::optional<stray_claiming> strays = stray_claiming{};
-    /// Before that, flat segments free what is not of their planes.
+    /// Before that, flat segments free what is not of their planes, and are merged once more.
     std::optional<stray_releasing> releasing = stray_releasing{};
     /// At the end, vases, cups and columns that fell apart become one segment each.
     std::optional<round_joining> round = round_joining{};
@@ -121,7 +121,7 @@ struct perception {
         requires point_range<R, Proj>
     [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
         -> perceived<estimate_t<Estimator>> {
-        perceived<estimate_t<Estimator>> result;
+        result_type result;
         const std::size_t n = position_view<R, Proj>(points, projection).size();
         result.seconds.preprocessing = seconds_of([&] { keep(points, projection, n, result); });
         const subset_view<R, Proj> kept(points, result.kept, projection);
@@ -129,43 +129,67 @@ struct perception {
         result.seconds.normals = seconds_of([&] { surface = surface_of(kept, run); });
         result.seconds.segmentation = seconds_of([&] {
             const segments parts = segment_surfaces(kept, surface, segmentation, run);
-            result.fragments = segments(of_all(parts.labels(), result.kept, n));
+            result.fragments = of_all(parts, result.kept, n);
         });
         result.surface.resize(n);
         for (std::size_t i = 0; i < kept.size(); ++i) result.surface[result.kept[i]] = surface[i];
         result.surfaces = result.fragments;
-        if constexpr (merge_policy<Merge>) {
-            result.seconds.merging = seconds_of([&] {
-                // What was left out hides and shows as much as the rest.
-                const lines_of_sight seen(points, sights, projection);
-                merged_segments merged = merge_occluded(points, result.surface, result.fragments,
-                                                        seen, merge, merging, projection);
-                result.surfaces = std::move(merged.segments);
-                result.gaps = std::move(merged.gaps);
+        std::optional<lines_of_sight> seen;
+        merge_torn(points, projection, seen, result);
+        if (releasing) {
+            result.seconds.claiming += seconds_of([&] {
+                result.surfaces =
+                    of_all(release_strays(kept, surface, surfaces_of_kept(result), *releasing, run),
+                           result.kept, n);
             });
+            // Pieces tell more of their planes when they are free of what is not of them.
+            merge_torn(points, projection, seen, result);
         }
-        if (releasing || strays || round) {
-            result.seconds.claiming = seconds_of([&] {
-                std::vector<std::int32_t> labels(kept.size());
-                for (std::size_t i = 0; i < kept.size(); ++i)
-                    labels[i] = result.surfaces.labels()[result.kept[i]];
-                segments settled(std::move(labels));
-                if (releasing) settled = release_strays(kept, surface, settled, *releasing, run);
+        if (strays || round) {
+            result.seconds.claiming += seconds_of([&] {
+                segments settled = surfaces_of_kept(result);
                 if (strays) settled = claim_strays(kept, settled, *strays, run);
                 if (round) settled = join_round(kept, surface, settled, *round, run);
-                result.surfaces = segments(of_all(settled.labels(), result.kept, n));
+                result.surfaces = of_all(settled, result.kept, n);
             });
         }
         return result;
     }
 
   private:
-    /// Labels of n points from those of the kept ones.
-    static std::vector<std::int32_t> of_all(const std::vector<std::int32_t>& of_kept,
-                                            const std::vector<point_index>& kept, std::size_t n) {
+    using result_type = perceived<estimate_t<Estimator>>;
+
+    /// Segments of n points from those of the kept ones.
+    static segments of_all(const segments& of_kept, const std::vector<point_index>& kept,
+                           std::size_t n) {
         std::vector<std::int32_t> labels(n, unlabeled);
-        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept[i];
-        return labels;
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept.labels()[i];
+        return segments(std::move(labels));
+    }
+    static segments surfaces_of_kept(const result_type& result) {
+        std::vector<std::int32_t> labels(result.kept.size());
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            labels[i] = result.surfaces.labels()[result.kept[i]];
+        return segments(std::move(labels));
+    }
+
+    /// Merges what is torn of the surfaces, and tells the gaps: all that the first run looks into,
+    /// and those that another one closes. What was left out hides and shows as much as the rest.
+    /// @param seen  made by the first run
+    template <class R, class Proj>
+    void merge_torn(const R& points, const Proj& projection, std::optional<lines_of_sight>& seen,
+                    result_type& result) const {
+        if constexpr (merge_policy<Merge>) {
+            result.seconds.merging += seconds_of([&] {
+                const bool is_first = !seen;
+                if (is_first) seen.emplace(points, sights, projection);
+                merged_segments merged = merge_occluded(points, result.surface, result.surfaces,
+                                                        *seen, merge, merging, projection);
+                result.surfaces = std::move(merged.segments);
+                for (considered_gap& gap : merged.gaps)
+                    if (is_first || gap.merged) result.gaps.push_back(std::move(gap));
+            });
+        }
     }
 
     static double seconds_of(auto&& step) {
@@ -175,8 +199,7 @@ struct perception {
     }
 
     template <class R, class Proj>
-    void keep(const R& points, const Proj& projection, std::size_t n,
-              perceived<estimate_t<Estimator>>& result) const {
+    void keep(const R& points, const Proj& projection, std::size_t n, result_type& result) const {
         if (leave_out) {
             const auto guess = guess_floor(points, leave_out->up, projection);
             if (guess) result.floor = find_floor(points, *guess, leave_out->floor, projection);

@@ -537,6 +537,12 @@ struct moments {
         detail::add_moments(sum, outer, offset, 1.0);
     }
 
+    /// Takes out one that was taken in; what rounding leaves of it is little, if others stay.
+    void remove(const Eigen::Vector3d& offset) {
+        --count;
+        detail::add_moments(sum, outer, offset, -1.0);
+    }
+
     /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
     /// 1/(k+1) times the scatter about their centroid. The point's own offset is zero.
     [[nodiscard]] Eigen::Matrix3d covariance_with_point() const { return about_mean(count + 1); }
@@ -10786,7 +10792,7 @@ namespace gnomon {
 /// Parameters of `release_strays`.
 struct stray_releasing {
     double sigma = 0.015;            ///< standard deviation of ranges [m]
-    std::size_t k = 5;               ///< points are judged, and hang together, with so many nearest
+    std::size_t k = 8;               ///< points are judged, and hang together, with so many nearest
     double max_distance = 0.30;      ///< that are no farther [m]
     angle max_angle = degrees(7.5);  ///< off the plane's: points with such a normal stay
     std::size_t min_points = 30;     ///< so many released ones together are a segment
@@ -12050,13 +12056,16 @@ struct plane_knowledge {
             scaled(-1.0, plane.normal(axes))};
 }
 
-/// Tells of a point [m] whether it is on the plane of a sample, as far as noise lets it be.
-[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma) {
+/// Tells of an offset [m] from `origin` whether the point there is on the plane of a sample, as far
+/// as noise lets it be.
+[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma,
+                                         const Eigen::Vector3d& origin) {
     constexpr double at_most = 2.5;  // standard deviations of a range
     const sight_axes axes = axes_towards(sample);
-    return [deeper = depth_regression(sample, axes).normal(axes), mean = sample.mean,
-            depth = at_most * sigma](const Eigen::Vector3d& p) {
-        return std::abs(dot(deeper, difference(p, mean))) <= depth;
+    const Eigen::Vector3d deeper = depth_regression(sample, axes).normal(axes);
+    return [deeper, at_mean = dot(deeper, difference(sample.mean, origin)),
+            depth = at_most * sigma](const Eigen::Vector3d& offset) {
+        return std::abs(dot(deeper, offset) - at_mean) <= depth;
     };
 }
 
@@ -12067,10 +12076,10 @@ struct plane_knowledge {
 [[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
                                                        std::span<const point_index> members,
                                                        const plane_sample& sample, double sigma) {
-    const auto is_on_plane = is_on_plane_of(sample, sigma);
+    const auto is_on_plane = is_on_plane_of(sample, sigma, sample.mean);
     std::vector<point_index> on;
     for (const point_index i : members)
-        if (is_on_plane(points[i])) on.push_back(i);
+        if (is_on_plane(difference(points[i], sample.mean))) on.push_back(i);
     return on;
 }
 
@@ -12092,19 +12101,28 @@ struct plane_knowledge {
                                     [&](point_index i) { return is_finite(points[i]); });
     if (first == members.end()) return sample;
     const Eigen::Vector3d origin = points[*first];
-    const auto take = [&](auto&& belongs) {
-        moments m;
-        for (const point_index i : members) {
-            const Eigen::Vector3d p = points[i];
-            if (is_finite(p) && belongs(p)) m.add(difference(p, origin));
-        }
-        if (2 * m.count < sample.count) return;
+    std::vector<Eigen::Vector3d> offsets;
+    offsets.reserve(members.size());
+    moments all;
+    for (const point_index i : members) {
+        const Eigen::Vector3d p = points[i];
+        if (!is_finite(p)) continue;
+        offsets.push_back(difference(p, origin));
+        all.add(offsets.back());
+    }
+    const auto take = [&](const moments& m) {
         sample.count = m.count;
         sample.mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
         sample.covariance = m.covariance_of_neighbors();
     };
-    take([](const Eigen::Vector3d&) { return true; });
-    for (int pass = 0; pass < 4; ++pass) take(is_on_plane_of(sample, sigma));
+    take(all);
+    for (int pass = 0; pass < 4; ++pass) {
+        const auto is_on_plane = is_on_plane_of(sample, sigma, origin);
+        moments on = all;  // less what is off, which is little
+        for (const Eigen::Vector3d& d : offsets)
+            if (!is_on_plane(d)) on.remove(d);
+        if (2 * on.count >= sample.count) take(on);
+    }
     return sample;
 }
 
@@ -12162,10 +12180,11 @@ class plane_comparison {
     /// How far the slim one is off the plane of both, or of the wide one [m].
     [[nodiscard]] double offset() const { return offset_; }
 
-    /// Their angle and their offset may each be what noise makes of none in 997 of 1,000 cases, and
-    /// of what is no noise, such as round edges, a tenth of a standard deviation more; an angle
-    /// that is well known may be up to max_angle. Nothing is told if noise would hide an offset of
-    /// max_offset more often than one time in six.
+    /// Their angle may be what noise makes of none in 997 of 1,000 cases, and of what is no noise,
+    /// such as round edges, a tenth of a standard deviation more; an angle that is well known may
+    /// be up to max_angle. Of their offset more is asked, that it be so small in 976 of 1,000: made
+    /// things are full of planes that are parallel, and a centimeter apart. Nothing is told if
+    /// noise would hide an offset of max_offset more often than one time in six.
     [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
         constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
         return both_have_points_ &&
@@ -12173,7 +12192,7 @@ class plane_comparison {
                 (turned_ <= max_angle.radians() && turned_by_noise_ <= max_angle.radians())) &&
                offset_ < max_offset &&
                not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
-               offset_ <= deviations * offset_deviation_ + tolerated_offset_;
+               offset_ <= deviations_of_offset * offset_deviation_ + tolerated_offset_;
     }
 
     /// Whether their angle is greater than max_angle, or their offset than max_offset, by more than
@@ -12185,8 +12204,9 @@ class plane_comparison {
     }
 
   private:
-    static constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
-    static constexpr double no_noise = 0.1;    // in standard deviations
+    static constexpr double deviations = 3.0;             // 99.7 % of a normal distribution
+    static constexpr double deviations_of_offset = 2.25;  // 97.6 %
+    static constexpr double no_noise = 0.1;               // in standard deviations
 
     /// The covariance of a slope, with what is no noise.
     [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
@@ -14357,7 +14377,7 @@ struct perceived {
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where left out
     segments fragments;                     ///< of the n points, before merging
     segments surfaces;                      ///< after merging and all that follows it
-    std::vector<considered_gap> gaps;       ///< what merging looked into
+    std::vector<considered_gap> gaps;       ///< what merging looked into, and what it closed later
     perception_seconds seconds;
 };
 
@@ -14383,7 +14403,7 @@ struct perception {
     anisotropy_repair repair{};
     /// Points without a segment go to flat ones that they are of.
     std::optional<stray_claiming> strays = stray_claiming{};
-    /// Before that, flat segments free what is not of their planes.
+    /// Before that, flat segments free what is not of their planes, and are merged once more.
     std::optional<stray_releasing> releasing = stray_releasing{};
     /// At the end, vases, cups and columns that fell apart become one segment each.
     std::optional<round_joining> round = round_joining{};
@@ -14406,7 +14426,7 @@ struct perception {
         requires point_range<R, Proj>
     [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
         -> perceived<estimate_t<Estimator>> {
-        perceived<estimate_t<Estimator>> result;
+        result_type result;
         const std::size_t n = position_view<R, Proj>(points, projection).size();
         result.seconds.preprocessing = seconds_of([&] { keep(points, projection, n, result); });
         const subset_view<R, Proj> kept(points, result.kept, projection);
@@ -14414,43 +14434,67 @@ struct perception {
         result.seconds.normals = seconds_of([&] { surface = surface_of(kept, run); });
         result.seconds.segmentation = seconds_of([&] {
             const segments parts = segment_surfaces(kept, surface, segmentation, run);
-            result.fragments = segments(of_all(parts.labels(), result.kept, n));
+            result.fragments = of_all(parts, result.kept, n);
         });
         result.surface.resize(n);
         for (std::size_t i = 0; i < kept.size(); ++i) result.surface[result.kept[i]] = surface[i];
         result.surfaces = result.fragments;
-        if constexpr (merge_policy<Merge>) {
-            result.seconds.merging = seconds_of([&] {
-                // What was left out hides and shows as much as the rest.
-                const lines_of_sight seen(points, sights, projection);
-                merged_segments merged = merge_occluded(points, result.surface, result.fragments,
-                                                        seen, merge, merging, projection);
-                result.surfaces = std::move(merged.segments);
-                result.gaps = std::move(merged.gaps);
+        std::optional<lines_of_sight> seen;
+        merge_torn(points, projection, seen, result);
+        if (releasing) {
+            result.seconds.claiming += seconds_of([&] {
+                result.surfaces =
+                    of_all(release_strays(kept, surface, surfaces_of_kept(result), *releasing, run),
+                           result.kept, n);
             });
+            // Pieces tell more of their planes when they are free of what is not of them.
+            merge_torn(points, projection, seen, result);
         }
-        if (releasing || strays || round) {
-            result.seconds.claiming = seconds_of([&] {
-                std::vector<std::int32_t> labels(kept.size());
-                for (std::size_t i = 0; i < kept.size(); ++i)
-                    labels[i] = result.surfaces.labels()[result.kept[i]];
-                segments settled(std::move(labels));
-                if (releasing) settled = release_strays(kept, surface, settled, *releasing, run);
+        if (strays || round) {
+            result.seconds.claiming += seconds_of([&] {
+                segments settled = surfaces_of_kept(result);
                 if (strays) settled = claim_strays(kept, settled, *strays, run);
                 if (round) settled = join_round(kept, surface, settled, *round, run);
-                result.surfaces = segments(of_all(settled.labels(), result.kept, n));
+                result.surfaces = of_all(settled, result.kept, n);
             });
         }
         return result;
     }
 
   private:
-    /// Labels of n points from those of the kept ones.
-    static std::vector<std::int32_t> of_all(const std::vector<std::int32_t>& of_kept,
-                                            const std::vector<point_index>& kept, std::size_t n) {
+    using result_type = perceived<estimate_t<Estimator>>;
+
+    /// Segments of n points from those of the kept ones.
+    static segments of_all(const segments& of_kept, const std::vector<point_index>& kept,
+                           std::size_t n) {
         std::vector<std::int32_t> labels(n, unlabeled);
-        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept[i];
-        return labels;
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_kept.labels()[i];
+        return segments(std::move(labels));
+    }
+    static segments surfaces_of_kept(const result_type& result) {
+        std::vector<std::int32_t> labels(result.kept.size());
+        for (std::size_t i = 0; i < labels.size(); ++i)
+            labels[i] = result.surfaces.labels()[result.kept[i]];
+        return segments(std::move(labels));
+    }
+
+    /// Merges what is torn of the surfaces, and tells the gaps: all that the first run looks into,
+    /// and those that another one closes. What was left out hides and shows as much as the rest.
+    /// @param seen  made by the first run
+    template <class R, class Proj>
+    void merge_torn(const R& points, const Proj& projection, std::optional<lines_of_sight>& seen,
+                    result_type& result) const {
+        if constexpr (merge_policy<Merge>) {
+            result.seconds.merging += seconds_of([&] {
+                const bool is_first = !seen;
+                if (is_first) seen.emplace(points, sights, projection);
+                merged_segments merged = merge_occluded(points, result.surface, result.surfaces,
+                                                        *seen, merge, merging, projection);
+                result.surfaces = std::move(merged.segments);
+                for (considered_gap& gap : merged.gaps)
+                    if (is_first || gap.merged) result.gaps.push_back(std::move(gap));
+            });
+        }
     }
 
     static double seconds_of(auto&& step) {
@@ -14460,8 +14504,7 @@ struct perception {
     }
 
     template <class R, class Proj>
-    void keep(const R& points, const Proj& projection, std::size_t n,
-              perceived<estimate_t<Estimator>>& result) const {
+    void keep(const R& points, const Proj& projection, std::size_t n, result_type& result) const {
         if (leave_out) {
             const auto guess = guess_floor(points, leave_out->up, projection);
             if (guess) result.floor = find_floor(points, *guess, leave_out->floor, projection);

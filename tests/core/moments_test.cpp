@@ -33,4 +33,21 @@ TEST(moments, give_the_covariance_of_the_neighbors_with_and_without_the_point) {
     }
 }
 
+TEST(moments, of_some_are_those_of_all_less_the_others) {
+    for (std::uint64_t seed = 0; seed < 100; ++seed) {
+        const clouds::cloud points = clouds::in_cube(30, seed);
+        gnomon::moments all, some;
+        for (const auto& p : points) all.add(p);
+        for (std::size_t j = 0; j < points.size(); ++j) {
+            if (j % 3 == 0)
+                some.add(points[j]);
+            else
+                all.remove(points[j]);
+        }
+        EXPECT_EQ(all.count, some.count);
+        EXPECT_LT((all.sum - some.sum).norm(), 1e-13);
+        EXPECT_LT((all.second_moments() - some.second_moments()).norm(), 1e-14);
+    }
+}
+
 }  // namespace

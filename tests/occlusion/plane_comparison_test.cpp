@@ -39,6 +39,14 @@ TEST(plane_comparison, tells_an_offset_from_noise) {
     EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.77}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
 }
 
+/// The legs of a chair a centimeter behind its back: by less than the noise of a range.
+TEST(plane_comparison, tells_parallel_planes_a_centimeter_apart) {
+    const patch back{{2.0, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}, 25};
+    const Eigen::Vector3d width(0, 0.04, 0), height(0, 0, 0.4);
+    EXPECT_GE(found_in_one_plane(back, {{2.0, -0.2, -0.5}, width, height, 12}), 90);
+    EXPECT_LE(found_in_one_plane(back, {{2.01, -0.2, -0.5}, width, height, 12}), 15);
+}
+
 /// The front of a seat, no higher than noise: the direction of its least spread is that of nothing.
 TEST(plane_comparison, tells_an_edge_from_the_surface_it_bounds) {
     const patch front{{1.3, 0.0, -0.82}, {0, 0.4, 0}, {0, 0, 0.04}};

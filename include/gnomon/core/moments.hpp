@@ -62,6 +62,12 @@ struct moments {
         detail::add_moments(sum, outer, offset, 1.0);
     }
 
+    /// Takes out one that was taken in; what rounding leaves of it is little, if others stay.
+    void remove(const Eigen::Vector3d& offset) {
+        --count;
+        detail::add_moments(sum, outer, offset, -1.0);
+    }
+
     /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
     /// 1/(k+1) times the scatter about their centroid. The point's own offset is zero.
     [[nodiscard]] Eigen::Matrix3d covariance_with_point() const { return about_mean(count + 1); }

@@ -41,7 +41,7 @@ namespace gnomon {
 /// Parameters of `release_strays`.
 struct stray_releasing {
     double sigma = 0.015;            ///< standard deviation of ranges [m]
-    std::size_t k = 5;               ///< points are judged, and hang together, with so many nearest
+    std::size_t k = 8;               ///< points are judged, and hang together, with so many nearest
     double max_distance = 0.30;      ///< that are no farther [m]
     angle max_angle = degrees(7.5);  ///< off the plane's: points with such a normal stay
     std::size_t min_points = 30;     ///< so many released ones together are a segment

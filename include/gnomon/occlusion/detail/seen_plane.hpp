@@ -128,13 +128,16 @@ struct plane_knowledge {
             scaled(-1.0, plane.normal(axes))};
 }
 
-/// Tells of a point [m] whether it is on the plane of a sample, as far as noise lets it be.
-[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma) {
+/// Tells of an offset [m] from `origin` whether the point there is on the plane of a sample, as far
+/// as noise lets it be.
+[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma,
+                                         const Eigen::Vector3d& origin) {
     constexpr double at_most = 2.5;  // standard deviations of a range
     const sight_axes axes = axes_towards(sample);
-    return [deeper = depth_regression(sample, axes).normal(axes), mean = sample.mean,
-            depth = at_most * sigma](const Eigen::Vector3d& p) {
-        return std::abs(dot(deeper, difference(p, mean))) <= depth;
+    const Eigen::Vector3d deeper = depth_regression(sample, axes).normal(axes);
+    return [deeper, at_mean = dot(deeper, difference(sample.mean, origin)),
+            depth = at_most * sigma](const Eigen::Vector3d& offset) {
+        return std::abs(dot(deeper, offset) - at_mean) <= depth;
     };
 }
 
@@ -145,10 +148,10 @@ struct plane_knowledge {
 [[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
                                                        std::span<const point_index> members,
                                                        const plane_sample& sample, double sigma) {
-    const auto is_on_plane = is_on_plane_of(sample, sigma);
+    const auto is_on_plane = is_on_plane_of(sample, sigma, sample.mean);
     std::vector<point_index> on;
     for (const point_index i : members)
-        if (is_on_plane(points[i])) on.push_back(i);
+        if (is_on_plane(difference(points[i], sample.mean))) on.push_back(i);
     return on;
 }
 
@@ -170,19 +173,28 @@ struct plane_knowledge {
                                     [&](point_index i) { return is_finite(points[i]); });
     if (first == members.end()) return sample;
     const Eigen::Vector3d origin = points[*first];
-    const auto take = [&](auto&& belongs) {
-        moments m;
-        for (const point_index i : members) {
-            const Eigen::Vector3d p = points[i];
-            if (is_finite(p) && belongs(p)) m.add(difference(p, origin));
-        }
-        if (2 * m.count < sample.count) return;
+    std::vector<Eigen::Vector3d> offsets;
+    offsets.reserve(members.size());
+    moments all;
+    for (const point_index i : members) {
+        const Eigen::Vector3d p = points[i];
+        if (!is_finite(p)) continue;
+        offsets.push_back(difference(p, origin));
+        all.add(offsets.back());
+    }
+    const auto take = [&](const moments& m) {
         sample.count = m.count;
         sample.mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
         sample.covariance = m.covariance_of_neighbors();
     };
-    take([](const Eigen::Vector3d&) { return true; });
-    for (int pass = 0; pass < 4; ++pass) take(is_on_plane_of(sample, sigma));
+    take(all);
+    for (int pass = 0; pass < 4; ++pass) {
+        const auto is_on_plane = is_on_plane_of(sample, sigma, origin);
+        moments on = all;  // less what is off, which is little
+        for (const Eigen::Vector3d& d : offsets)
+            if (!is_on_plane(d)) on.remove(d);
+        if (2 * on.count >= sample.count) take(on);
+    }
     return sample;
 }
 
