@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-# To be read by tests: refused COMMAND... wants it to give a usage line, and to leave with 2.
+# Sourced by tests: refused COMMAND... requires a usage line and exit status 2.
 refused() {
     status=0
     said=$("$@" 2>&1 >/dev/null) || status=$?

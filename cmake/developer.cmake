@@ -12,7 +12,7 @@ if(NOT MSVC)
     add_compile_options(-ffile-prefix-map=${PROJECT_SOURCE_DIR}/=)
 endif()
 
-# ccache, where it is at hand, for all clones; the sloppiness is what precompiled headers ask of it.
+# ccache, where it is available, for all clones; precompiled headers require the sloppiness.
 find_program(CCACHE ccache)
 mark_as_advanced(CCACHE)
 if(CCACHE AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)

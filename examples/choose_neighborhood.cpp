@@ -8,7 +8,7 @@
 
 namespace {
 
-void report(const char* name, const gnomon::true_scan& truth, const auto& surface) {
+void report(const char* name, const gnomon::simulation::true_scan& truth, const auto& surface) {
     double neighbors = 0.0;
     std::size_t good = 0;
     for (const auto& s : surface) {
@@ -24,15 +24,16 @@ void report(const char* name, const gnomon::true_scan& truth, const auto& surfac
 }  // namespace
 
 int main() {
-    const auto truth = gnomon::simulate(gnomon::box_and_cylinder{.sigma = 0.005});
+    const auto truth =
+        gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{.sigma = 0.005});
     const auto& scan = truth.scan;
     using namespace gnomon;
 
     // [choose_neighborhood]
-    // The usual choice, and the same for noise along the rays, which asks the scan for view points.
+    // The usual choice, and the same for noise along the rays, with the view points of the scan.
     report("knn, plane_pca", truth, estimate_normals(scan, knn{.k = 30}, plane_pca{}));
     report("knn, ray_ls", truth, estimate_normals(scan, knn{.k = 30}, ray_ls{}));
-    // No farther than 5 cm; as many as a noise of 5 mm asks for; six or so, all around.
+    // No farther than 5 cm; as many as a noise of 5 mm requires; about six, in angular order.
     report("hybrid, plane_pca", truth,
            estimate_normals(scan, hybrid{.k = 30, .r = 0.05}, plane_pca{}));
     const adaptive_knn<prefer_small_error> adaptive{.growth = 1.3, .preference = {.sigma = 0.005}};
@@ -40,8 +41,8 @@ int main() {
     report("delaunay, angle_weighted", truth, estimate_normals(scan, delaunay{}, angle_weighted{}));
     // Averages of triangles need an order around the point, or a common sign.
     report("knn, area_weighted", truth, estimate_normals(scan, knn{.k = 30}, area_weighted{}));
-    report("sorted_around knn, area_weighted", truth,
-           estimate_normals(scan, sorted_around{knn{.k = 30}}, area_weighted{}));
+    report("angularly_sorted knn, area_weighted", truth,
+           estimate_normals(scan, angularly_sorted{knn{.k = 30}}, area_weighted{}));
     report(
         "knn, area_weighted towards the view point", truth,
         estimate_normals(scan, knn{.k = 30}, area_weighted{.sign = triangle_sign::to_viewpoint}));

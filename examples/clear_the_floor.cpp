@@ -11,13 +11,15 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 int main() {
-    const gnomon::scene room = gnomon::scenes::furnished_room({.seed = 4});
-    const gnomon::vertical nod{.mount = room.sensor};
-    const auto trajectory = gnomon::along(4.0, [&](double seconds) {  // driving while it nods
-        return gnomon::at(0.1 * seconds, 0, 0) * nod(seconds);
+    const sim::scene room = sim::scenes::furnished_room({.seed = 4});
+    const sim::vertical nod{.mount = room.sensor};
+    const auto trajectory = sim::along(4.0, [&](double seconds) {  // driving while it nods
+        return sim::at(0.1 * seconds, 0, 0) * nod(seconds);
     });
-    const auto scan = gnomon::simulate(room, trajectory, {}, {.sigma = 0.005}).scan;
+    const auto scan = sim::simulate(room, trajectory, {}, {.sigma = 0.005}).scan;
 
     // [clear_the_floor]
     // Points and view points as they may lie in your memory.
@@ -33,9 +35,9 @@ int main() {
     const auto guess = gnomon::guess_floor(points);
     const auto floor = guess ? gnomon::find_floor(points, *guess) : guess;
     if (!floor) return 1;
-    const auto kept = gnomon::between_bands(points, *floor, gnomon::find_ceiling(points, *floor));
-    const auto groups = gnomon::segment_points(gnomon::subset_view(points, kept),
-                                               {.radius = 0.1, .min_points = 100});
+    const auto kept = gnomon::crop_height(points, *floor, gnomon::find_ceiling(points, *floor));
+    const auto groups = gnomon::euclidean_clusters(gnomon::subset_view(points, kept),
+                                                   {.radius = 0.1, .min_points = 100});
 
     std::vector<std::int32_t> labels(points.size(), gnomon::unlabeled);  // of the whole cloud
     for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = groups.labels()[i];

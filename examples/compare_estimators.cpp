@@ -24,6 +24,8 @@
 #include <gnomon/normals/registry.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 struct scan_with_truth {
@@ -33,10 +35,10 @@ struct scan_with_truth {
 
 scan_with_truth scan_of(const options& o) {
     if (o.scan.empty()) {
-        const gnomon::scene world = gnomon::scenes::kitchen();
-        auto truth = gnomon::simulate(world, gnomon::rotational{.mount = world.sensor},
-                                      gnomon::densities::medium(),
-                                      {.sigma = o.sigma, .seed = o.seed}, o.threads);
+        const sim::scene world = sim::scenes::kitchen();
+        auto truth =
+            sim::simulate(world, sim::rotational{.mount = world.sensor}, sim::densities::medium(),
+                          {.sigma = o.sigma, .seed = o.seed}, o.threads);
         return {std::move(truth.scan), std::move(truth.normals)};
     }
     scan_with_truth result{gnomon::io::read(o.scan, {"nx", "ny", "nz"}), {}};
@@ -51,9 +53,9 @@ scan_with_truth scan_of(const options& o) {
     return result;
 }
 
-/// An estimator as the registry has it, told of the noise.
+/// An estimator of the registry with the standard deviation of the noise, if it uses one.
 template <class E>
-E told(E estimate, double sigma) {
+E with_noise(E estimate, double sigma) {
     if constexpr (requires { estimate.sigma; }) estimate.sigma = sigma;
     return estimate;
 }
@@ -61,7 +63,7 @@ E told(E estimate, double sigma) {
 template <class E>
 row compared(const char* name, const E& estimate, const scan_with_truth& data,
              const gnomon::adjacency& graph, const options& o) {
-    const progress telling(name);
+    const progress shown(name);
     double seconds = 1e9;
     std::vector<gnomon::surfel<gnomon::estimate_t<E>>> surface;
     for (int run = 0; run < 3 && (run == 0 || seconds < 0.5); ++run) {  // the least disturbed
@@ -106,7 +108,7 @@ void compare_estimators(const options& o) {
 
     std::vector<row> rows;
     boost::hana::for_each(gnomon::estimators, [&](const auto& e) {
-        const row r = compared(e.name, told(e.policy, o.sigma), data, graph, o);
+        const row r = compared(e.name, with_noise(e.policy, o.sigma), data, graph, o);
         std::printf(
             "%-28s %7.4f %7.2f\u00b0 %7.2f\u00b0 %7.2f\u00b0 %9.2f %5.1f%% %4.1f%% %4.1f%%\n",
             r.name.c_str(), r.gamma, r.median, r.p90, r.rms, r.microseconds, 100.0 * r.trust[0],

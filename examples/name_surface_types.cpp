@@ -11,16 +11,18 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 /// Bends about both axes: radius(z) about the upright one, and as its profile along it.
-gnomon::surface_of_revolution turned(double half_height, double (*radius)(double z)) {
-    std::vector<gnomon::profile_point> profile;
+sim::surface_of_revolution turned(double half_height, double (*radius)(double z)) {
+    std::vector<sim::profile_point> profile;
     for (int i = -20; i <= 20; ++i) {
         const double z = half_height * i / 20.0;
         profile.push_back({.radius = radius(z), .height = z});
     }
-    return gnomon::surface_of_revolution(profile, {.bottom = false});
+    return sim::surface_of_revolution(profile, {.bottom = false});
 }
 
 double median(std::vector<double> values) {
@@ -32,12 +34,11 @@ double median(std::vector<double> values) {
 /// Prints how the shape bends, and the type of most of its points.
 /// @return whether that type is the expected one
 bool report(const char* name, gnomon::surface_type expected, const auto& shape,
-            const gnomon::pose& place) {
-    gnomon::scene world;
+            const sim::pose& place) {
+    sim::scene world;
     world.add_object(name, shape, place);
     const gnomon::scan scan =
-        gnomon::simulate(world, gnomon::rotational{}, gnomon::densities::medium(), {.sigma = 0.001})
-            .scan;
+        sim::simulate(world, sim::rotational{}, sim::densities::medium(), {.sigma = 0.001}).scan;
 
     // [name_surface_types]
     const gnomon::adjacency graph = gnomon::knn{.k = 100}(scan);
@@ -68,21 +69,21 @@ bool report(const char* name, gnomon::surface_type expected, const auto& shape,
 
 int main() {
     using enum gnomon::surface_type;
-    const gnomon::pose ahead = gnomon::at(1.2, 0.0, 0.0);
-    const gnomon::pose wall = ahead * gnomon::pitch(gnomon::degrees(90));
+    const sim::pose ahead = sim::at(1.2, 0.0, 0.0);
+    const sim::pose wall = ahead * sim::pitch(gnomon::degrees(90));
     const auto catenary = [](double z) { return 0.4 * std::cosh(z / 0.4); };
     const auto slender = [](double z) { return 0.2 + 0.4 * z * z; };
     const auto spool = [](double z) { return 0.5 + 2.5 * z * z; };
 
     std::printf("%-24s %6s  %6s  %6s  %s\n", "", "points", "kappa1", "kappa2", "type of most");
-    bool all = report("ball of 0.5 m", peak, gnomon::sphere{0.5}, ahead);
-    all &= report("column of 0.3 m", ridge, gnomon::cylinder{0.3, 2.0}, gnomon::at(1.2, 0.0, -1.0));
+    bool all = report("ball of 0.5 m", peak, sim::sphere{0.5}, ahead);
+    all &= report("column of 0.3 m", ridge, sim::cylinder{0.3, 2.0}, sim::at(1.2, 0.0, -1.0));
     all &= report("vase, slender", saddle_ridge, turned(0.3, slender), ahead);
-    all &= report("wall", flat, gnomon::plane_patch{1.5, 1.5}, wall);
+    all &= report("wall", flat, sim::plane_patch{1.5, 1.5}, wall);
     all &= report("catenoid", minimal, turned(0.3, catenary), ahead);
     all &= report("spool", saddle_valley, turned(0.15, spool), ahead);
-    all &= report("pipe of 0.8 m, inside", valley, gnomon::cylinder{0.8, 4.0},
-                  gnomon::at(0.0, 0.0, -2.0));
-    all &= report("dome of 1 m, inside", pit, gnomon::sphere{1.0}, gnomon::pose{});
+    all &=
+        report("pipe of 0.8 m, inside", valley, sim::cylinder{0.8, 4.0}, sim::at(0.0, 0.0, -2.0));
+    all &= report("dome of 1 m, inside", pit, sim::sphere{1.0}, sim::pose{});
     return all ? 0 : 1;
 }

@@ -22,6 +22,8 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 /// Classes of deviation: up to 0.5, 1, 2, 4 and 8 degrees, and beyond.
@@ -36,20 +38,20 @@ std::size_t class_of(double degrees) {
 }
 
 /// Without a file: a kitchen, and what is true of it.
-gnomon::true_scan scan_of(const options& o) {
+sim::true_scan scan_of(const options& o) {
     if (!o.scan.empty()) {
-        gnomon::true_scan known;
+        sim::true_scan known;
         known.scan = gnomon::io::read(o.scan);
         return known;
     }
-    const gnomon::scene world = gnomon::scenes::kitchen();
-    return gnomon::simulate(world, gnomon::rotational{.mount = world.sensor},
-                            gnomon::densities::high(), {.sigma = o.sigma, .seed = 1}, o.threads);
+    const sim::scene world = sim::scenes::kitchen();
+    return sim::simulate(world, sim::rotational{.mount = world.sensor}, sim::densities::high(),
+                         {.sigma = o.sigma, .seed = 1}, o.threads);
 }
 
 /// One line per class: how far off the normals are that promise to be within it. At edges, where
 /// two surfaces meet, no plane is true: these neighborhoods are counted apart.
-void print_calibration(const gnomon::true_scan& truth, const auto& surface,
+void print_calibration(const sim::true_scan& truth, const auto& surface,
                        const std::vector<double>& deviations, const gnomon::adjacency& graph) {
     std::array<std::size_t, 6> points{};
     std::array<double, 6> squares{};
@@ -67,8 +69,7 @@ void print_calibration(const gnomon::true_scan& truth, const auto& surface,
         ++points[c];
         squares[c] += deviations[i] * deviations[i];
         const double error =
-            gnomon::radians(gnomon::unoriented_angle(surface[i].normal, truth.normals[i]))
-                .degrees();
+            gnomon::unoriented_angle(surface[i].normal, truth.normals[i]).degrees();
         errors[c] += error * error;
         within += gnomon::nees(surface[i], truth.normals[i]) < 5.991;
     }
@@ -89,7 +90,7 @@ void print_calibration(const gnomon::true_scan& truth, const auto& surface,
 }
 
 void normal_uncertainty(const options& o) {
-    const gnomon::true_scan known = scan_of(o);
+    const sim::true_scan known = scan_of(o);
     const gnomon::scan& scan = known.scan;
     const output_directory out(o.out, {"normals.ply", "uncertainty.png"});
     const stopwatch watch;

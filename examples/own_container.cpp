@@ -12,7 +12,7 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
-// A struct of yours: name the member, and it is a point.
+// Your own struct: a projection to its member makes it a point.
 struct laser_return {
     double time;
     Eigen::Vector3f xyz;
@@ -25,7 +25,8 @@ struct point_xyzi {
     float intensity;
 };
 
-// A point like nothing else: say once how it is read.
+// [own_point]
+// Any other type: specialize point_traits once.
 struct spherical {
     double range, azimuth, elevation;
 };
@@ -39,6 +40,7 @@ struct gnomon::point_traits<spherical> {
                 p.range * std::sin(p.elevation)};
     }
 };
+// [own_point]
 
 namespace {
 
@@ -52,7 +54,8 @@ void report(const char* what, const auto& surface, const std::vector<Eigen::Vect
 }  // namespace
 
 int main() {
-    const gnomon::true_scan truth = gnomon::simulate(gnomon::box_and_cylinder{});
+    const gnomon::simulation::true_scan truth =
+        gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{});
     const gnomon::scan& scan = truth.scan;
 
     std::deque<laser_return> returns;

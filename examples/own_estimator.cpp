@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include <Eigen/Core>
+#include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 
 #include <gnomon/gnomon.hpp>
@@ -12,32 +13,34 @@
 namespace {
 
 // [own_lambdas]
-// A lambda that returns a vector (a value: say so, or Eigen returns an expression of what is gone)
-// will do: the normal of the triangle of the first two neighbors.
-const auto first_triangle = [](const auto& p, auto ring) -> Eigen::Vector3d {
-    if (ring.size() < 2) return Eigen::Vector3d::Zero();
-    return (ring[0] - p).cross(ring[1] - p);
+// A lambda that returns a vector as a value (without `-> Eigen::Vector3d`, Eigen returns an
+// expression that refers to destroyed temporaries): the normal of the triangle of the first two
+// neighbors.
+const auto first_triangle = [](const auto& p, auto neighbors) -> Eigen::Vector3d {
+    if (neighbors.size() < 2) return Eigen::Vector3d::Zero();
+    return (neighbors[0] - p).cross(neighbors[1] - p);
 };
 
-// With a third argument it is told from where the point was seen, and can look that way.
-const auto facing_triangle = [](const auto& p, auto ring,
+// A third argument receives the view point: the normal can be turned towards it.
+const auto facing_triangle = [](const auto& p, auto neighbors,
                                 const Eigen::Vector3d& viewpoint) -> Eigen::Vector3d {
-    const Eigen::Vector3d n = first_triangle(p, ring);
+    const Eigen::Vector3d n = first_triangle(p, neighbors);
     return n.dot(viewpoint - p) < 0.0 ? Eigen::Vector3d(-n) : n;
 };
 // [own_lambdas]
 
 // [own_estimator]
-// A struct can have parameters and say what its result is worth: a plane fit in which near
-// neighbors count more than far ones.
+// A struct can have parameters and further results: a plane fit in which near neighbors have larger
+// weights than far ones.
 struct gaussian_pca {
     double width = 0.02;  // [m]
 
-    gnomon::plane_fit operator()(const Eigen::Vector3d& p, gnomon::ring_view ring) const {
+    gnomon::plane_fit operator()(const Eigen::Vector3d& p,
+                                 gnomon::neighborhood_view neighbors) const {
         double weights = 1.0;  // that of the point itself
         Eigen::Vector3d mean = Eigen::Vector3d::Zero();
         Eigen::Matrix3d outer = Eigen::Matrix3d::Zero();
-        for (const Eigen::Vector3d& q : ring) {
+        for (const Eigen::Vector3d& q : neighbors) {
             const Eigen::Vector3d d = q - p;
             const double w = std::exp(-0.5 * d.squaredNorm() / (width * width));
             weights += w;
@@ -45,18 +48,19 @@ struct gaussian_pca {
             outer += w * d * d.transpose();
         }
         mean /= weights;
-        const auto e = gnomon::symmetric_eigen(outer / weights - mean * mean.transpose());
+        Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;  // eigenvalues ascend
+        solver.computeDirect(outer / weights - mean * mean.transpose());
 
         gnomon::plane_fit fit;
-        fit.spectrum = gnomon::spectrum(e.values);
-        fit.trust = ring.size() < 2 ? gnomon::trust::too_few_neighbors : gnomon::trust::good;
-        fit.normal = e.vectors.col(2);
+        fit.spectrum = gnomon::spectrum(solver.eigenvalues().reverse());
+        fit.trust = neighbors.size() < 2 ? gnomon::trust::too_few_neighbors : gnomon::trust::good;
+        fit.normal = solver.eigenvectors().col(0);
         return fit;
     }
 };
 // [own_estimator]
 
-void report(const char* name, const gnomon::true_scan& truth, const auto& estimator) {
+void report(const char* name, const gnomon::simulation::true_scan& truth, const auto& estimator) {
     const auto surface =
         gnomon::estimate_normals(truth.scan, gnomon::knn{.k = 50}, estimator, gnomon::threads{});
     std::printf("%-28s gamma %.4f\n", name, gnomon::mean_gamma(surface, truth.normals));
@@ -65,7 +69,8 @@ void report(const char* name, const gnomon::true_scan& truth, const auto& estima
 }  // namespace
 
 int main() {
-    const auto truth = gnomon::simulate(gnomon::box_and_cylinder{.sigma = 0.005});
+    const auto truth =
+        gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{.sigma = 0.005});
     report("first_triangle (a lambda)", truth, first_triangle);
     report("facing_triangle (another)", truth, facing_triangle);
     report("gaussian_pca (a struct)", truth, gaussian_pca{.width = 0.02});

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How do I use a neighborhood of my own? An organised cloud knows who is next to whom without a
-// search: the pixels around.
+// How do I use a neighborhood of my own? In an organized cloud the neighbors are the pixels
+// around, without a search.
 #include <algorithm>
 #include <cstddef>
 #include <cstdio>
@@ -12,9 +12,11 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 // [own_neighborhood]
 // Called with points, an execution and a projection, it gives a graph: for each point the indices
-// of its neighbors. Neighbors that are not finite are left out by you.
+// of its neighbors. It must leave out neighbors that are not finite.
 struct pixels_around {
     std::size_t width;
     std::size_t reach = 2;
@@ -44,9 +46,9 @@ static_assert(gnomon::neighborhood<pixels_around, gnomon::scan>);
 // [own_neighborhood]
 
 int main() {
-    const gnomon::scene kitchen = gnomon::scenes::kitchen();
-    const auto truth = gnomon::simulate(kitchen, gnomon::vertical{.mount = kitchen.sensor});
-    const std::size_t width = gnomon::scanner().beams();
+    const sim::scene kitchen = sim::scenes::kitchen();
+    const auto truth = sim::simulate(kitchen, sim::vertical{.mount = kitchen.sensor});
+    const std::size_t width = sim::scanner().beams();
     const auto report = [&](const char* name, const auto& neighborhood) {
         const auto surface =
             gnomon::estimate_normals(truth.scan, neighborhood, gnomon::plane_pca{});

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What surfaces does a scan consist of? The whole way from a file to labeled points, a picture
-/// and a table: read, perceive, describe the segments.
+/// What surfaces does a scan consist of? From a file to labeled points, a picture and a table: read
+/// the scan, find its surfaces by `perception`, describe the segments.
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <cstdio>
 #include <optional>
@@ -27,26 +28,53 @@ namespace {
 
 using json = nlohmann::ordered_json;
 using surfel = gnomon::surfel<gnomon::plane_fit>;
-using result = gnomon::perceived<gnomon::plane_fit>;
+using result = gnomon::perception_result<gnomon::plane_fit>;
 
-/// What there is to segment if the user has no scan: a kitchen, as a UTM-30LX that rolls about its
-/// axis of sight would see it (Klasing 2010, Fig. 4.8).
+/// The scan that is segmented if the user names none: a kitchen, simulated for a UTM-30LX that
+/// rolls about its viewing direction (Klasing 2010, Fig. 4.8).
 gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
-    const gnomon::scene kitchen = gnomon::scenes::kitchen();
-    const gnomon::rotational trajectory{.mount = kitchen.sensor};
-    return gnomon::simulate(kitchen, trajectory, {}, {.sigma = 0.015}, threads).scan;
+    const gnomon::simulation::scene kitchen = gnomon::simulation::scenes::kitchen();
+    const gnomon::simulation::rotational trajectory{.mount = kitchen.sensor};
+    return gnomon::simulation::simulate(kitchen, trajectory, {}, {.sigma = 0.015}, threads).scan;
 }
 
+/// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
-    const progress telling("reading");
     gnomon::scan scan = o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan);
+    if (std::ranges::none_of(scan, gnomon::is_finite))
+        throw gnomon::error(o.scan, "", "has no finite point");
     if (o.viewpoint) scan.viewpoints = *o.viewpoint;
     return scan;
 }
 
-/// The surfaces of a scan; floor and ceiling, if they are left out, get no normals and no labels.
+/// The median distance of a finite point from its nearest neighbor [m]; 0 for a single point.
+double median_spacing(const gnomon::scan& scan, const gnomon::threads& threads) {
+    const gnomon::adjacency nearest = gnomon::knn{.k = 1}(scan, threads);
+    std::vector<double> spacings;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        for (const gnomon::point_index q : nearest[i])
+            spacings.push_back(gnomon::squared_distance(scan.points[i], scan.points[q]));
+    }
+    if (spacings.empty()) return 0.0;
+    const auto middle = spacings.begin() + static_cast<std::ptrdiff_t>(spacings.size() / 2);
+    std::ranges::nth_element(spacings, middle);
+    return std::sqrt(*middle);
+}
+
+/// Prints a warning if the points are so far apart that their unit is probably not the metre.
+void warn_of_unit(const gnomon::scan& scan, const options& o) {
+    constexpr double largest_spacing = 1.0;  // [m], of the median of a scan of a room or a building
+    const double spacing = median_spacing(scan, o.threads);
+    if (spacing > largest_spacing) {
+        std::fprintf(stderr,
+                     "segment_scan: the median distance between neighboring points is %.3g metres; "
+                     "coordinates must be in metres\n",
+                     spacing);
+    }
+}
+
+/// The surfaces of a scan; floor and ceiling, if they are left out, have no normals and no labels.
 result surfaces_of(const gnomon::scan& scan, const options& o) {
-    const progress telling("perceiving");
     std::optional<gnomon::floor_and_ceiling> leave_out;
     if (o.remove_floor) leave_out = {.up = o.up.value_or(Eigen::Vector3d::UnitZ())};
     return std::visit(
@@ -56,14 +84,16 @@ result surfaces_of(const gnomon::scan& scan, const options& o) {
                 .merge = merge,
                 .segmentation = o.segmentation,
                 .leave_out = leave_out,
-                .releasing = gnomon::stray_releasing{.min_points = o.segmentation.min_points},
-                .round = gnomon::round_joining{.min_points = o.segmentation.min_points}};
+                .splitting =
+                    gnomon::split_outliers_options{.min_points = o.segmentation.min_points},
+                .revolution = gnomon::join_surfaces_of_revolution_options{
+                    .min_points = o.segmentation.min_points}};
             return chain.with_sigma(o.sigma)(scan, o.threads);
         },
         o.merge);
 }
 
-void tell_of_floor(const result& r) {
+void report_floor(const result& r) {
     if (!r.floor) {
         std::puts("no floor found, nothing left out");
         return;
@@ -94,7 +124,6 @@ json description_of(const gnomon::scan& scan, const gnomon::segments& segments) 
 }
 
 std::string picture_of(const gnomon::scan& scan, const result& r, const options& o) {
-    const progress telling("drawing");
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
@@ -138,39 +167,69 @@ void print_table(const json& report, unsigned threads) {
     std::printf("%-13s %8u\n", "threads used", threads);
 }
 
-void segment_scan(const options& o) {
-    const stopwatch total;
-    const gnomon::scan scan = scan_of(o);
-    const double read_seconds = total.seconds();
+/// A step of the program while it lives: shows its progress, and writes its duration [s] under its
+/// name.
+class timed_step {
+  public:
+    timed_step(json& seconds, const char* name) : seconds_(seconds), name_(name), progress_(name) {}
+    timed_step(const timed_step&) = delete;
+    timed_step& operator=(const timed_step&) = delete;
+    ~timed_step() { seconds_[name_] = watch_.seconds(); }
 
+  private:
+    json& seconds_;
+    const char* name_;
+    progress progress_;
+    stopwatch watch_;
+};
+
+/// Adds the steps of `perception`.
+void add_steps(json& seconds, const gnomon::perception_seconds& steps) {
+    seconds.update({{"preprocessing", steps.preprocessing},
+                    {"normals", steps.normals},
+                    {"segmentation", steps.segmentation},
+                    {"merging", steps.merging},
+                    {"assignment", steps.assignment}});
+}
+
+double sum_of(const json& seconds) {
+    double sum = 0.0;
+    for (const auto& [step, duration] : seconds.items()) sum += duration.get<double>();
+    return sum;
+}
+
+void segment_scan(const options& o) {
+    json seconds = json::object();
+    const auto timed = [&seconds](const char* name, auto&& work) {
+        const timed_step step(seconds, name);
+        return work();
+    };
+    const gnomon::scan scan = timed("read", [&] { return scan_of(o); });
     const output_directory out(o.out,
                                {"normals.ply", "segments.ply", "segments.png", "segments.json"});
+    timed("spacing", [&] { warn_of_unit(scan, o); });
 
-    const result r = surfaces_of(scan, o);
-    if (o.remove_floor) tell_of_floor(r);
-    json report{{"points", scan.size()},
-                {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
-                {"seconds",
-                 {{"read", read_seconds},
-                  {"preprocessing", r.seconds.preprocessing},
-                  {"normals", r.seconds.normals},
-                  {"segmentation", r.seconds.segmentation},
-                  {"merging", r.seconds.merging},
-                  {"claiming", r.seconds.claiming}}},
-                {"segments_before_merging", r.fragments.size()},
-                {"segments", description_of(scan, r.surfaces)}};
-    const std::string png = picture_of(scan, r, o);
-
-    {
-        const progress telling("writing");
+    const result r = [&] {
+        const progress step("perception");
+        return surfaces_of(scan, o);
+    }();
+    add_steps(seconds, r.seconds);
+    if (o.remove_floor) report_floor(r);
+    const json segments = timed("description", [&] { return description_of(scan, r.surfaces); });
+    const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
+    timed("writing", [&] {
         write_points(out, scan, r);
         gnomon::io::replace_file(out / "segments.png", png);
-        report["seconds"]["total"] = total.seconds();
-        gnomon::io::replace_file(out / "segments.json", report.dump(2) + "\n");
-    }
+    });
+    seconds["total"] = sum_of(seconds);
+    const json report{{"points", scan.size()},
+                      {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
+                      {"seconds", seconds},
+                      {"segments_before_merging", r.initial_segments.size()},
+                      {"segments", segments}};
+    gnomon::io::replace_file(out / "segments.json", report.dump(2) + "\n");
     print_table(report, o.threads.count());
     out.report();
-    if (report["valid"] == 0) std::puts("The scan has no finite points: there was nothing to do.");
 }
 
 }  // namespace

@@ -9,29 +9,31 @@
 #include <gnomon/simulation.hpp>
 
 // [own_shape]
+namespace sim = gnomon::simulation;
+
 /// A disc in the plane z = 0, seen from both sides.
 struct disc {
     double radius;  ///< [m]
 
-    gnomon::bounds extent() const { return {{-radius, -radius, 0.0}, {radius, radius, 0.0}}; }
+    sim::bounds extent() const { return {{-radius, -radius, 0.0}, {radius, radius, 0.0}}; }
 
     static std::array<std::string_view, 1> surface_names() { return {"disc"}; }
 
-    std::optional<gnomon::ray_hit> first_hit(const gnomon::ray& r) const {
+    std::optional<sim::ray_hit> first_hit(const sim::ray& r) const {
         const double range = -r.origin.z() / r.direction.z();
         if (!(range > 0.0 && range <= r.reach)) return std::nullopt;
         if (r.point_at(range).norm() > radius) return std::nullopt;
-        return gnomon::ray_hit{range, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
+        return sim::ray_hit{range, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
     }
 };
-static_assert(gnomon::shape<disc>);
+static_assert(sim::shape<disc>);
 // [own_shape]
 
 int main() {
-    gnomon::scene world = gnomon::scenes::kitchen();
+    sim::scene world = sim::scenes::kitchen();
     world.add_object("mirror", disc{0.4},
-                     gnomon::at(1.2, -2.19, 1.5) * gnomon::roll(gnomon::degrees(90)));
-    const auto truth = gnomon::simulate(world, gnomon::horizontal{.mount = world.sensor});
+                     sim::at(1.2, -2.19, 1.5) * sim::roll(gnomon::degrees(90)));
+    const auto truth = sim::simulate(world, sim::horizontal{.mount = world.sensor});
     std::size_t points = 0;
     for (const auto object : truth.objects)
         points += world.objects()[static_cast<std::size_t>(object)] == "mirror";

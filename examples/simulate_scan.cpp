@@ -25,24 +25,26 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using json = nlohmann::ordered_json;
 
-gnomon::true_scan scan_of(const gnomon::scene& world, const options& o) {
+sim::true_scan scan_of(const sim::scene& world, const options& o) {
     const progress telling("scanning");
     const auto along = [&](const auto& trajectory) {
-        return gnomon::simulate(world, trajectory, o.finder, o.beam, o.threads);
+        return sim::simulate(world, trajectory, o.finder, o.beam, o.threads);
     };
     switch (o.trajectory) {
         case trajectory_kind::horizontal:
-            return along(gnomon::horizontal{.mount = world.sensor});
+            return along(sim::horizontal{.mount = world.sensor});
         case trajectory_kind::vertical:
-            return along(gnomon::vertical{.mount = world.sensor});
+            return along(sim::vertical{.mount = world.sensor});
         case trajectory_kind::rotational:
             break;
     }
-    return along(gnomon::rotational{.mount = world.sensor});
+    return along(sim::rotational{.mount = world.sensor});
 }
 
 /// A name with '?' for what the picture has no letter for.
@@ -54,16 +56,15 @@ std::string in_ascii(std::string name) {
 }
 
 /// The number of points of each object of the scene.
-std::vector<std::size_t> points_of_objects(const gnomon::scene& world,
-                                           const gnomon::true_scan& truth) {
+std::vector<std::size_t> points_of_objects(const sim::scene& world, const sim::true_scan& truth) {
     std::vector<std::size_t> count(world.objects().size(), 0);
     for (const std::int32_t object : truth.objects) {
-        if (object != gnomon::nothing) ++count[static_cast<std::size_t>(object)];
+        if (object != sim::nothing) ++count[static_cast<std::size_t>(object)];
     }
     return count;
 }
 
-std::string picture_of(const gnomon::scene& world, const gnomon::true_scan& truth,
+std::string picture_of(const sim::scene& world, const sim::true_scan& truth,
                        const std::vector<std::size_t>& count) {
     const progress telling("drawing");
     // Colors go by size.
@@ -80,18 +81,18 @@ std::string picture_of(const gnomon::scene& world, const gnomon::true_scan& trut
                          picture::with_commas(count[object]));
     }
 
-    const gnomon::kd_tree tree(truth.scan);
-    std::vector<gnomon::neighbor> ring;
+    const gnomon::spatial_index index(truth.scan);
+    std::vector<gnomon::neighbor> neighbors;
     std::vector<picture::splat> splats;
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
         constexpr std::size_t k = 12;
-        tree.nearest(truth.scan.points[i], k, i, ring);
-        const double reach = ring.empty() ? 0.0 : std::sqrt(ring.back().squared_distance);
+        neighbors.clear();
+        if (index.is_finite(i)) gnomon::knn{.k = k}.find(index, i, neighbors);
+        const double reach = neighbors.empty() ? 0.0 : std::sqrt(neighbors.back().squared_distance);
         const double spacing = reach * std::sqrt(std::numbers::pi / static_cast<double>(k));
         const std::int32_t object = truth.objects[i];
-        const std::int32_t label = object == gnomon::nothing
-                                       ? gnomon::unlabeled
-                                       : label_of[static_cast<std::size_t>(object)];
+        const std::int32_t label =
+            object == sim::nothing ? gnomon::unlabeled : label_of[static_cast<std::size_t>(object)];
         splats.push_back({truth.scan.points[i], truth.normals[i], 1.2 * spacing, label});
     }
     const auto& viewpoints = truth.scan.viewpoints.positions();
@@ -100,7 +101,7 @@ std::string picture_of(const gnomon::scene& world, const gnomon::true_scan& trut
     return picture::picture_of(splats, legend, "object", viewpoint, Eigen::Vector3d::UnitZ()).png();
 }
 
-void write_points(const std::string& path, const gnomon::true_scan& truth) {
+void write_points(const std::string& path, const sim::true_scan& truth) {
     using namespace gnomon::io;
     write_ply(path, truth.scan,
               {normal_properties(truth.normals), scalar_property("object", truth.objects),
@@ -109,7 +110,7 @@ void write_points(const std::string& path, const gnomon::true_scan& truth) {
 }
 
 /// Which number means what.
-json names_of(const gnomon::scene& world) {
+json names_of(const sim::scene& world) {
     json parts = json::array();
     for (const auto& part : world.parts())
         parts.push_back({{"name", part.name}, {"object", part.object}});
@@ -120,10 +121,10 @@ json names_of(const gnomon::scene& world) {
 }
 
 void simulate_scan(const options& o) {
-    const gnomon::scene world = scene_of(o);
+    const sim::scene world = scene_of(o);
     const output_directory out(o.out, {"scan.ply", "scan.png", "names.json"});
     const stopwatch watch;
-    const gnomon::true_scan truth = scan_of(world, o);
+    const sim::true_scan truth = scan_of(world, o);
     const double seconds = watch.seconds();
 
     // All that could go wrong goes wrong before the first file is written.
@@ -135,7 +136,7 @@ void simulate_scan(const options& o) {
     gnomon::io::replace_file(out / "scan.png", drawing);
     gnomon::io::replace_file(out / "names.json", names);
 
-    const auto mixed = std::count(truth.echoes.begin(), truth.echoes.end(), gnomon::echo::mixed);
+    const auto mixed = std::count(truth.echoes.begin(), truth.echoes.end(), sim::echo::mixed);
     std::printf("%s in %.3f s, %s of several surfaces\n\n",
                 picture::counted(truth.scan.size(), "point").c_str(), seconds,
                 picture::with_commas(static_cast<std::size_t>(mixed)).c_str());

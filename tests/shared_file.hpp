@@ -3,7 +3,7 @@
 
 #include <string>
 
-/// The path of a file, or folder, of the data that are too large for the repository, or nothing
-/// where it is not at hand; tests are skipped then. (The one of the tests that knows where they
-/// lie: all else compiles to the same wherever that is.)
+/// The path of a file or folder of the data that are too large for the repository, or nothing where
+/// it does not exist; tests are skipped then. (Only shared_file.cpp depends on the location of the
+/// data: the objects of all other tests can be cached.)
 [[nodiscard]] std::string shared_file(const std::string& name);

@@ -30,4 +30,4 @@ add_dependencies(single_header make_single_header)
 target_include_directories(single_header INTERFACE ${single_dir})
 target_compile_features(single_header INTERFACE cxx_std_20)
 target_link_libraries(single_header INTERFACE
-    Eigen3::Eigen nanoflann::nanoflann Threads::Threads)
+    Eigen3::Eigen Threads::Threads)

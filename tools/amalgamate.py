@@ -4,7 +4,7 @@
 all that they include.
 
     amalgamate.py                  writes the file in the repository
-    amalgamate.py --check          says whether that file is what would be written
+    amalgamate.py --check          compares that file with what would be written
     amalgamate.py --output FILE    writes elsewhere
 
 Our own includes are replaced by the headers' text, once each and in the order in which a compiler
@@ -43,6 +43,8 @@ class Amalgamation:
         self.taken.add(name)
         own = []  # lines of this header since the last one it included
         depth = 0  # of #if
+        # The comments of an umbrella say what it includes: here, all of it.
+        is_umbrella = name.count("/") == 1 and name != "gnomon/version.hpp"
         for line in (ROOT / "include" / name).read_text(encoding="utf-8").splitlines():
             directive = line.strip()
             include = INCLUDE.match(directive)
@@ -57,7 +59,8 @@ class Amalgamation:
             elif include and not depth:
                 self.foreign.add(include[1])
             elif directive != "#pragma once" and not line.startswith("// SPDX-"):
-                own.append(line)
+                if not (is_umbrella and line.startswith("//")):
+                    own.append(line)
         self.lines += ["", f"// {'-' * 8} {name} {'-' * (87 - len(name))}", "", *own]
 
     def text(self):

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Keeps include/ and tests/ one tree: include/gnomon/x/y.hpp has tests/x/y_test.cpp, and no test is
-without its header. Umbrellas, and what is under detail/, may go without a test of their own; tests
+without its header. Umbrellas and headers under detail/ need no test of their own; tests
 of the whole chain, in tests/scans/, have no header. Every source begins with its licence.
 """
 

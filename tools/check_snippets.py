@@ -7,7 +7,7 @@ In README.md and docs/, each block fenced as cpp follows a line
     <!-- snippet: examples/quick_start.cpp [name] -->
 
 and equals, less the common indent, what stands in that file between two lines `// [name]`.
-With --write, the blocks are taken from the files anew.
+With --write, the blocks are taken from the files again.
 """
 
 import pathlib

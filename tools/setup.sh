@@ -29,7 +29,7 @@ set_up() {
             return 0
         fi
         as_root=sudo
-        [ -t 0 ] || as_root="sudo -n"  # nobody there to type a password
+        [ -t 0 ] || as_root="sudo -n"  # no terminal to type a password on
     fi
 
     echo "Installing$missing$optional"
@@ -46,7 +46,7 @@ set_up() {
 }
 
 # What every build needs (Boost for Hana, which the registry of estimators unfolds), and what the
-# examples need beside it (zlib, because Assimp links it and its package does not say so).
+# examples need in addition (zlib, because Assimp links it and its package does not require it).
 build_packages="g++ cmake ninja-build libeigen3-dev libnanoflann-dev libboost-dev"
 example_packages="libstb-dev nlohmann-json3-dev libassimp-dev zlib1g-dev"
 

@@ -10,31 +10,31 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-labeled_cloud labeled(gnomon::true_scan truth) {
+labeled_cloud labeled(sim::true_scan truth) {
     return {std::move(truth.scan), std::move(truth.normals)};
 }
 
-gnomon::scanner of_density(int beams) {
-    for (const gnomon::scanner& finder :
-         {gnomon::densities::low(), gnomon::densities::medium(), gnomon::densities::high()}) {
+sim::scanner of_density(int beams) {
+    for (const sim::scanner& finder :
+         {sim::densities::low(), sim::densities::medium(), sim::densities::high()}) {
         if (finder.beams() * finder.lines(4.0) == static_cast<std::size_t>(beams)) return finder;
     }
     throw std::invalid_argument("kitchen: there is no such density");
 }
 
-gnomon::true_scan simulated(const gnomon::scene& world, const std::string& trajectory,
-                            const gnomon::scanner& finder, const gnomon::beam& beam) {
+sim::true_scan simulated(const sim::scene& world, const std::string& trajectory,
+                         const sim::scanner& finder, const sim::beam& beam) {
     const gnomon::threads all{};
     if (trajectory == "horizontal")
-        return gnomon::simulate(world, gnomon::horizontal{.mount = world.sensor}, finder, beam,
-                                all);
+        return sim::simulate(world, sim::horizontal{.mount = world.sensor}, finder, beam, all);
     if (trajectory == "vertical")
-        return gnomon::simulate(world, gnomon::vertical{.mount = world.sensor}, finder, beam, all);
+        return sim::simulate(world, sim::vertical{.mount = world.sensor}, finder, beam, all);
     if (trajectory == "rotational")
-        return gnomon::simulate(world, gnomon::rotational{.mount = world.sensor}, finder, beam,
-                                all);
+        return sim::simulate(world, sim::rotational{.mount = world.sensor}, finder, beam, all);
     throw std::invalid_argument("kitchen: there is no such trajectory");
 }
 
@@ -49,7 +49,7 @@ void mark_plane(labeled_cloud& cloud, std::span<const gnomon::point_index> segme
         const auto others = std::span(positions).subspan(1);
         normal = gnomon::plane_pca{}(positions[0], others).normal;
         const Eigen::Vector3d middle =
-            positions[0] + gnomon::moments_about(positions[0], others).mean_with_point();
+            positions[0] + gnomon::moments::about(positions[0], others).mean_with_point();
         const auto distance = [&](gnomon::point_index i) {
             return std::abs(normal.dot(cloud.scan.points[i] - middle));
         };
@@ -68,24 +68,24 @@ void mark_plane(labeled_cloud& cloud, std::span<const gnomon::point_index> segme
 
 cloud_source scenario_one(double sigma, double scale) {
     return [=](std::uint64_t seed) {
-        return labeled(gnomon::simulate(
-            gnomon::box_and_cylinder{.sigma = sigma, .scale = scale, .seed = seed}));
+        return labeled(
+            sim::simulate(sim::box_and_cylinder{.sigma = sigma, .scale = scale, .seed = seed}));
     };
 }
 
 cloud_source scenario_two(double sigma) {
     return [=](std::uint64_t seed) {
-        const gnomon::scene world = gnomon::scenes::boxes_and_bin();
-        const gnomon::horizontal sweep{
+        const sim::scene world = sim::scenes::boxes_and_bin();
+        const sim::horizontal sweep{
             .mount = world.sensor, .duration = 0.455, .sweep = gnomon::degrees(70)};
-        return labeled(gnomon::simulate(world, sweep, gnomon::scanners::sick_lms_400(),
-                                        {.sigma = sigma, .seed = seed}));
+        return labeled(sim::simulate(world, sweep, sim::scanners::sick_lms_400(),
+                                     {.sigma = sigma, .seed = seed}));
     };
 }
 
 cloud_source kitchen(const std::string& trajectory, int density, double sigma, double scale) {
     return [=](std::uint64_t seed) {
-        return labeled(simulated(gnomon::scenes::kitchen(scale), trajectory, of_density(density),
+        return labeled(simulated(sim::scenes::kitchen(scale), trajectory, of_density(density),
                                  {.sigma = sigma, .seed = seed}));
     };
 }
@@ -99,7 +99,7 @@ std::optional<cloud_source> real_table() {
         cloud.normals.assign(scan.size(), Eigen::Vector3d::Zero());
         const gnomon::threads all{};
         auto surface = gnomon::estimate_normals(scan, gnomon::knn{}, gnomon::plane_pca{}, all);
-        gnomon::repair_anisotropic(scan, surface, gnomon::knn{}, gnomon::plane_pca{}, {}, all);
+        gnomon::repair_anisotropic(scan, gnomon::knn{}, surface, gnomon::plane_pca{}, {}, all);
         const auto parts = gnomon::segment_surfaces(scan, surface, {}, all);
         for (std::size_t s = 0; s < 2 && s < parts.size(); ++s) mark_plane(cloud, parts[s]);
         return cloud;

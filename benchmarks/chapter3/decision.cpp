@@ -18,7 +18,7 @@ void enter_benchmarks(const effort& much) {
         for (const std::size_t k : much.of<std::size_t>({10, 20, 30, 50}, {10, 30}))
             enter("decision", scan, knn_graph(k), all, passes);
         for (const std::size_t k : much.of<std::size_t>({10, 30}, {30}))
-            enter("decision", scan, sorted_knn_graph(k), fans, passes);
+            enter("decision", scan, angularly_sorted_knn_graph(k), fans, passes);
         enter("decision", scan, delaunay_graph(),
               methods({"plane_svd", "plane_pca", "vector_svd", "area_weighted", "angle_weighted"}),
               passes);

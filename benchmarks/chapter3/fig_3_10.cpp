@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Fig. 3.10: PlanePCA on nine scans of the kitchen, at seven levels of noise, with twelve numbers
-// of neighbors: 756 runs. Beside them the sparse rotational scan with smaller and larger furniture.
+// of neighbors: 756 runs; and the sparse rotational scan with smaller and larger furniture.
 #include <string>
 #include <vector>
 

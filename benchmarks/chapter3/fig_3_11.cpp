@@ -21,11 +21,12 @@ repaired_cloud repaired(const labeled_cloud& cloud, const gnomon::knn& neighbors
     const elements before =
         gnomon::estimate_normals(cloud.scan, neighbors, gnomon::plane_pca{}, all);
     elements after = before;
-    gnomon::repair_anisotropic(cloud.scan, after, neighbors, gnomon::plane_pca{}, {}, all);
+    gnomon::repair_anisotropic(cloud.scan, neighbors, after, gnomon::plane_pca{}, {}, all);
     repaired_cloud result{};
     double flagged = 0.0;
     for (std::size_t i = 0; i < before.size(); ++i) {
-        if (before[i].aspect_ratio() >= gnomon::anisotropy_repair{}.min_aspect_ratio) continue;
+        if (before[i].aspect_ratio() >= gnomon::repair_anisotropic_options{}.min_aspect_ratio)
+            continue;
         ++flagged;
         result.gamma_before += gnomon::gamma(before[i].normal, cloud.normals[i]);
         result.gamma_after += gnomon::gamma(after[i].normal, cloud.normals[i]);
@@ -60,7 +61,7 @@ void measure(benchmark::State& state, const cloud_source& make, std::uint64_t se
                                                gnomon::threads{1});
         }));
         repair.push_back(seconds_of([&] {
-            gnomon::repair_anisotropic(cloud.scan, surface, neighbors, gnomon::plane_pca{}, {},
+            gnomon::repair_anisotropic(cloud.scan, neighbors, surface, gnomon::plane_pca{}, {},
                                        gnomon::threads{1});
         }));
     }

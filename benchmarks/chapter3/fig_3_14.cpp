@@ -13,21 +13,23 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 constexpr std::size_t types = 9;
 using type_shares = std::array<double, types>;  ///< of the points, in percent
 
 struct prepared_scan {
-    gnomon::true_scan truth;
+    sim::true_scan truth;
     gnomon::adjacency graph;
     std::vector<gnomon::surfel<gnomon::plane_fit>> surface;
 
-    prepared_scan(const gnomon::scanner& finder, double sigma, std::uint64_t seed, std::size_t k) {
+    prepared_scan(const sim::scanner& finder, double sigma, std::uint64_t seed, std::size_t k) {
         const gnomon::threads all{};
-        const gnomon::scene world = gnomon::scenes::kitchen();
-        truth = gnomon::simulate(world, gnomon::rotational{.mount = world.sensor}, finder,
-                                 {.sigma = sigma, .seed = seed}, all);
+        const sim::scene world = sim::scenes::kitchen();
+        truth = sim::simulate(world, sim::rotational{.mount = world.sensor}, finder,
+                              {.sigma = sigma, .seed = seed}, all);
         graph = gnomon::knn{.k = k}(truth.scan, all);
         surface = gnomon::estimate_normals(truth.scan, graph, gnomon::plane_pca{}, all);
         gnomon::orient_normals(truth.scan, surface);
@@ -91,8 +93,7 @@ latest<std::vector<prepared_scan>> latest_scans;
 }  // namespace
 
 void enter_benchmarks(const effort& much) {
-    const gnomon::scanner finder =
-        much.quick ? gnomon::densities::medium() : gnomon::densities::high();
+    const sim::scanner finder = much.quick ? sim::densities::medium() : sim::densities::high();
     const auto cell = [&](int sigma_mm, std::size_t k, const char* tolerance,
                           const gnomon::besl_jain& type) {
         const std::uint64_t seeds = sigma_mm > 0 ? much.seeds() : 1;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Fig. 3.5: seven methods on box and cylinder: quality, time and index over k (a-c), and over the
-// noise on Delaunay stars (d). Beside them what its claims need to be judged: k nearest neighbors
+// noise on Delaunay stars (d). In addition, for its claims, k nearest neighbors
 // at less noise, smaller and larger objects, and variants of the methods.
 #include <string>
 #include <vector>
@@ -40,7 +40,7 @@ void enter_benchmarks(const effort& much) {
     // the order of triangles
     cell(noisy, knn_graph(30),
          methods({"area_weighted to viewpoint", "angle_weighted to viewpoint"}));
-    cell(noisy, sorted_knn_graph(30), methods({"area_weighted", "angle_weighted"}));
+    cell(noisy, angularly_sorted_knn_graph(30), methods({"area_weighted", "angle_weighted"}));
 
     for (const int sigma_mm : {1, 5, 10}) {
         const cloud_condition cloud = objects(sigma_mm, "1", much);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Fig. 3.9: plates of 30 x 30 cm before a SICK LMS-200, each one neighborhood: PlanePCA beside the
-// Kalman filter of Alg. 3.2 and the one that this library has instead. Ten plates as in the figure,
-// and ten thousand.
+// Fig. 3.9: plates of 30 x 30 cm in front of a SICK LMS-200, each one neighborhood: PlanePCA, the
+// Kalman filter of Alg. 3.2, and the one that this library has in its place. Ten plates as in the
+// figure, and ten thousand.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -18,12 +18,14 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 constexpr double sigma = 0.005;  // [m], the scanner's data sheet
 constexpr double degree = std::numbers::pi / 180.0;
 
-/// What a plate's points say of its normal, and what they cannot say.
+/// A plate: its points, its normal, and the direction that the points constrain least.
 struct plate {
     std::vector<Eigen::Vector3d> points;  ///< the sensor is the origin
     Eigen::Vector3d normal;               ///< the true one
@@ -33,7 +35,7 @@ struct plate {
 
 /// The weak direction is that of the Cramer-Rao bound: of rays u with the true ranges r, 1 / r is
 /// linear in m = n / d, so that the covariance of m is at least that of linear regression.
-Eigen::Vector3d weak_direction(const gnomon::true_scan& truth, const Eigen::Vector3d& normal) {
+Eigen::Vector3d weak_direction(const sim::true_scan& truth, const Eigen::Vector3d& normal) {
     Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
     for (std::size_t i = 0; i < truth.ranges.size(); ++i) {
         const Eigen::Vector3d x = truth.ranges[i] * truth.directions[i];
@@ -41,21 +43,21 @@ Eigen::Vector3d weak_direction(const gnomon::true_scan& truth, const Eigen::Vect
     }
     const Eigen::Matrix3d across = Eigen::Matrix3d::Identity() - normal * normal.transpose();
     const Eigen::Matrix3d covariance = across * information.inverse() * across;
-    return gnomon::symmetric_eigen(covariance / covariance.trace()).vectors.col(0);
+    return gnomon::detail::symmetric_eigen(covariance / covariance.trace()).vectors.col(0);
 }
 
 /// The first plates that show ten points, at less than 80 degrees.
 std::vector<plate> first_plates(std::size_t count) {
     std::vector<plate> plates;
-    const gnomon::scanner finder{.field_of_view = gnomon::degrees(180),
-                                 .resolution = gnomon::degrees(1),
-                                 .frequency = 60.0,
-                                 .min_range = 0.0};
+    const sim::scanner finder{.field_of_view = gnomon::degrees(180),
+                              .resolution = gnomon::degrees(1),
+                              .frequency = 60.0,
+                              .min_range = 0.0};
     for (std::uint64_t seed = 1; plates.size() < count; ++seed) {
-        const gnomon::scene world = gnomon::scenes::plate(seed);
-        const gnomon::vertical sweep{
+        const sim::scene world = sim::scenes::plate(seed);
+        const sim::vertical sweep{
             .mount = world.sensor, .duration = 1.0, .sweep = gnomon::degrees(60)};
-        const auto truth = gnomon::simulate(world, sweep, finder, {.sigma = sigma, .seed = seed});
+        const auto truth = sim::simulate(world, sweep, finder, {.sigma = sigma, .seed = seed});
         if (truth.scan.size() < 10) continue;
         Eigen::Vector3d rays = Eigen::Vector3d::Zero();
         for (const Eigen::Vector3d& u : truth.directions) rays += u;
@@ -96,12 +98,13 @@ void measure(benchmark::State& state, const std::vector<plate>& plates, const au
         const double quality =
             gnomon::usable(found.trust) ? gnomon::gamma(found.normal, p.normal) : 0.0;
         angles.push_back(gnomon::usable(found.trust)
-                             ? gnomon::unoriented_angle(found.normal, p.normal) / degree
+                             ? gnomon::unoriented_angle(found.normal, p.normal).degrees()
                              : 90.0);
         gamma[g] += share * quality;
         failures[g] += 100.0 * share * (quality < 0.99);
         if constexpr (requires { found.covariance; }) {
-            const Eigen::Vector3d axis = gnomon::symmetric_eigen(found.covariance).vectors.col(0);
+            const Eigen::Vector3d axis =
+                gnomon::detail::symmetric_eigen(found.covariance).vectors.col(0);
             near_weak[g] += 100.0 * share * (std::abs(axis.dot(p.weak)) > std::cos(20.0 * degree));
         }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The main program of all figures: options, and what must be known of the machine to read times.
+// The main program of all figures: options, and the description of the machine.
 #include <algorithm>
 #include <cstdio>
 #include <fstream>

@@ -24,7 +24,7 @@ for figure in fig_3_5 fig_3_6 table_3_3 fig_3_9 fig_3_10 fig_3_11 fig_3_14 decis
         awk -v figure="$figure" 'index($0, figure "/") == 1 && ++cells % 50 == 0 {
             printf "%s: %d cells\n", figure, cells; fflush() }
             END { printf "%s: %d cells, done\n", figure, cells }'
-    # Without the name of the machine, and what is the same for all cells or said twice.
+    # Without the name of the machine and fields that are constant or redundant.
     sed -E '/"(host_name|run_name|run_type|family_index|per_family_instance_index|repetition_index|repetitions|threads)":/d' \
         "$out/chapter3/$figure.json" >"$out/chapter3/$figure.tmp"
     mv "$out/chapter3/$figure.tmp" "$out/chapter3/$figure.json"

@@ -27,9 +27,10 @@ graph_condition knn_graph(std::size_t k) {
             [k](const auto& scan, const auto& run) { return gnomon::knn{.k = k}(scan, run); }, k};
 }
 
-graph_condition sorted_knn_graph(std::size_t k) {
-    return {"graph:sorted_knn/k:" + std::to_string(k), [k](const auto& scan, const auto& run) {
-                return gnomon::sorted_around{gnomon::knn{.k = k}}(scan, run);
+graph_condition angularly_sorted_knn_graph(std::size_t k) {
+    return {"graph:angularly_sorted_knn/k:" + std::to_string(k),
+            [k](const auto& scan, const auto& run) {
+                return gnomon::angularly_sorted{gnomon::knn{.k = k}}(scan, run);
             }};
 }
 
@@ -40,17 +41,17 @@ graph_condition delaunay_graph() {
 
 namespace {
 
-/// The first k of each ring.
-struct first_of {
-    const gnomon::adjacency& graph;
-    std::size_t k;
-
-    [[nodiscard]] std::size_t size() const { return graph.size(); }
-    void operator()(std::size_t i, std::vector<gnomon::neighbor>& ring) const {
-        ring.clear();
-        for (const auto j : graph[i].first(std::min(k, graph[i].size()))) ring.push_back({0.0, j});
+/// The first k neighbors of each point.
+gnomon::adjacency first_of(const gnomon::adjacency& graph, std::size_t k) {
+    std::vector<std::uint64_t> begin{0};
+    std::vector<gnomon::point_index> indices;
+    for (std::size_t i = 0; i < graph.size(); ++i) {
+        const auto first = graph[i].first(std::min(k, graph[i].size()));
+        indices.insert(indices.end(), first.begin(), first.end());
+        begin.push_back(indices.size());
     }
-};
+    return {std::move(begin), std::move(indices)};
+}
 
 /// The clouds of all seeds.
 struct clouds_of_seeds {
@@ -68,8 +69,7 @@ struct clouds_of_seeds {
 
     /// The graph on a cloud that is not the first.
     [[nodiscard]] gnomon::adjacency graph(const graph_condition& kind, std::size_t cloud) const {
-        if (kind.k > 0 && kind.k <= widest_k)
-            return gnomon::adjacency(first_of{widest[cloud - 1], kind.k}, gnomon::threads{});
+        if (kind.k > 0 && kind.k <= widest_k) return first_of(widest[cloud - 1], kind.k);
         return kind.make(clouds[cloud].scan, gnomon::threads{});
     }
 };

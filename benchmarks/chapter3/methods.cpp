@@ -12,9 +12,9 @@
 
 namespace {
 
-/// An estimator as the registry has it, told of the noise.
+/// An estimator of the registry with the standard deviation of the noise, if it uses one.
 template <class E>
-E told(E estimate, double sigma) {
+E with_noise(E estimate, double sigma) {
     if constexpr (requires { estimate.sigma; }) {
         if (sigma > 0.0) estimate.sigma = sigma;
     }
@@ -29,13 +29,13 @@ std::vector<method> unfolded(const auto& registry) {
             {entry.name,
              [estimate](const labeled_cloud& cloud, const gnomon::adjacency& graph, double sigma) {
                  benchmark::DoNotOptimize(gnomon::estimate_normals(cloud.scan, graph,
-                                                                   told(estimate, sigma),
+                                                                   with_noise(estimate, sigma),
                                                                    gnomon::threads{1})
                                               .data());
              },
              [estimate](const labeled_cloud& cloud, const gnomon::adjacency& graph, double sigma) {
                  return gnomon::quality_of(
-                     gnomon::estimate_normals(cloud.scan, graph, told(estimate, sigma),
+                     gnomon::estimate_normals(cloud.scan, graph, with_noise(estimate, sigma),
                                               gnomon::threads{}),
                      cloud.normals);
              }});

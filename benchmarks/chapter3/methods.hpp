@@ -14,8 +14,8 @@
 
 struct method {
     std::string name;  ///< in the registry
-    /// Estimates all normals once, on one thread, and forgets them. sigma [m] is told to methods
-    /// that want to know.
+    /// Estimates all normals once, on one thread, and discards them. sigma [m] is passed to methods
+    /// that use it.
     std::function<void(const labeled_cloud&, const gnomon::adjacency&, double sigma)> pass;
     /// The quality of all normals.
     std::function<gnomon::normal_quality(const labeled_cloud&, const gnomon::adjacency&,

@@ -4,7 +4,7 @@
 import matplotlib
 
 matplotlib.use("agg")
-import matplotlib.pyplot as plt  # noqa: E402  (after the choice of what draws)
+import matplotlib.pyplot as plt  # noqa: E402  (after the choice of the backend)
 
 from relations import ENOUGH, SCANS  # noqa: E402
 from results import FIVE, SEVEN, TITLES  # noqa: E402
@@ -203,7 +203,7 @@ def decision(results, path):
         best = max(c["gamma"] for c in cells)
         for m in dict.fromkeys(c.at["method"] for c in cells):
             color, marker = STYLES[m]
-            for graph, filled in (("knn", True), ("sorted_knn", False), ("delaunay", False)):
+            for graph, filled in (("knn", True), ("angularly_sorted_knn", False), ("delaunay", False)):
                 some = sorted((c for c in cells if c.at["method"] == m
                                and c.at["graph"] == graph), key=lambda c: c.at.get("k", 0))
                 if not some:

@@ -122,7 +122,7 @@ def _(results):
           "(the scene is drawn after a figure; does the ranking depend on it?)")
 def _(results):
     if results.quick:
-        return "not measured in a hurry", None
+        return "not measured with --quick", None
     words, holds = [], True
     for scale in (0.85, 1.15):
         cells = seven_at(results, 30, scale=str(scale))
@@ -149,9 +149,9 @@ def _(results):
 @relation("fig_3_5", "3.5.7", "at k = 30: PlanePCA and VectorSVD take less time than PlaneSVD, "
           "that less than AngleWeighted, QuadTransSVD, QuadSVD, in this order",
           "the SVD takes O(d^3): linear methods alike, QuadTransSVD and QuadSVD much more (b)",
-          "this library makes the three linear normals of the same moments, and their last steps "
-          "are small beside them: they differ by a few percent, in either order. AngleWeighted, "
-          "QuadTransSVD and QuadSVD follow as they should")
+          "the three linear methods use the same moments here, and their last steps take little time in "
+          "comparison: they differ by a few percent, in either order. AngleWeighted, QuadTransSVD and "
+          "QuadSVD follow in the order of the thesis")
 def _(results):
     cells = seven_at(results, 30)
     us = {c.at["method"]: c["us"] for c in cells}
@@ -162,8 +162,8 @@ def _(results):
 
 @relation("fig_3_5", "3.5.8", "AreaWeighted takes more time than PlanePCA at k = 30",
           "the linear methods outperform the averaging methods already for medium-sized k (b)",
-          "its loop is a cross product per neighbor, without roots or an SVD; in the thesis it was "
-          "slower than an SVD by GSL, which it is not by the nature of the method")
+          "its loop is a cross product per neighbor, without roots or an SVD; that it is slower than an SVD "
+          "by GSL in the thesis is not a property of the method")
 def _(results):
     us = {c.at["method"]: c["us"] for c in seven_at(results, 30)}
     return (f"AreaWeighted {us['area_weighted']:.2f} us, PlanePCA {us['plane_pca']:.2f} us",
@@ -181,10 +181,10 @@ def best_by_index(results, index):
     return winner, words
 
 
-BELOW_BOUND = ("the normals take less than the bound of 1 us, so that half the index is a speed "
-               "without limit: the cheapest method wins whatever its normals are worth")
-CHEAP = ("half the index is still speed; where AreaWeighted takes a fraction of PlanePCA's time, "
-         "its poor normals are made up for")
+BELOW_BOUND = ("the normals take less than the bound of 1 us, so that half of the index is the speed, "
+               "without limit: the fastest method wins, whatever the quality of its normals")
+CHEAP = ("half of the index is still the speed; where AreaWeighted takes a fraction of the time of "
+         "PlanePCA, this compensates its errors")
 
 
 @relation("fig_3_5", "3.5.9", "the best index pi(1 us) at k = 20 to 50 is PlanePCA's or PlaneSVD's",
@@ -194,7 +194,7 @@ def _(results):
     return words, winner in LEADERS
 
 
-@relation("fig_3_5", "3.5.10", "the same of pi(0.1 us), a bound as tight now as 1 us was in 2010",
+@relation("fig_3_5", "3.5.10", "the same for pi(0.1 us), a bound as tight now as 1 us was in 2010",
           "pi(1 us) highlights PlanePCA and PlaneSVD (c)", CHEAP)
 def _(results):
     winner, words = best_by_index(results, "pi_01us")
@@ -214,14 +214,14 @@ def _(results):
 
 
 NEAR_EDGES = (
-    "where all neighbors are of one surface the two are level within 1e-5; what QuadTransSVD lacks "
-    "it lacks near edges (0.003 of gamma there), where its frame, that of VectorSVD, is the worse "
-    "one. Rank 3 is the better policy all the same: rank 6 lacks 0.01 near edges, and is ahead only "
-    "within a surface of little noise (.99996 to .99973 at 1 mm)")
+    "where all neighbors belong to one surface, the two differ by less than 1e-5; QuadTransSVD is worse "
+    "near edges (by 0.003 of gamma), where its frame, that of VectorSVD, is less accurate. Rank 3 is "
+    "still the better choice: rank 6 is worse by 0.01 near edges, and better only within surfaces of "
+    "little noise (.99996 to .99973 at 1 mm)")
 
 
-@relation("fig_3_5", "3.5.12", "at 5 mm and k = 50 QuadTransSVD is not behind PlanePCA with the "
-          "rank 3 of the thesis, and behind it with the full rank 6",
+@relation("fig_3_5", "3.5.12", "at 5 mm and k = 50 QuadTransSVD is at least as good as PlanePCA with "
+          "the rank 3 of the thesis, and worse with the full rank 6",
           "r = rank(R') = 3 (Eq. 3.8), and QuadTransSVD is even slightly better than PlanePCA",
           NEAR_EDGES)
 def _(results):
@@ -230,23 +230,23 @@ def _(results):
              for m in ("quad_trans_svd", "plane_pca", "quad_trans_svd rank 6")]
     three = min(g["quad_trans_svd"] - g["plane_pca"] for g in by_seed(cells))
     six = max(g["quad_trans_svd rank 6"] - g["plane_pca"] for g in by_seed(cells))
-    return (f"{gammas(cells)}; over seeds rank 3 is {three:+.5f} at least, rank 6 {six:+.5f} at "
-            "most", three >= 0 > six)
+    return (f"{gammas(cells)}; over seeds the lead of rank 3 is at least {three:+.5f}, of rank 6 at "
+            f"most {six:+.5f}", three >= 0 > six)
 
 
-@relation("fig_3_5", "3.5.13", "averaging over nearest neighbors in the order of the search comes "
+@relation("fig_3_5", "3.5.13", "averaging over nearest neighbors in the order of the search is "
           "within 0.05 of PlanePCA at k = 50",
           "even the kNN graph, where no specific order is obeyed, yields good results if there are "
           "enough neighbors (Sec. 3.2.4)",
-          "cross products of neighbors in no order have random signs and cancel each other; with "
-          "signs towards the view point, or neighbors in angular order, the claim is nearly true")
+          "cross products of unordered neighbors have random signs and cancel; with signs towards the "
+          "view point, or neighbors in angular order, the claim nearly holds")
 def _(results):
     at = {**SCENARIO_1}
     literal = [sweep(results, m)[-1] for m in AVERAGING]
     pca = sweep(results, "plane_pca")[-1]
     signed = [results.one("fig_3_5", method=f"{m} to viewpoint", graph="knn", **at)
               for m in AVERAGING]
-    ordered = [results.one("fig_3_5", method=m, graph="sorted_knn", **at) for m in AVERAGING]
+    ordered = [results.one("fig_3_5", method=m, graph="angularly_sorted_knn", **at) for m in AVERAGING]
     words = (f"k = {pca.at['k']}: {gammas(literal)}, PlanePCA {pca['gamma']:.4f}; at k = 30 area and "
              f"angle reach {signed[0]['gamma']:.4f} and {signed[1]['gamma']:.4f} with signs towards "
              f"the view point, {ordered[0]['gamma']:.4f} and {ordered[1]['gamma']:.4f} in angular "
@@ -255,7 +255,7 @@ def _(results):
 
 
 @relation("fig_3_5", "3.5.14", "the time per normal does not depend on the number of points, "
-          "within 20 %: as many us at k = 30 in Scenario II as in Scenario I",
+          "within 20 %: the same time at k = 30 in Scenario II as in Scenario I",
           "absolute running times were halved, which corresponds to half the number of points",
           "see the ratios")
 def _(results):
@@ -273,20 +273,20 @@ def star(results, method, sigma_mm):
 SIGMAS = [1, 5, 10, 15]
 
 
-@relation("fig_3_5", "3.5.15", "on Delaunay stars gamma falls with sigma = 1, 5, 10, 15 mm, for all "
-          "five", "all methods suffer from the locality of the DT graph (d)")
+@relation("fig_3_5", "3.5.15", "on Delaunay stars gamma decreases with sigma = 1, 5, 10, 15 mm, for "
+          "all five", "all methods suffer from the locality of the DT graph (d)")
 def _(results):
     steps = [a - b for m in FIVE for s, t in zip(SIGMAS, SIGMAS[1:])
              for a, b in zip(star(results, m, s).seeds("gamma"), star(results, m, t).seeds("gamma"))]
     words = ", ".join(f"{TITLES[m]} {star(results, m, 1)['gamma']:.4f} to "
                       f"{star(results, m, 15)['gamma']:.4f}" for m in FIVE)
-    return f"{words}; every step is {min(steps):.4f} at least", min(steps) > 0
+    return f"{words}; every step is at least {min(steps):.4f}", min(steps) > 0
 
 
 @relation("fig_3_5", "3.5.16", "no Delaunay star has more than ten neighbors, in any scenario",
           "the number of neighbors in the DT graph never exceeded ten",
-          "a planar triangulation has no largest degree: few of thousands of points have more, at "
-          "rims and edges, where the tangent plane cuts through two surfaces")
+          "the degree in a planar triangulation is not bounded: a few of thousands of points have more, "
+          "at borders and edges, where the tangent plane intersects two surfaces")
 def _(results):
     cells = [star(results, "plane_pca", s) for s in SIGMAS]
     cells += results.all("table_3_3", method="plane_pca")
@@ -298,7 +298,7 @@ def _(results):
 
 
 def lead_of_nearest(results, methods):
-    """By how much k nearest neighbors are before stars, at least; from k = 20 and 5 mm on."""
+    """The smallest lead of k nearest neighbors over Delaunay stars, from k = 20 and 5 mm on."""
     least = {}
     for m in methods:
         for sigma_mm in (5, 10, 15):
@@ -310,17 +310,17 @@ def lead_of_nearest(results, methods):
     return ", ".join(f"{TITLES[m]} {gain:+.4f}" for m, gain in least.items()), least
 
 
-@relation("fig_3_5", "3.5.17", "k nearest neighbors, k of 20 or more, are not behind Delaunay stars "
-          "from 5 mm on: linear methods",
+@relation("fig_3_5", "3.5.17", "from k = 20 and 5 mm on, k nearest neighbors are at least as good as "
+          "Delaunay stars for the linear methods",
           "kNN could compensate noise, DT could not (d)")
 def _(results):
     words, least = lead_of_nearest(results, LINEAR)
     return f"smallest gain: {words}", min(least.values()) >= 0
 
 
-@relation("fig_3_5", "3.5.18", "the same of the averaging methods",
+@relation("fig_3_5", "3.5.18", "the same for the averaging methods",
           "kNN could compensate noise, DT could not (d)",
-          "they need the angular order that stars have and the search has not; see 3.5.13")
+          "they require the angular order, which stars have and the search does not give; see 3.5.13")
 def _(results):
     words, least = lead_of_nearest(results, AVERAGING)
     return f"smallest gain: {words}", min(least.values()) >= 0
@@ -333,7 +333,7 @@ def little_noise(results, figure, method):
     return results.all(figure, cloud="surrogate", method=method)
 
 
-@relation("fig_3_6", "3.6.1", "the surrogate has 7,346 points, give or take 5 %",
+@relation("fig_3_6", "3.6.1", "the surrogate has 7,346 points within 5 %",
           "a real range scan of 7,346 points (Scenario II)")
 def _(results):
     points = {c["points"] for c in little_noise(results, "fig_3_6", "plane_pca")}
@@ -343,9 +343,9 @@ def _(results):
 
 @relation("fig_3_6", "3.6.2", "every method is better than in Scenario I, at every k",
           "due to lower noise higher quality is attained (a)",
-          "AngleWeighted gains nothing from less noise: what spoils it is that neighbors come in the "
-          "order of their distance, so that its triangles turn either way (3.5.13), on the regular "
-          "raster of the quiet scan most of all; one half is what a random direction scores")
+          "AngleWeighted gains nothing from less noise: its errors come from neighbors in the order of "
+          "their distances, so that triangles have either orientation (3.5.13), mostly on the regular "
+          "raster of the scan with little noise; one half is the gamma of a random direction")
 def _(results):
     gains = {}
     for m in SEVEN:
@@ -357,7 +357,7 @@ def _(results):
 
 
 def lead_over_pca(results, **at):
-    """Of QuadTransSVD at k from 40 on, by k."""
+    """The lead of QuadTransSVD at k from 40 on, by k."""
     leads = {}
     for c in results.all("fig_3_6", method="quad_trans_svd", **at):
         if c.at["k"] >= 40:
@@ -366,7 +366,7 @@ def lead_over_pca(results, **at):
     return leads
 
 
-@relation("fig_3_6", "3.6.3", "QuadTransSVD is not behind PlanePCA from k = 40 on, on the surrogate",
+@relation("fig_3_6", "3.6.3", "QuadTransSVD is at least as good as PlanePCA from k = 40 on, on the surrogate",
           "for sufficiently large k QuadTransSVD is even slightly better than PlanePCA (a)",
           NEAR_EDGES)
 def _(results):
@@ -379,15 +379,15 @@ def _(results):
 
 
 def on_the_real_table(judge):
-    """A claim about the real scan, if there is one."""
-    def judged_if_there(results):
+    """A claim about the real scan, if it was measured."""
+    def judged_if_measured(results):
         if not results.all("fig_3_6", cloud="real"):
-            return "not measured: the scan is not at hand", None
+            return "not measured: the scan is not available", None
         return judge(results)
-    return judged_if_there
+    return judged_if_measured
 
 
-@relation("fig_3_6", "3.6.4", "nor is it on the real scan of a table",
+@relation("fig_3_6", "3.6.4", "the same on the real scan of a table",
           "for sufficiently large k QuadTransSVD is even slightly better than PlanePCA (a)")
 @on_the_real_table
 def _(results):
@@ -416,16 +416,16 @@ def _(results):
     return share_the_lead(results, "pi_1us")
 
 
-@relation("fig_3_6", "3.6.6", "the same of pi(0.1 us)",
+@relation("fig_3_6", "3.6.6", "the same for pi(0.1 us)",
           "PlanePCA still yields the best, this time sharing the lead with VectorSVD (b)", CHEAP)
 def _(results):
     return share_the_lead(results, "pi_01us")
 
 
-@relation("fig_3_6", "3.6.7", "the averaging methods grow with k, within 0.002, and stay last",
+@relation("fig_3_6", "3.6.7", "gamma of the averaging methods increases with k, within 0.002, and they stay last",
           "the two averaging methods improve constantly, albeit at a poor level (a)",
-          "AreaWeighted soon has all that its random signs let it have, and larger neighborhoods "
-          "then see more edges; last they are")
+          "AreaWeighted soon reaches the limit that its random signs impose, and larger neighborhoods "
+          "then contain more edges; they do stay last")
 def _(results):
     falls, behind = [], []
     for sigma_mm in (1, 2):
@@ -439,13 +439,13 @@ def _(results):
             behind.append((smallest_lead(cells, [m for m in SEVEN if m not in AVERAGING],
                                          AVERAGING), k))
     fall, method, k = max(falls)
-    return (f"the largest fall is {max(fall, 0):.4f} ({method}, towards k = {k}); behind the others "
-            f"by {min(behind)[0]:+.4f} at least (k = {min(behind)[1]})",
+    return (f"the largest decrease is {max(fall, 0):.4f} ({method}, towards k = {k}); behind the others "
+            f"by at least {min(behind)[0]:+.4f} (k = {min(behind)[1]})",
             fall <= SMALL and min(behind)[0] > 0)
 
 
-@relation("fig_3_6", "3.6.8", "the methods rank by time at k = 30 as in Scenario I; what differs by "
-          "less than 10 % is a tie",
+@relation("fig_3_6", "3.6.8", "the ranking by time at k = 30 is that of Scenario I; differences of "
+          "less than 10 % are ties",
           "the ranking of running times is the exact same as for the simulated data")
 def _(results):
     first = {c.at["method"]: c["us"] for c in seven_at(results, 30)}
@@ -461,20 +461,20 @@ def table(results, **at):
 
 
 def order_within(cells, order, slack):
-    """Whether no method is behind its successor by more than `slack`; and the largest such gap."""
+    """Whether no method is worse than its successor by more than `slack`; and the largest gap."""
     gaps = [(g[b] - g[a], a, b) for g in by_seed(cells) for a, b in zip(order, order[1:])]
     worst, a, b = max(gaps)
     return worst <= slack, f"{TITLES[a]} is {-worst:+.4f} from {TITLES[b]}"
 
 
 ORDER_ON_STARS = ["plane_pca", "plane_svd", "vector_svd", "area_weighted", "angle_weighted"]
-SHARP_EDGES = ("little separates the methods; the averaging methods weigh triangles across an edge "
-               "less than an eigenvector does, and their truth here is exact where the thesis's was "
-               "measured by hand")
+SHARP_EDGES = ("the methods hardly differ; the averaging methods give triangles across an edge less weight "
+               "than an eigenvector does, and the true normals are exact here, but measured by hand in the "
+               "thesis")
 
 
 @relation("table_3_3", "3.3.1", "gamma on stars: PlanePCA, PlaneSVD, VectorSVD, AreaWeighted, "
-          "AngleWeighted, each not behind the next by more than 0.01",
+          "AngleWeighted, none worse than its successor by more than 0.01",
           "gamma .9436, .9413, .9328, .9180, .8840", SHARP_EDGES)
 def _(results):
     words, all_hold = [], True
@@ -535,16 +535,16 @@ def plates(results, method, count=None):
           "plates", "virtually perfect estimates (c)")
 def _(results):
     few, many = plates(results, "plane_pca", 10), plates(results, "plane_pca")
-    return (f"{min(few.seeds('gamma')):.6f} at least over ten; over {many.at['plates']:,} "
+    return (f"at least {min(few.seeds('gamma')):.6f} over ten; over {many.at['plates']:,} "
             f"{min(many.seeds('gamma')):.6f} in the worst fifth",
             min(few.seeds("gamma") + many.seeds("gamma")) >= 0.999)
 
 
 RANDOM_START = (
-    "Alg. 3.2 starts anywhere. Where the start is nearly at right angles to the rays (within 10 "
-    "degrees) 44 % of plates fail, where it is along them (within 34 degrees) 4 %: <u, x> is the "
-    "divisor of Eq. 3.17, the first step throws the state away, the covariance shrinks all the same, "
-    "and no later point brings it back. Ten plates can be lucky")
+    "Alg. 3.2 starts from a random normal. If it is nearly perpendicular to the rays (within 10 "
+    "degrees), 44 % of plates fail, if it is along them (within 34 degrees), 4 %: <u, x> is the divisor "
+    "of Eq. 3.17, so that the first step moves the state far away while the covariance still shrinks, "
+    "and later points cannot correct it. Ten plates may all succeed by chance")
 
 
 @relation("fig_3_9", "3.9.2", "the EKF of Alg. 3.2: gamma under 0.99 for at most 1 % of plates",
@@ -559,9 +559,9 @@ def _(results):
             f"{sum(g < 0.99 for g in few.seeds('gamma'))}", many["failures_percent"] <= 1.0)
 
 
-@relation("fig_3_9", "3.9.3", "an EKF on the sphere, started from PlanePCA: for under 0.1 %",
+@relation("fig_3_9", "3.9.3", "an EKF on the sphere, started from PlanePCA: for less than 0.1 %",
           "PlaneEKF can also be initialized with PlanePCA to avoid local extrema",
-          "what is left are plates of a few points at the grazing end, where PlanePCA fails as well")
+          "the remaining plates have few points at grazing incidence, where PlanePCA fails as well")
 def _(results):
     ekf, pca = plates(results, "plane_ekf"), plates(results, "plane_pca")
     return (f"{ekf['failures_percent']:.2f} % (PlanePCA itself {pca['failures_percent']:.2f} %)",
@@ -576,14 +576,14 @@ def near_weak(results, method):
 
 
 @relation("fig_3_9", "3.9.4", "EKF of Alg. 3.2: the direction of largest covariance is within 20 "
-          "degrees of the one that the points know least of, for 90 % of plates",
+          "degrees of the direction that the points constrain least, for 90 % of plates",
           "most of the uncertainty occurs in the z-direction, which is correct because the plane is "
           "almost incident with the rays (b)", RANDOM_START)
 def _(results):
     return near_weak(results, "literal_plane_ekf")
 
 
-@relation("fig_3_9", "3.9.5", "the same of the EKF on the sphere", "as 3.9.4")
+@relation("fig_3_9", "3.9.5", "the same for the EKF on the sphere", "as 3.9.4")
 def _(results):
     return near_weak(results, "plane_ekf")
 
@@ -620,14 +620,14 @@ def sigmas(results, low=0, high=30):
 
 
 def loss(results, *at):
-    """What the best k from 15 to 30 lacks of the best of all, in gamma; the worst seed."""
+    """The loss of gamma by the best k from 15 to 30 against the best of all k; the worst seed."""
     ks, of_seeds = curve(results, *at)
     return max(max(g) - max(x for k, x in zip(ks, g) if 15 <= k <= 30) for g in of_seeds)
 
 
-FLAT = ("from k = 15 on the curves of sparse scans are all but flat, and where they peak is up to "
-        "small things, such as the size of the furniture (3.10.6); what k from 15 to 30 lacks of "
-        "the best says 3.10.7")
+FLAT = ("from k = 15 on the curves of sparse scans are almost flat, and the position of the maximum "
+        "depends on details such as the size of the furniture (3.10.6); for the loss by k from 15 to "
+        "30 see 3.10.7")
 
 
 def span(ks):
@@ -656,7 +656,7 @@ def _(results):
 
 @relation("fig_3_10", "3.10.3", "the best k is from 15 to 30 for every scan without noise",
           "maximum quality is in many cases attained for k from 15 to 30",
-          "without noise fewer neighbors are better still: the only error is that of edges")
+          "without noise fewer neighbors are even better: the only errors are at edges")
 def _(results):
     densities = results.values("fig_3_10", "density")
     best = {(scan, d): best_ks(results, scan, d, 0)[0] for scan in SCANS for d in densities}
@@ -676,7 +676,7 @@ def _(results):
     return words, all(k < 60 for ks in best.values() for k in ks)
 
 
-@relation("fig_3_10", "3.10.5", "noise of 30 mm costs less gamma at k = 30 in scans of 7,200 points "
+@relation("fig_3_10", "3.10.5", "noise of 30 mm reduces gamma at k = 30 less in scans of 7,200 points "
           "than in the densest",
           "the effect of noise becomes negligible as density decreases", "see the measured values")
 def _(results):
@@ -697,15 +697,15 @@ def _(results):
           "(the scene is drawn after a figure; does the best k depend on it?)", FLAT)
 def _(results):
     if results.quick:
-        return "not measured in a hurry", None
+        return "not measured with --quick", None
     best = {(scale, s): best_ks(results, "rotational", 7200, s, scale)
             for scale in ("0.85", "1.15") for s in (5, 15, 30)}
     return ("; ".join(f"{scale}, {s} mm: {span(ks)}" for (scale, s), ks in best.items()),
             all(15 <= k <= 30 for ks in best.values() for k in ks))
 
 
-@relation("fig_3_10", "3.10.7", "for sparse scans up to 15 mm the best k from 15 to 30 lacks at most "
-          "0.01 of the gamma of the best of all",
+@relation("fig_3_10", "3.10.7", "for sparse scans up to 15 mm gamma at the best k from 15 to 30 is at "
+          "most 0.01 below that at the best of all k",
           "for sparse scans there is no point in using larger neighborhoods",
           "see the measured values")
 def _(results):
@@ -719,7 +719,7 @@ def _(results):
 
 # ---- Fig. 3.11 ----------------------------------------------------------------------------------
 
-ENOUGH = 0.1  # percent of points that must be flagged for their mean to say something
+ENOUGH = 0.1  # percent of points that must be flagged for a meaningful mean
 
 
 def flagged(results, **at):
@@ -731,28 +731,28 @@ def scan_name(c):
 
 
 def before_and_after(cells):
-    """In words, and whether gamma rises by 0.2 for every seed."""
+    """Text, and whether gamma increases by 0.2 for every seed."""
     words = "; ".join(f"{scan_name(c)}: {c['gamma_before']:.3f} to {c['gamma_after']:.3f}"
                       for c in cells)
     gains = [a - b for c in cells
              for a, b in zip(c.seeds("gamma_after"), c.seeds("gamma_before"))]
     if not gains:
-        return f"nowhere are {ENOUGH} % flagged", None
+        return f"no scan has {ENOUGH} % flagged points", None
     return words, min(gains) >= 0.2
 
 
 CORRECTED = "this method efficiently corrected the degenerate normals in all data sets"
 
 
-@relation("fig_3_11", "3.11.1", "without noise, k = 15: the gamma of anisotropic points rises by 0.2 "
-          "at least, wherever they are 0.1 % of the scan or more", CORRECTED,
+@relation("fig_3_11", "3.11.1", "without noise, k = 15: gamma of the anisotropic points increases by at "
+          "least 0.2, where they are 0.1 % of the scan or more", CORRECTED,
           "see the measured values")
 def _(results):
     return before_and_after(flagged(results, sigma_mm=0, k=15))
 
 
 @relation("fig_3_11", "3.11.2", "the same for k = 30 and 50", CORRECTED,
-          "there was nothing to correct: these neighborhoods reach two or three scan lines, a strip "
+          "there is nothing to correct: these neighborhoods extend over two or three scan lines, a strip "
           "that is narrow enough to be flagged and, without noise, wide enough for an exact normal")
 def _(results):
     return before_and_after(flagged(results, sigma_mm=0, k=30) + flagged(results, sigma_mm=0, k=50))
@@ -760,7 +760,7 @@ def _(results):
 
 @relation("fig_3_11", "3.11.3", "the same with noise of 15 mm, for any k", CORRECTED,
           "noise along the rays makes a scan line wider than the threshold: hardly any neighborhood "
-          "is flagged, and the normals of those that are were not bad")
+          "is flagged, and the normals of the flagged ones are not bad")
 def _(results):
     return before_and_after(flagged(results, sigma_mm=15))
 
@@ -775,7 +775,7 @@ def _(results):
 
 @relation("fig_3_11", "3.11.5", "the repair adds at most 10 % to the time",
           "while leaving computation times virtually unchanged",
-          "the repair builds its tree anew and searches again, which shows where k is small and "
+          "the repair builds a second tree and searches again, which is noticeable where k is small and "
           "many points are flagged")
 def _(results):
     shares = {scan_name(c): 100 * c["us_repair"] / c["us_with_search"]
@@ -795,8 +795,8 @@ def noisy_labels(results, fit="thesis"):
     return [c for c in results.all("fig_3_14", tolerance="zero", fit=fit) if c.at["sigma_mm"] > 0]
 
 
-@relation("fig_3_14", "3.14.1", "without noise 95 % of points within planes are flat, radii over "
-          "1 km counting as flat",
+@relation("fig_3_14", "3.14.1", "without noise 95 % of the points within planes are flat, where radii "
+          "above 1 km count as flat",
           "for sigma = 0 the labels are consistent")
 def _(results):
     c = labels(results, 0, tolerance="rounding")
@@ -805,14 +805,14 @@ def _(results):
 
 @relation("fig_3_14", "3.14.2", "the same with thresholds of zero",
           "for sigma = 0 the labels are consistent",
-          "rounding gives curvatures of 1e-12 / m either sign where a plane is not along the axes; "
-          "the thesis does not tell its thresholds")
+          "rounding yields curvatures of 1e-12 / m of either sign where a plane is not along the axes; "
+          "the thesis does not state its thresholds")
 def _(results):
     c = labels(results, 0)
     return f"{c['flat']:.1f} %; entropy {c['entropy_bits']:.2f} bits", c["flat"] >= 95
 
 
-@relation("fig_3_14", "3.14.3", "with noise fewer than 30 % are flat, thresholds being zero",
+@relation("fig_3_14", "3.14.3", "with noise fewer than 30 % are flat, with thresholds of zero",
           "for sigma of 15 mm and more surfaces are no longer recognised as flat")
 def _(results):
     worst = max(max(c.seeds("flat")) for c in noisy_labels(results))
@@ -820,7 +820,7 @@ def _(results):
 
 
 @relation("fig_3_14", "3.14.4", "with noise at k = 50 the two saddles are the most frequent types, "
-          "as frequent as each other within 5 points",
+          "with shares within 5 percentage points",
           "the labels oscillate wildly between Saddle Ridge and Saddle Valley")
 def _(results):
     words, holds = [], True
@@ -837,7 +837,7 @@ def _(results):
 
 
 @relation("fig_3_14", "3.14.5", "k = 100 and 200 change the share of the most frequent type by less "
-          "than 10 points",
+          "than 10 percentage points",
           "could not be reduced by choosing larger neighborhoods",
           "larger neighborhoods turn some saddles into peaks and pits, none into a plane: the "
           "labels stay as useless as they were (3.14.3), but their shares do change")

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes the page of chapter 3 of what its programs measured, and of nothing else.
+"""Writes the page of chapter 3 from the measurements of its programs.
 
 Reads DIR/chapter3/*.json, and writes DIR/chapter3.json (the relations with their verdicts),
-DIR/chapter3.md and, where matplotlib is, DIR/chapter3_*.png. Of the same measurements the first two
-come out the same to the byte; --check writes nothing and tells whether they are.
+DIR/chapter3.md and, if matplotlib is installed, DIR/chapter3_*.png. The first two are functions of
+the measurements, to the byte; --check writes nothing and reports whether they are up to date.
 """
 
 import argparse
@@ -24,21 +24,21 @@ SECTIONS = [
      "Delaunay stars at four levels of noise (d)."),
     ("fig_3_6", "Fig. 3.6: little noise",
      "The same on a surrogate of the thesis's scan of two boxes and a bin, which is not public, and "
-     "on a real scan of a table by the same kind of scanner. What is true of that is a plane fitted "
-     "to all points of the floor, and another to those of the table top."),
+     "on a real scan of a table by the same kind of scanner. Its true normals are those of planes "
+     "fitted to all points of the floor and of the table top."),
     ("table_3_3", "Table 3.3: Delaunay stars",
      "Five methods on stars in the clouds of Fig. 3.6."),
     ("fig_3_9", "Fig. 3.9: plates, and Kalman filters",
-     "Plates of 30 x 30 cm before a SICK LMS-200 with 5 mm of noise, ten points or more each and "
-     "seen at less than 80 degrees: PlanePCA beside the Kalman filter of Alg. 3.2, and the filter "
-     "that this library has instead."),
+     "Plates of 30 x 30 cm in front of a SICK LMS-200 with 5 mm of noise, with ten points or more "
+     "and an angle of incidence below 80 degrees: PlanePCA, the Kalman filter of Alg. 3.2, and the "
+     "filter that this library has in its place."),
     ("fig_3_10", "Fig. 3.10: k, noise and density",
      "PlanePCA on nine scans of the kitchen at seven levels of noise with twelve k: 756 runs."),
     ("fig_3_11", "Fig. 3.11: anisotropic neighborhoods",
-     "Normals from neighbors of one scan line, estimated again from doubled k."),
+     "Normals from neighborhoods on one scan line, estimated again with doubled k."),
     ("fig_3_14", "Fig. 3.14: surface types",
-     "Types by the signs of curvatures, at points of the dense rotational kitchen all of whose "
-     "neighbors are of one plane."),
+     "Types by the signs of curvatures, at points of the dense rotational scan of the kitchen whose "
+     "neighbors all lie on one plane."),
 ]
 
 
@@ -57,7 +57,7 @@ CLOSE = 0.005  # of gamma
 
 def described(c):
     """**PlanePCA, k = 20**: gamma, median error, time."""
-    where = {"knn": f"k = {c.at.get('k')}", "sorted_knn": f"k = {c.at.get('k')} in angular order",
+    where = {"knn": f"k = {c.at.get('k')}", "angularly_sorted_knn": f"k = {c.at.get('k')} in angular order",
              "delaunay": "Delaunay stars"}[c.at["graph"]]
     return (f"**{TITLES[c.at['method']]}, {where}**: {c['gamma']:.4f}, {c['p50_deg']:.1f}\u00b0, "
             f"{c['us_with_search']:.1f} us")
@@ -88,7 +88,7 @@ def which_k(results):
                     for k in sorted({c.at["k"] for c in cells})}
             best = max(mean, key=mean.get)
             least = next(k for k in mean if mean[k] >= mean[best] - CLOSE)
-            entries.append(f"{best} ({mean[best]:.3f}); {least} will do")
+            entries.append(f"{best} ({mean[best]:.3f}); {least} suffices")
         rows.append((f"{sigma_mm} mm", *entries))
     return table(("noise", *(f"{d:,} points" for d in densities)), rows)
 
@@ -107,7 +107,7 @@ def numbers_of_methods(cells):
 
 
 def numbers(results, figure):
-    """What a figure's picture does not say, in a table."""
+    """The numbers of a figure that its picture does not show, in a table."""
     if figure == "fig_3_5":
         at = dict(sigma_mm=15, scale=1, graph="knn", k=30)
         return ["At k = 30:", "",
@@ -122,7 +122,7 @@ def numbers(results, figure):
                           ("The real table", dict(cloud="real"))):
             cells = [c for m in FIVE for c in results.all(figure, method=m, **at)]
             if not cells:
-                lines += [f"{title}: not measured, its scan is not at hand.", ""]
+                lines += [f"{title}: not measured, its scan is not available.", ""]
                 continue
             lines += [f"{title}, {cells[0]['points']:,.0f} points, {cells[0]['mean_degree']:.2f} "
                       f"neighbors each, {cells[0]['max_degree']:.0f} at most:", "",
@@ -147,7 +147,7 @@ def machine(results):
     lines = [f"{first['processor']}, {first['num_cpus']} cores at {first['mhz_per_cpu']} MHz; "
              f"{first['compiler']}, flags `{flags}`; measured on {first['date'][:10]}."]
     if any((c["compiler"], c["flags"]) != (first["compiler"], first["flags"]) for c in contexts):
-        lines.append("**The programs were not all compiled alike.**")
+        lines.append("**The programs were compiled with different flags.**")
     return lines
 
 
@@ -158,35 +158,34 @@ def page(results, verdicts):
     held = sum(v["holds"] is True for v in verdicts)
     failed = [v for v in verdicts if v["holds"] is False]
     lines = ["# Chapter 3, reproduced", "",
-             "<!-- Written by benchmarks/chapter3/report.py of chapter3/*.json: do not edit. -->", ""]
+             "<!-- Written by benchmarks/chapter3/report.py from chapter3/*.json: do not edit. -->", ""]
     if results.quick:
-        lines += ["**Measured in a hurry (`--quick`): fewer seeds, k and points. To try it out, not "
-                  "to be quoted.**", ""]
+        lines += ["**Measured with `--quick`: fewer seeds, k and points. A test of the programs, not a "
+                  "result.**", ""]
     lines += [
-        "What Klasing 2010 says of normals, measured again with this library. One command does it "
-        "all:", "", "    sh benchmarks/reproduce.sh chapter3", "",
-        "## Which estimator shall I take?", "",
+        "The results of Klasing 2010 on normals, reproduced with this library by one command:", "", "    sh benchmarks/reproduce.sh chapter3", "",
+        "## Choosing an estimator", "",
         "The rotational scan of the kitchen, 28,800 points, with the seven methods of the thesis "
-        "and three beyond it. Beside each: mean gamma (the cosine of the error), median error, time "
-        "per normal on one core with the search.", "",
+        "and three others. For each: mean gamma (the cosine of the error), median error, and time per "
+        "normal on one core, with the search.", "",
         *which_to_take(results),
         "![Quality over time for each level of noise](chapter3_decision.png)", "",
-        "Good normals of surfaces are one thing, of edges another: the mean counts both. The median "
-        "error says what is to be had away from edges.", "",
-        "How many neighbors for PlanePCA, mean over horizontal, vertical and rotational scans: the "
-        f"best k (its gamma), and the least k that comes within {CLOSE} of it:", "",
+        "The mean includes points near edges, where errors are larger. The median error is that of "
+        "points away from edges.", "",
+        "Numbers of neighbors for PlanePCA, mean over horizontal, vertical and rotational scans: the "
+        f"best k (its gamma), and the smallest k within {CLOSE} of it:", "",
         *which_k(results),
         "## How it was measured", "", *machine(results), "",
         "Quality is the mean over "
         f"{max(len(c.seeds('gamma')) for c in results.all('fig_3_5'))} seeds of the noise, and a "
-        "claim about quality holds only if it does for every one of them. Times are processor "
-        "time of one thread, of the first seed: the median of all passes over the cloud, with the "
-        "quartiles as spread, after a first pass that warms up. No time is a criterion by itself; "
-        "where a claim is about times, their order is. Angles are percentiles of the error. The "
-        "search is that of the whole graph, once for all methods. What each program counted is in "
+        "claim about quality holds only if it does for each of them. Times are processor time of one "
+        "thread, for the first seed: the median of all passes over the cloud, with the quartiles as "
+        "spread, after a warm-up. Claims about times are tested by the order of the methods, not by "
+        "absolute times. Angles are percentiles of the error. The search is that of the whole graph, "
+        "once for all methods. The results of each program are in "
         "[chapter3/](chapter3/), the relations in [chapter3.json](chapter3.json).", "",
         f"## {held} of {held + len(failed)} relations hold", ""]
-    lines += ["These do not, for the reasons given at their figures:", ""] if failed else []
+    lines += ["These do not; the reasons are given with the figures:", ""] if failed else []
     lines += [f"- {v['id']}: {v['claim']}" for v in failed] + [""] * bool(failed)
     for figure, title, about in SECTIONS:
         lines += [f"## {title}", "", f"{about} `{figure} --benchmark_out={figure}.json`", ""]
@@ -212,7 +211,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("folder", metavar="DIR", type=pathlib.Path)
     parser.add_argument("--check", action="store_true",
-                        help="write nothing; fail if the page is not what would be written")
+                        help="write nothing; fail if the page is not up to date")
     options = parser.parse_args()
     try:
         results = Results(options.folder / "chapter3")
@@ -225,7 +224,7 @@ def main():
         stale = [name for name, text in texts.items()
                  if (options.folder / name).read_text(encoding="utf-8") != text]
         for name in stale:
-            print(f"{options.folder / name} is not what the measurements say; run report.py")
+            print(f"{options.folder / name} is not up to date; run report.py")
         return 1 if stale else 0
 
     for name, text in texts.items():

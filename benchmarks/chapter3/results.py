@@ -24,7 +24,7 @@ TITLES = {
     "quad_trans_svd rank 6": "QuadTransSVD, rank 6",
     "literal_plane_ekf": "EKF of Alg. 3.2", "plane_ekf": "EKF on the sphere",
     "plane_pca with covariance": "PlanePCA with covariance",
-    "knn": "nearest neighbors", "sorted_knn": "nearest neighbors in angular order",
+    "knn": "nearest neighbors", "angularly_sorted_knn": "nearest neighbors in angular order",
     "delaunay": "Delaunay stars",
 }
 

@@ -7,11 +7,14 @@
 
 #include "rooms.hpp"
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 /// Near enough for r = 1 cm: the points are to be less than that apart on every surface.
-gnomon::scene boxes_and_bins() {
+sim::scene boxes_and_bins() {
     using namespace gnomon;
+    using namespace gnomon::simulation;
     scene world;
     world.sensor = at(0.0, 0.0, 1.0) * pitch(degrees(45));
     world.add_object("floor", plane_patch{6.0, 6.0});
@@ -23,34 +26,34 @@ gnomon::scene boxes_and_bins() {
     return world;
 }
 
-gnomon::true_scan scanned(std::uint64_t seed, const gnomon::scene& world) {
-    const gnomon::horizontal turn{
+sim::true_scan scanned(std::uint64_t seed, const sim::scene& world) {
+    const sim::horizontal turn{
         .mount = world.sensor, .duration = 1.34, .sweep = gnomon::degrees(90)};
-    gnomon::scanner finder = gnomon::scanners::sick_lms_400();
+    sim::scanner finder = sim::scanners::sick_lms_400();
     finder.resolution = gnomon::degrees(0.125);
     finder.frequency = 200.0;
-    return gnomon::simulate(world, turn, finder, {.sigma = 0.002, .clutter = 0.01, .seed = seed},
-                            gnomon::threads{});
+    return sim::simulate(world, turn, finder, {.sigma = 0.002, .clutter = 0.01, .seed = seed},
+                         gnomon::threads{});
 }
 
 json measure(const effort& much) {
-    const gnomon::scene world = boxes_and_bins();
+    const sim::scene world = boxes_and_bins();
     json rows = json::array();
     for (unsigned seed = 1; seed <= much.seeds(); ++seed) {
-        const gnomon::true_scan truth = scanned(seed, world);
+        const sim::true_scan truth = scanned(seed, world);
         const gnomon::scan& scan = truth.scan;
         const auto floor = gnomon::find_floor(scan, gnomon::guess_floor(scan).value()).value();
-        const auto kept = gnomon::between_bands(scan, floor, std::nullopt);
+        const auto kept = gnomon::crop_height(scan, floor, std::nullopt);
         const gnomon::subset_view rest(scan, kept);
         gnomon::segments groups;
         std::vector<double> seconds;
         for (int pass = 0; pass < much.passes(); ++pass) {
             const auto start = std::chrono::steady_clock::now();
-            groups = gnomon::segment_points(scan);  // all, as the thesis times it
+            groups = gnomon::euclidean_clusters(scan);  // all, as the thesis times it
             seconds.push_back(
                 std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
         }
-        groups = gnomon::segment_points(rest);
+        groups = gnomon::euclidean_clusters(rest);
 
         // What each group is, and where the outliers went.
         std::map<std::int32_t, std::size_t> groups_of_object;
@@ -63,7 +66,7 @@ json measure(const effort& much) {
             pure += 100 * most->second >= 98 * groups[g].size() ? 1 : 0;
         }
         for (std::size_t i = 0; i < kept.size(); ++i) {
-            if (truth.objects[kept[i]] != gnomon::nothing) continue;
+            if (truth.objects[kept[i]] != sim::nothing) continue;
             ++outliers;
             outliers_left += groups.labels()[i] != gnomon::unlabeled ? 1 : 0;
         }

@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: BSL-1.0
-// Fig. 4.10: the segments of the rotational scan of the living room; and two surfaces from
-// scans with less noise and with smaller steps, to see what keeps them from being one.
+// Fig. 4.10: the segments of the rotational scan of the living room; and two surfaces in scans with
+// less noise and with smaller angular steps, which shows why they are oversegmented.
 #include "rooms.hpp"
+
+namespace sim = gnomon::simulation;
 
 namespace {
 
 /// A surface, as a scanner of `factor` times the beams and scan lines sees it.
 json row_of(const dataset& room, const char* surface, double sigma, unsigned factor) {
-    const gnomon::scanner finder{.resolution = gnomon::degrees(0.25 / factor),
-                                 .frequency = 40.0 * factor};
-    const gnomon::true_scan truth =
-        gnomon::simulate(room.world, gnomon::rotational{.mount = room.world.sensor}, finder,
-                         {.sigma = sigma}, gnomon::threads{});
+    const sim::scanner finder{.resolution = gnomon::degrees(0.25 / factor),
+                              .frequency = 40.0 * factor};
+    const sim::true_scan truth =
+        sim::simulate(room.world, sim::rotational{.mount = room.world.sensor}, finder,
+                      {.sigma = sigma}, gnomon::threads{});
     const recovery r = recovery_of(truth, perceive(truth), room.world.find_surface(surface));
     return {{"surface", surface},
             {"noise [mm]", rounded(1e3 * sigma, 0)},
             {"points", r.points},
-            {"fragments", r.fragments},
+            {"initial segments", r.initial_segments},
             {"IoU", rounded(r.iou, 3)}};
 }
 
 json measure(const effort& much) {
     const dataset room = dataset_of("Living Room R");
-    const gnomon::true_scan truth = room.scan(1);
+    const sim::true_scan truth = room.scan(1);
     draw(truth, perceive(truth), much.out / "fig_4_10.png");
     json limits = json::array();
     for (const char* surface : {"sideboard/body/-x", "vase/body/mantle"})
@@ -36,7 +38,7 @@ json measure(const effort& much) {
                          "platform/body/+z", "sideboard/body/-x", "small table/top/+z",
                          "armchair 1/arm right/-y", "armchair 2/arm left/+y", "vase/body/mantle"},
                         much)},
-        {"what noise and density make of two of them", limits}};
+        {"two of them by noise and density", limits}};
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ int main(int argc, char** argv) {
         std::vector<dataset> scans;
         for (const char trajectory : {'H', 'V', 'R'}) {
             scans.push_back(dataset_of(std::string("Two Chairs ") + trajectory));
-            const gnomon::true_scan truth = scans.back().scan(1);
+            const gnomon::simulation::true_scan truth = scans.back().scan(1);
             draw(truth, perceive(truth),
                  much.out / (std::string("fig_4_12_") + trajectory + ".png"));
         }

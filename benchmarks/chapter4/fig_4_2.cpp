@@ -9,6 +9,8 @@
 
 #include "rooms.hpp"
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 /// Agreement of two partitions beyond chance, 1 if they are the same (Hubert and Arabie 1985).
@@ -30,11 +32,11 @@ double adjusted_rand_index(const std::vector<std::int32_t>& a, const std::vector
     return (pairs(both) - expected) / (0.5 * (pairs(in_a) + pairs(in_b)) - expected);
 }
 
-/// How well segmentations of scans tell their surfaces: of the points that they have in segments.
+/// Agreement of segmentations of scans with the true surfaces, over the labeled points.
 struct agreement {
     std::vector<double> segments, percent, index;
 
-    void add(const gnomon::true_scan& truth, const gnomon::segments& parts) {
+    void add(const sim::true_scan& truth, const gnomon::segments& parts) {
         std::vector<std::int32_t> found, wanted;
         for (std::size_t i = 0; i < truth.scan.size(); ++i) {
             if (parts.labels()[i] == gnomon::unlabeled) continue;
@@ -58,15 +60,15 @@ struct agreement {
 };
 
 json boxes(const effort& much) {
-    const gnomon::scene world = gnomon::scenes::boxes_and_bin();
-    const gnomon::horizontal sweep{
+    const sim::scene world = sim::scenes::boxes_and_bin();
+    const sim::horizontal sweep{
         .mount = world.sensor, .duration = 0.455, .sweep = gnomon::degrees(70)};
     json rows = json::array();
     const auto enter = [&](const char* name, const auto& neighborhood) {
         agreement joint, thresholds;
         for (unsigned seed = 1; seed <= much.seeds(); ++seed) {
-            const gnomon::true_scan truth = gnomon::simulate(
-                world, sweep, gnomon::scanners::sick_lms_400(), {.sigma = 0.001, .seed = seed});
+            const sim::true_scan truth = sim::simulate(world, sweep, sim::scanners::sick_lms_400(),
+                                                       {.sigma = 0.001, .seed = seed});
             auto surface = gnomon::estimate_normals(truth.scan, neighborhood, gnomon::plane_pca{});
             gnomon::orient_normals(truth.scan, surface);
             const gnomon::segments parts = gnomon::segment_oriented_points(

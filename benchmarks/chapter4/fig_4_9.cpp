@@ -14,7 +14,7 @@ json seats_of_many(const dataset& kitchen, const effort& much) {
     const unsigned seeds = much.quick ? 1 : 20;
     std::array<std::vector<double>, seats.size()> iou;
     for (unsigned seed = 1; seed <= seeds; ++seed) {
-        const gnomon::true_scan truth = kitchen.scan(seed);
+        const gnomon::simulation::true_scan truth = kitchen.scan(seed);
         const perceived seen = perceive(truth);
         for (std::size_t s = 0; s < seats.size(); ++s)
             iou[s].push_back(recovery_of(truth, seen, kitchen.world.find_surface(seats[s])).iou);
@@ -32,7 +32,7 @@ json seats_of_many(const dataset& kitchen, const effort& much) {
 
 json measure(const effort& much) {
     const dataset kitchen = dataset_of("Kitchen R");
-    const gnomon::true_scan truth = kitchen.scan(1);
+    const gnomon::simulation::true_scan truth = kitchen.scan(1);
     draw(truth, perceive(truth), much.out / "fig_4_9.png");
     return {{"surfaces", recovery_table({kitchen},
                                         {"room/wall +x/plane", "room/wall -y/plane",

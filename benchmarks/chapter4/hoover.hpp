@@ -6,7 +6,7 @@
 /// region at all; for a tolerance T, the part of a region that must overlap.
 ///
 /// Points of no true region (background) belong to segments like others, so that running into the
-/// background spoils a segment; but segments that lie mostly there are not judged.
+/// background spoils a segment; but segments that lie mostly there are not counted.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +18,8 @@
 
 namespace hoover {
 
-/// How many of what. `correct + over + under + missed` may fall short of `regions`, as an
-/// instance of `under` stands for several regions; and likewise of `segments`.
+/// Numbers of regions and segments by class. `correct + over + under + missed` may fall short of
+/// `regions`, as an instance of `under` stands for several regions; and likewise of `segments`.
 struct counts {
     std::size_t regions = 0;   ///< true ones
     std::size_t segments = 0;  ///< that are judged

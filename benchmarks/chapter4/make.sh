@@ -19,7 +19,7 @@ python=$(python_with json)
 mkdir -p "$out/chapter4"
 out=$(cd "$out" && pwd)
 for program in $("$python" "$here/page.py" --programs); do
-    [ -x "$programs/$program" ] || continue  # where it needs what is not installed
+    [ -x "$programs/$program" ] || continue  # a dependency is not installed
     echo "$program ..."
     "$programs/$program" "$@" --out "$out/chapter4"
 done

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Alg. 4.3 in random furnished rooms: how many of the surfaces that something before them has torn
-// apart are mended, and what else is merged, by policy and by the way the sensor moves. To the
-// letter the algorithm looks at one image with an upright pole, as the thesis does; of a sensor
-// that moves, at one for each view point.
+// Alg. 4.3 in random furnished rooms: precision and recall of merging segments of surfaces that an
+// occluder interrupts, by policy and by trajectory. The literal algorithm uses one range image with
+// an upright pole, as in the thesis; for a moving sensor, one for each view point.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -12,42 +11,45 @@
 #include <string>
 #include <vector>
 
-#include "fragments.hpp"
+#include "initial_segments.hpp"
 #include "record.hpp"
 #include "rooms.hpp"
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-constexpr std::array policies{"none", "conservative", "liberal", "conservative, to the letter",
-                              "liberal, to the letter"};
+constexpr std::array policies{"none", "conservative", "liberal", "conservative, literal",
+                              "liberal, literal"};
 constexpr std::array trajectories{"horizontal", "vertical", "rotational", "moving"};
 
-/// @param trajectory  moving is horizontal on an arm of 15 cm that turns, so that each scan line
-///                    has a view point of its own
-gnomon::true_scan scan_of(const gnomon::scene& world, const gnomon::bvh_caster& caster,
-                          const std::string& trajectory, std::uint64_t seed) {
-    const gnomon::pose mount = world.sensor;
+/// @param trajectory  "moving" is horizontal, on a rotating arm of 15 cm, so that each scan line
+/// has
+///                    a view point of its own
+sim::true_scan scan_of(const sim::scene& world, const sim::bvh_caster& caster,
+                       const std::string& trajectory, std::uint64_t seed) {
+    const sim::pose mount = world.sensor;
     const auto along = [&](const auto& way) {
-        return gnomon::simulate(world, caster, way, {}, {.sigma = 0.015, .seed = seed});
+        return sim::simulate(world, caster, way, {}, {.sigma = 0.015, .seed = seed});
     };
-    if (trajectory == "horizontal") return along(gnomon::horizontal{.mount = mount});
-    if (trajectory == "vertical") return along(gnomon::vertical{.mount = mount});
-    if (trajectory == "rotational") return along(gnomon::rotational{.mount = mount});
-    return along(gnomon::along(4.0, [&](double seconds) {
-        return mount * gnomon::yaw(gnomon::degrees(180.0 * (seconds / 4.0 - 0.5))) *
-               gnomon::at(0.15, 0.0, 0.0) * gnomon::roll(gnomon::degrees(90));
+    if (trajectory == "horizontal") return along(sim::horizontal{.mount = mount});
+    if (trajectory == "vertical") return along(sim::vertical{.mount = mount});
+    if (trajectory == "rotational") return along(sim::rotational{.mount = mount});
+    return along(sim::along(4.0, [&](double seconds) {
+        return mount * sim::yaw(gnomon::degrees(180.0 * (seconds / 4.0 - 0.5))) *
+               sim::at(0.15, 0.0, 0.0) * sim::roll(gnomon::degrees(90));
     }));
 }
 
-/// How a policy does.
+/// The tallies of a policy.
 struct policy_tally : merge_tallies {
-    merge_tally of_planes;  ///< each pair as one, where a true plane is one surface
+    merge_tally of_planes;  ///< each pair counts as one; coplanar faces are one surface
 };
 
-/// How all policies do in one scan, or in many.
+/// The results of all policies in one scan, or in many.
 struct outcome {
     std::array<policy_tally, policies.size()> tallies{};
-    std::size_t fragments = 0, mixed = 0;
+    std::size_t initial = 0, mixed = 0;  ///< initial segments; those on several surfaces
 
     outcome& operator+=(const outcome& o) {
         for (std::size_t p = 0; p < policies.size(); ++p) {
@@ -55,47 +57,47 @@ struct outcome {
             tallies[p].by_points.add(o.tallies[p].by_points, 1.0);
             tallies[p].of_planes.add(o.tallies[p].of_planes, 1.0);
         }
-        fragments += o.fragments;
+        initial += o.initial;
         mixed += o.mixed;
         return *this;
     }
 };
 
 outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uint64_t seed) {
-    const gnomon::scene world = gnomon::scenes::furnished_room(
+    const sim::scene world = sim::scenes::furnished_room(
         {.pieces = static_cast<int>(4 + 2 * (number % 5)), .seed = number});
-    const gnomon::bvh_caster caster(world);
-    const gnomon::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
-    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::unmerged> chain{
+    const sim::bvh_caster caster(world);
+    const sim::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::no_merging> chain{
         .leave_out = gnomon::floor_and_ceiling{},
-        .strays = std::nullopt,
-        .releasing = std::nullopt,
-        .round = std::nullopt};
+        .assignment = std::nullopt,
+        .splitting = std::nullopt,
+        .revolution = std::nullopt};
     const auto seen = chain(truth.scan);
-    const gnomon::segments& parts = seen.fragments;
-    const fragments known(caster, truth, parts);
-    const fragments known_planes(caster, truth, parts, unit::plane);
+    const gnomon::segments& parts = seen.initial_segments;
+    const initial_segments known(caster, truth, parts);
+    const initial_segments known_planes(caster, truth, parts, unit::plane);
 
     outcome result;
-    result.fragments = parts.size();
+    result.initial = parts.size();
     for (std::size_t s = 0; s < parts.size(); ++s)
-        result.mixed += known.surface(s) == gnomon::nothing ? 1 : 0;
-    const gnomon::lines_of_sight sights(truth.scan);
-    const gnomon::lines_of_sight upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
+        result.mixed += known.surface(s) == sim::nothing ? 1 : 0;
+    const gnomon::visibility visible(truth.scan);
+    const gnomon::visibility upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
     const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
         result.tallies[policy] = {known.tally(merged), known_planes.tally(merged).pairs};
     };
-    const auto mend = [&](const auto& policy) {
-        return gnomon::merge_occluded(truth.scan, seen.surface, parts, sights, policy).segments;
+    const auto merge = [&](const auto& policy) {
+        return gnomon::merge_occluded(truth.scan, seen.surface, parts, visible, policy).segments;
     };
-    const auto mend_literally = [&](const auto& policy) {
+    const auto merge_literally = [&](const auto& policy) {
         return gnomon::merge_occluded_literally(truth.scan, parts, upright, policy);
     };
     tally(0, parts);
-    tally(1, mend(gnomon::conservative{}));
-    tally(2, mend(gnomon::liberal{}));
-    tally(3, mend_literally(gnomon::conservative{}));
-    tally(4, mend_literally(gnomon::liberal{}));
+    tally(1, merge(gnomon::conservative{}));
+    tally(2, merge(gnomon::liberal{}));
+    tally(3, merge_literally(gnomon::conservative{}));
+    tally(4, merge_literally(gnomon::liberal{}));
     return result;
 }
 
@@ -153,23 +155,23 @@ json measure(const effort& much) {
             errors.push_back(
                 {{"trajectory", trajectory},
                  {"policy", policies[p]},
-                 {"pairs torn apart", count(pairs, &merge_tally::wanted)},
-                 {"mended", count(pairs, &merge_tally::right)},
+                 {"pairs interrupted", count(pairs, &merge_tally::wanted)},
+                 {"merged correctly", count(pairs, &merge_tally::right)},
                  {"wrongly merged", count(pairs, &merge_tally::wrong)},
                  {"of two objects in one plane", count(pairs, &merge_tally::coplanar)},
                  {"of planes less than 15 mm apart", count(pairs, &merge_tally::in_noise)},
-                 {"of planes: torn apart", count(planes, &merge_tally::wanted)},
-                 {"of planes: mended", count(planes, &merge_tally::right)},
+                 {"of planes: interrupted", count(planes, &merge_tally::wanted)},
+                 {"of planes: merged correctly", count(planes, &merge_tally::right)},
                  {"of planes: wrongly merged", count(planes, &merge_tally::wrong)}});
         }
         scans.push_back(
             {{"trajectory", trajectory},
              {"scans", rooms * seeds.size()},
-             {"fragments of a scan",
-              rounded(mean([](const outcome& o) { return o.fragments; }) / double(rooms), 1)},
-             {"of them of no one surface [%]",
+             {"initial segments of a scan",
+              rounded(mean([](const outcome& o) { return o.initial; }) / double(rooms), 1)},
+             {"of them on several surfaces [%]",
               rounded(100.0 * mean([](const outcome& o) { return o.mixed; }) /
-                          mean([](const outcome& o) { return o.fragments; }),
+                          mean([](const outcome& o) { return o.initial; }),
                       1)}});
     }
     return {{"precision and recall", scores}, {"pairs, per seed", errors}, {"scans", scans}};

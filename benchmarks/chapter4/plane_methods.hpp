@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What plane_segmentation compares: methods, each with its defaults and the settings of a small
-/// grid. Lengths in the grids are multiples of the noise and of the spacing that the cloud tells
-/// itself, the same for all methods.
+/// The methods that plane_segmentation compares, each with its defaults and the settings of a small
+/// grid. Lengths in the grids are multiples of the noise and of the spacing that are estimated from
+/// the cloud, the same for all methods.
 #pragma once
 
 #include <array>
@@ -38,7 +38,7 @@ struct method {
     std::vector<setting> settings;
 };
 
-// What the grids are made of, the same for all methods that know of such a thing.
+// The values of the grids, the same for all methods that have such a parameter.
 
 /// Neighbors, for normals and to grow to.
 inline constexpr std::array<std::size_t, 3> ks{12, 30, 60};
@@ -60,8 +60,8 @@ inline constexpr std::array<std::size_t, 2> least_points{30, 100};
     return result;
 }
 
-/// "name=value" with as few digits as may be.
-[[nodiscard]] inline std::string said(const std::string& name, auto value) {
+/// "name=value" without trailing zeros.
+[[nodiscard]] inline std::string assigned(const std::string& name, auto value) {
     std::string digits = std::to_string(static_cast<double>(value));
     digits.erase(digits.find_last_not_of('0') + 1);
     if (digits.back() == '.') digits.pop_back();

@@ -67,8 +67,8 @@ method region_growing() {
             for (const double distance : deviations_of_noise) {
                 for (const std::size_t least : least_points) {
                     growing.settings.push_back(
-                        {said("k", k) + " " + said("angle", angle) + " " +
-                             said("distance/noise", distance) + " " + said("min", least),
+                        {assigned("k", k) + " " + assigned("angle", angle) + " " +
+                             assigned("distance/noise", distance) + " " + assigned("min", least),
                          [=](const cloud& scene) {
                              auto points = with_normals(scene, static_cast<unsigned>(k));
                              plane_region region(points, distance * scene.noise, angle, least);
@@ -113,9 +113,9 @@ method efficient_ransac() {
                 for (const double gap : {4.0, 8.0}) {
                     for (const std::size_t least : least_points) {
                         search.settings.push_back(
-                            {said("k", k) + " " + said("cosine", cosine) + " " +
-                                 said("distance/noise", distance) + " " + said("gap/spacing", gap) +
-                                 " " + said("min", least),
+                            {assigned("k", k) + " " + assigned("cosine", cosine) + " " +
+                                 assigned("distance/noise", distance) + " " +
+                                 assigned("gap/spacing", gap) + " " + assigned("min", least),
                              [=](const cloud& scene) {
                                  ransac::Parameters p;
                                  p.min_points = least;

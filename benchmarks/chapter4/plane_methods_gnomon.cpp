@@ -21,7 +21,7 @@ using gnomon::threads;
 
 constexpr std::size_t few = 12;  // neighbors to grow to, as in CGAL
 
-labels flat(const cloud& scene, std::size_t k, gnomon::plane_segmentation options) {
+labels flat(const cloud& scene, std::size_t k, gnomon::segment_planes_options options) {
     const auto graph = knn{k}(scene.points, threads{});
     const auto surface =
         gnomon::estimate_normals(scene.points, graph, gnomon::plane_pca{}, threads{});
@@ -30,7 +30,8 @@ labels flat(const cloud& scene, std::size_t k, gnomon::plane_segmentation option
         .segments.labels();
 }
 
-labels smooth(const cloud& scene, const knn& policy, const gnomon::surface_segmentation& options) {
+labels smooth(const cloud& scene, const knn& policy,
+              const gnomon::segment_surfaces_options& options) {
     const auto surface =
         gnomon::estimate_normals(scene.points, policy, gnomon::plane_pca{}, threads{});
     const auto found = gnomon::segment_surfaces(scene.points, surface, options, threads{});
@@ -48,9 +49,9 @@ std::vector<method> gnomon_methods() {
         for (const double angle : {25.0, 45.0}) {
             for (const double deviations : deviations_of_noise) {
                 for (const std::size_t least : least_points) {
-                    planes.settings.push_back({said("k", k) + " " + said("angle", angle) + " " +
-                                                   said("distance/noise", deviations) + " " +
-                                                   said("min", least),
+                    planes.settings.push_back({assigned("k", k) + " " + assigned("angle", angle) +
+                                                   " " + assigned("distance/noise", deviations) +
+                                                   " " + assigned("min", least),
                                                [=](const cloud& scene) {
                                                    return flat(scene, k,
                                                                {.max_deviations = deviations,
@@ -68,7 +69,8 @@ std::vector<method> gnomon_methods() {
         for (const double angle : smooth_angles) {
             for (const std::size_t least : least_points) {
                 surfaces.settings.push_back(
-                    {said("k", k) + " " + said("angle", angle) + " " + said("min", least),
+                    {assigned("k", k) + " " + assigned("angle", angle) + " " +
+                         assigned("min", least),
                      [=](const cloud& scene) {
                          return smooth(scene, {.k = k},
                                        {.max_angle = degrees(angle), .min_points = least});

@@ -59,8 +59,8 @@ std::vector<method> pcl_methods() {
             for (const double curvature : {0.05, 1.0}) {
                 for (const std::size_t least : least_points) {
                     growing.settings.push_back(
-                        {said("k", k) + " " + said("angle", angle) + " " +
-                             said("curvature", curvature) + " " + said("min", least),
+                        {assigned("k", k) + " " + assigned("angle", angle) + " " +
+                             assigned("curvature", curvature) + " " + assigned("min", least),
                          [=](const cloud& scene) {
                              return grown(scene, static_cast<int>(k), [&](auto& g) {
                                  g.setNumberOfNeighbours(static_cast<unsigned>(k));

@@ -15,7 +15,8 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/io/read.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/noise_level.hpp>
 #include <gnomon/simulation.hpp>
 
@@ -23,11 +24,12 @@ namespace planes {
 
 /// The median distance from a point to its nearest neighbor [m].
 inline double spacing_of(const std::vector<Eigen::Vector3d>& points) {
-    const gnomon::kd_tree tree(points);
+    const gnomon::spatial_index index(points);
     std::vector<double> distances;
     std::vector<gnomon::neighbor> found;
     for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 5000) {
-        tree.nearest(points[i], 1, i, found);
+        if (!index.is_finite(i)) continue;
+        gnomon::knn{.k = 1}.find(index, i, found);
         if (!found.empty()) distances.push_back(std::sqrt(found[0].squared_distance));
     }
     return distances.empty() ? 0.0 : gnomon::detail::quantile(distances, 0.5);
@@ -60,17 +62,18 @@ inline cloud read_labelled(const std::string& name, const std::string& path,
 }
 
 /// Turned at random about all axes.
-inline gnomon::pose turned(gnomon::random_stream& random) {
+inline gnomon::simulation::pose turned(gnomon::random_stream& random) {
     using gnomon::degrees;
-    return gnomon::yaw(degrees(random.uniform(-180, 180))) *
-           gnomon::pitch(degrees(random.uniform(-90, 90))) *
-           gnomon::roll(degrees(random.uniform(-180, 180)));
+    return gnomon::simulation::yaw(degrees(random.uniform(-180, 180))) *
+           gnomon::simulation::pitch(degrees(random.uniform(-90, 90))) *
+           gnomon::simulation::roll(degrees(random.uniform(-180, 180)));
 }
 
 /// Blocks at random attitudes in front of walls, scanned once: an image of `size` x `size` beams
 /// within 40 x 40 degrees, with noise in range.
 inline cloud blocks(std::uint64_t seed, int size, double sigma) {
     using namespace gnomon;
+    using namespace gnomon::simulation;
     random_stream random(seed);
     scene world;
     world.add_object("floor", plane_patch{12.0, 12.0}, at(0, 0, -1.2));
@@ -88,8 +91,8 @@ inline cloud blocks(std::uint64_t seed, int size, double sigma) {
     const auto scan = simulate(world, vertical{.duration = 1.0, .sweep = degrees(40)}, finder,
                                {.sigma = sigma, .seed = seed}, threads{});
     return cloud_of("blocks " + std::to_string(size) + "x" + std::to_string(size) + " " +
-                        said("sigma_mm", 1e3 * sigma) + " " +
-                        said("seed", static_cast<double>(seed)),
+                        assigned("sigma_mm", 1e3 * sigma) + " " +
+                        assigned("seed", static_cast<double>(seed)),
                     scan.scan.points, scan.surfaces, 0.0);
 }
 
@@ -97,6 +100,7 @@ inline cloud blocks(std::uint64_t seed, int size, double sigma) {
 /// floor, ceiling and walls.
 inline cloud furniture(std::uint64_t seed, double sigma) {
     using namespace gnomon;
+    using namespace gnomon::simulation;
     const scene world = scenes::furnished_room({.pieces = 8, .seed = seed});
     std::vector<Eigen::Vector3d> points;
     std::vector<std::int32_t> part;
@@ -117,8 +121,8 @@ inline cloud furniture(std::uint64_t seed, double sigma) {
             part.push_back(is_room ? -1 : p);
         }
     }
-    return cloud_of("furniture " + said("sigma_mm", 1e3 * sigma) + " " +
-                        said("seed", static_cast<double>(seed)),
+    return cloud_of("furniture " + assigned("sigma_mm", 1e3 * sigma) + " " +
+                        assigned("seed", static_cast<double>(seed)),
                     points, part, 0.0);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
-// How well planes and smooth parts are found: our segmentations beside those of PCL and CGAL, on
-// scans with labels by others and on simulated ones, by Hoover's measures (hoover.hpp). Every
-// method runs with its defaults and with all settings of a small grid, made of the same numbers for
-// all (plane_methods.hpp); of the grid, the setting with the most correct regions is told.
+// Segmentation into planes and smooth parts: gnomon, PCL and CGAL on public labeled scans and on
+// simulated ones, by Hoover's measures (hoover.hpp). Every method runs with its defaults and with
+// all settings of a small grid of values that is the same for all (plane_methods.hpp); of the grid,
+// the setting with the most correct regions is reported.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -30,7 +30,7 @@ using planes::cloud;
 constexpr std::array<double, 6> tolerances{0.51, 0.6, 0.7, 0.8, 0.9, 0.95};
 constexpr std::size_t eighty = 3;
 
-/// What a setting of a method made of a cloud.
+/// The score of a setting of a method on a cloud.
 struct score {
     std::string setting;
     std::array<hoover::counts, tolerances.size()> at;
@@ -44,13 +44,13 @@ score score_of(const cloud& scene, const planes::setting& how) {
     return s;
 }
 
-/// More correct regions, or as many and fewer segments besides.
+/// Whether a has more correct regions, or as many and a better F.
 bool is_better(const score& a, const score& b) {
     const auto &x = a.at[eighty], &y = b.at[eighty];
     return x.correct != y.correct ? x.correct > y.correct : x.f() > y.f();
 }
 
-/// What has to be known of all runs.
+/// The tables of all runs.
 struct report {
     json counts = json::array(), by_tolerance = json::array(), scans = json::array();
 
@@ -121,7 +121,7 @@ std::vector<source> all_scans(bool quick) {
     return scans;
 }
 
-/// Hoover's counts of segmentations that can be judged by hand.
+/// Hoover's counts of segmentations that are small enough to count by hand.
 bool hoover_is_right() {
     bool right = true;
     const auto expect = [&right](const char* what, const hoover::counts& is,
@@ -188,8 +188,8 @@ json measure(const effort& much, const std::vector<source>& own) {
 
 }  // namespace
 
-// Instead of the scans known, labelled ones of others: --scan FILE FIELD FIRST_LABEL, as often as
-// need be; points of smaller labels are background.
+// With --scan FILE FIELD FIRST_LABEL, once or more, these labeled scans replace the default ones;
+// points with smaller labels are background.
 int main(int argc, char** argv) {
     std::vector<source> own;
     std::vector<char*> words;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a program of this chapter leaves behind: DIR/NAME.json, and pictures DIR/NAME*.png. The
-/// page shows the tables of any program in its list, so that a figure needs no code in the page:
+/// The output of a program of this chapter: DIR/NAME.json, and pictures DIR/NAME*.png. The page
+/// shows the tables of all programs in its list, so that a figure needs no code in the page:
 ///
 ///     {"context": {"quick": false, "processor": "...", "compiler": "...", "flags": "..."},
 ///      "tables": {"what these rows are": [{"column": value, ...}, ...]}}
@@ -22,7 +22,7 @@
 
 using json = nlohmann::ordered_json;
 
-/// How much is measured, and where it goes.
+/// The extent of the measurement, and the folder for its results.
 struct effort {
     bool quick = false;
     std::filesystem::path out;
@@ -31,7 +31,7 @@ struct effort {
     [[nodiscard]] int passes() const { return quick ? 1 : 7; }
 };
 
-/// What must be known of the machine to read times.
+/// The machine and the compiler, for the interpretation of times.
 inline json context_of(const effort& much) {
     std::string processor = "unknown";
     std::ifstream info("/proc/cpuinfo");
@@ -54,15 +54,15 @@ inline double median_of(std::vector<double> values) {
     return *middle;
 }
 
-/// Rounded to so many digits after the point, as nobody reads more.
+/// Rounded to `digits` digits after the point.
 inline double rounded(double value, int digits) {
     char text[64];
     std::snprintf(text, sizeof text, "%.*f", digits, value);
     return std::stod(text);
 }
 
-/// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables. What else
-/// the program takes is told in `more`.
+/// A main program: NAME [--quick] --out DIR, where measure(effort) returns the tables. `more`
+/// lists further options of the program.
 int run_program(int argc, char** argv, auto&& measure, const char* more = "") {
     effort much;
     bool understood = true;

@@ -9,40 +9,40 @@
 
 #include "picture/of_perception.hpp"
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 constexpr double forearm = 0.25;  // from the elbow to the sensor [m]
 
-gnomon::true_scan simulated(const dataset& d, const auto& trajectory, std::uint64_t seed) {
-    return gnomon::simulate(d.world, trajectory, gnomon::scanner{}, {.sigma = 0.015, .seed = seed},
-                            gnomon::threads{});
+sim::true_scan simulated(const dataset& d, const auto& trajectory, std::uint64_t seed) {
+    return sim::simulate(d.world, trajectory, sim::scanner{}, {.sigma = 0.015, .seed = seed},
+                         gnomon::threads{});
 }
 
 }  // namespace
 
-gnomon::true_scan dataset::scan(std::uint64_t seed) const {
+sim::true_scan dataset::scan(std::uint64_t seed) const {
     if (trajectory == 'V')
-        return simulated(*this, gnomon::vertical{.mount = world.sensor, .duration = seconds()},
-                         seed);
+        return simulated(*this, sim::vertical{.mount = world.sensor, .duration = seconds()}, seed);
     if (trajectory == 'R')
-        return simulated(*this, gnomon::rotational{.mount = world.sensor, .duration = seconds()},
+        return simulated(*this, sim::rotational{.mount = world.sensor, .duration = seconds()},
                          seed);
-    const gnomon::horizontal elbow{.mount = world.sensor * gnomon::at(-forearm, 0, 0),
-                                   .duration = seconds()};
+    const sim::horizontal elbow{.mount = world.sensor * sim::at(-forearm, 0, 0),
+                                .duration = seconds()};
     return simulated(*this,
-                     gnomon::along(seconds(),
-                                   [elbow](double time) {
-                                       // The scan lines stand upright: a roll that the forearm does
-                                       // not have.
-                                       return elbow(time) * gnomon::roll(gnomon::degrees(-90)) *
-                                              gnomon::at(forearm, 0, 0) *
-                                              gnomon::roll(gnomon::degrees(90));
-                                   }),
+                     sim::along(seconds(),
+                                [elbow](double time) {
+                                    // The scan lines stand upright: a roll that the forearm does
+                                    // not have.
+                                    return elbow(time) * sim::roll(gnomon::degrees(-90)) *
+                                           sim::at(forearm, 0, 0) * sim::roll(gnomon::degrees(90));
+                                }),
                      seed);
 }
 
 std::vector<dataset> datasets() {
-    using namespace gnomon::scenes;
+    using namespace sim::scenes;
     return {{"Kitchen R", kitchen(), 'R', 160},         {"Living Room R", living_room(), 'R', 160},
             {"Two Chairs H", two_chairs(), 'H', 276},   {"Two Chairs V", two_chairs(), 'V', 332},
             {"Two Chairs R", two_chairs(), 'R', 158},   {"SAT H", seat_armchair_table(), 'H', 412},
@@ -55,7 +55,7 @@ dataset dataset_of(const std::string& name) {
     throw std::out_of_range("no data set " + name);
 }
 
-perceived perceive(const gnomon::true_scan& truth) {
+perceived perceive(const sim::true_scan& truth) {
     const gnomon::perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
     return chain(truth.scan);
 }
@@ -63,7 +63,7 @@ perceived perceive(const gnomon::true_scan& truth) {
 namespace {
 
 /// For each kept point, one over the number of kept points that were seen in the same pixel.
-std::vector<double> shares_of_pixels(const gnomon::true_scan& truth, const perceived& seen) {
+std::vector<double> shares_of_pixels(const sim::true_scan& truth, const perceived& seen) {
     const auto pixel_of = [&](gnomon::point_index i) {
         const Eigen::Vector3d& d = truth.directions[i];
         const auto whole_degrees = [](double radians) {
@@ -85,7 +85,7 @@ struct overlap {
 };
 
 /// Of a surface with the segment that it has most in common with, points counting by weight.
-overlap best_overlap(const gnomon::true_scan& truth, const perceived& seen,
+overlap best_overlap(const sim::true_scan& truth, const perceived& seen,
                      const gnomon::segments& parts, std::int32_t surface,
                      const std::vector<double>& weight) {
     double whole = 0.0;
@@ -107,17 +107,17 @@ overlap best_overlap(const gnomon::true_scan& truth, const perceived& seen,
 
 }  // namespace
 
-recovery recovery_of(const gnomon::true_scan& truth, const perceived& seen, std::int32_t surface) {
+recovery recovery_of(const sim::true_scan& truth, const perceived& seen, std::int32_t surface) {
     recovery r;
     for (const auto i : seen.kept) r.points += truth.surfaces[i] == surface ? 1 : 0;
-    for (std::size_t f = 0; f < seen.fragments.size(); ++f) {
-        const auto members = seen.fragments[f];
+    for (std::size_t f = 0; f < seen.initial_segments.size(); ++f) {
+        const auto members = seen.initial_segments[f];
         const auto of_it = std::count_if(members.begin(), members.end(),
                                          [&](auto i) { return truth.surfaces[i] == surface; });
-        r.fragments += 2 * static_cast<std::size_t>(of_it) > members.size() ? 1 : 0;
+        r.initial_segments += 2 * static_cast<std::size_t>(of_it) > members.size() ? 1 : 0;
     }
     const std::vector<double> alike(truth.scan.size(), 1.0);
-    r.iou_before = best_overlap(truth, seen, seen.fragments, surface, alike).iou;
+    r.iou_before = best_overlap(truth, seen, seen.initial_segments, surface, alike).iou;
     const overlap after = best_overlap(truth, seen, seen.surfaces, surface, alike);
     r.iou = after.iou;
     r.segment = after.segment;
@@ -132,7 +132,7 @@ json recovery_table(const std::vector<dataset>& scans, const std::vector<std::st
     for (const dataset& d : scans) {
         std::vector<std::vector<recovery>> of_surface(surfaces.size());
         for (unsigned seed = 1; seed <= much.seeds(); ++seed) {
-            const gnomon::true_scan truth = d.scan(seed);
+            const sim::true_scan truth = d.scan(seed);
             const perceived seen = perceive(truth);
             for (std::size_t s = 0; s < surfaces.size(); ++s)
                 of_surface[s].push_back(
@@ -151,7 +151,7 @@ json recovery_table(const std::vector<dataset>& scans, const std::vector<std::st
             rows.push_back({{"scan", d.name},
                             {"surface", surfaces[s]},
                             {"points", seeds.front().points},
-                            {"fragments", rounded(mean(&recovery::fragments), 1)},
+                            {"initial segments", rounded(mean(&recovery::initial_segments), 1)},
                             {"IoU before merging", rounded(mean(&recovery::iou_before), 3)},
                             {"IoU", rounded(mean(&recovery::iou), 3)},
                             {"least IoU", rounded(least(&recovery::iou), 3)},
@@ -161,8 +161,7 @@ json recovery_table(const std::vector<dataset>& scans, const std::vector<std::st
     return rows;
 }
 
-void draw(const gnomon::true_scan& truth, const perceived& seen,
-          const std::filesystem::path& file) {
+void draw(const sim::true_scan& truth, const perceived& seen, const std::filesystem::path& file) {
     const std::vector<std::string> sizes = picture::sizes_of(seen.surfaces);
     const auto sheet = picture::picture_of(picture::splats_of(truth.scan, seen), sizes, "segment",
                                            truth.scan.viewpoints[0], Eigen::Vector3d::UnitZ(),

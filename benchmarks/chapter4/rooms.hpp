@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The eight scans of Table 4.1, perceived with the one set of parameters of Sec. 4.4.1, and how
-/// much of each true surface is one segment.
+/// The eight scans of Table 4.1, their segments with the parameters of Sec. 4.4.1, and the part of
+/// each true surface that is one segment.
 ///
 /// Two Chairs and SAT are surrogates of rooms that the thesis shows in photographs only. Their
 /// horizontal scan is by an arm that turns about its elbow, so that every scan line has a view
@@ -21,13 +21,13 @@
 /// A scan of the table.
 struct dataset {
     std::string name;
-    gnomon::scene world;
+    gnomon::simulation::scene world;
     char trajectory;    ///< 'H', 'V' or 'R'
-    std::size_t lines;  ///< n / 720 (A5 of the specification: n is right where t_s is rounded)
+    std::size_t lines;  ///< n / 720 (docs/thesis-notes.md, A5)
 
     [[nodiscard]] double seconds() const { return static_cast<double>(lines) / 40.0; }
     /// With 15 mm of noise, as a UTM-30LX has it.
-    [[nodiscard]] gnomon::true_scan scan(std::uint64_t seed) const;
+    [[nodiscard]] gnomon::simulation::true_scan scan(std::uint64_t seed) const;
 };
 
 /// In the order of the table.
@@ -35,29 +35,31 @@ std::vector<dataset> datasets();
 /// @throws std::out_of_range  if there is none of this name
 dataset dataset_of(const std::string& name);
 
-using perceived = gnomon::perceived<gnomon::plane_fit>;
+using perceived = gnomon::perception_result<gnomon::plane_fit>;
 
 /// Floor and ceiling left out, k = 50, and the defaults, which are the thesis's parameters.
-perceived perceive(const gnomon::true_scan& truth);
+perceived perceive(const gnomon::simulation::true_scan& truth);
 
-/// How well a true surface is one segment: shares of its points.
+/// The recovery of a true surface as one segment: shares of its points.
 struct recovery {
-    std::size_t points = 0;     ///< that were not left out
-    std::size_t fragments = 0;  ///< that lie mostly in it, before merging
-    double iou_before = 0.0;    ///< with the best segment
-    double iou = 0.0;           ///< after merging
-    double iou_of_area = 0.0;   ///< where each pixel of a degree counts once, not each point
+    std::size_t points = 0;            ///< that were not left out
+    std::size_t initial_segments = 0;  ///< segments before merging that lie mostly in it
+    double iou_before = 0.0;           ///< with the best segment
+    double iou = 0.0;                  ///< after merging
+    double iou_of_area = 0.0;          ///< where each pixel of a degree counts once, not each point
     std::int32_t segment = gnomon::unlabeled;  ///< the best after merging
 };
-recovery recovery_of(const gnomon::true_scan& truth, const perceived& seen, std::int32_t surface);
+recovery recovery_of(const gnomon::simulation::true_scan& truth, const perceived& seen,
+                     std::int32_t surface);
 
 /// Rows of recovery over seeds, one for each surface of each data set.
 json recovery_table(const std::vector<dataset>& scans, const std::vector<std::string>& surfaces,
                     const effort& much);
 
-/// A picture of the segments, and of the gaps that were looked into.
-void draw(const gnomon::true_scan& truth, const perceived& seen, const std::filesystem::path& file);
-/// The same of points in groups, z upwards: as discs where there are normals, else as dots.
+/// A picture of the segments and of the considered gaps.
+void draw(const gnomon::simulation::true_scan& truth, const perceived& seen,
+          const std::filesystem::path& file);
+/// A picture of points in groups, z upwards: as discs where there are normals, else as dots.
 void draw(const std::vector<Eigen::Vector3d>& points, const std::vector<Eigen::Vector3d>& normals,
           const gnomon::segments& groups, const Eigen::Vector3d& viewpoint,
           const std::filesystem::path& file);

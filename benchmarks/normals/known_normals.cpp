@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How far are normals off whose truth is known? Twelve shapes, six kinds of noise and density, all
-/// estimators, beside CGAL's jets and PCL: root mean square of the unoriented angle at the first
-/// 5,000 of 100,000 points; a missing normal counts as 90 degrees.
+/// Errors of normals on shapes with known normals: twelve shapes, six kinds of noise and density,
+/// all estimators, CGAL's jets and PCL. The error is the root mean square of the unoriented angle
+/// at the first 5,000 of 100,000 points; a missing normal counts as 90 degrees.
 ///
-/// Ring estimators have the parameters of the registry and the k nearest neighbors, with the best
-/// single k that there is for all columns; averages get them in angular order; those that ask for a
-/// view point see the shape from far outside. `feature_preserving` has its one set of parameters.
+/// Estimators have the parameters of the registry and the k nearest neighbors, with the single k
+/// that is best over all columns; averaging methods receive them in angular order; estimators that
+/// use a view point have one far outside of the shape. `feature_preserving` has its defaults.
 ///     known_normals [--quick] [--meshes FOLDER]
 
 #include <array>
@@ -24,8 +24,8 @@
 #include <boost/hana/for_each.hpp>
 
 #include "known_normals/columns.hpp"
+#include "known_normals/neighborhoods.hpp"
 #include "known_normals/report.hpp"
-#include "known_normals/rings.hpp"
 #include "known_normals/shapes.hpp"
 #ifdef GNOMON_BENCHMARKS_CGAL
 #include "known_normals/jet.hpp"
@@ -57,7 +57,7 @@ constexpr const char* usage =
     "usage: known_normals [--quick] [--meshes FOLDER]\n"
     "  --quick          four shapes of fewer points, few k\n"
     "  --meshes FOLDER  with octagonal_pocket.stl, featuretype.stl and wingnut.obj;\n"
-    "                   ../shared/data/normals_truth if not told\n";
+    "                   the default is ../shared/data/normals_truth\n";
 
 /// Every method, with every k, on a cloud.
 std::vector<measurement> measured(const cloud& data, const plan& p) {
@@ -73,7 +73,7 @@ std::vector<measurement> measured(const cloud& data, const plan& p) {
         data.points, data.center + 5.0 * data.diagonal * Vector3d(1, 2, 3).normalized());
     std::vector<gnomon::adjacency> fans;
     for (const std::size_t k : p.ks_of_others)
-        fans.push_back(gnomon::sort_around(data.points, first_k{&nearest, k}));
+        fans.push_back(gnomon::sort_angularly(data.points, first_k{&nearest, k}));
 
     boost::hana::for_each(gnomon::estimators, [&](const auto& e) {
         using model = std::remove_cvref_t<decltype(e.policy)>;
@@ -114,7 +114,7 @@ std::vector<cloud_report> reports_of(const std::vector<shape>& shapes, const pla
     return reports;
 }
 
-/// What is known of the other libraries.
+/// Prints the results of the other libraries.
 /// @throws std::runtime_error  if the jets are not those of CGAL::jet_estimate_normals()
 void print_others([[maybe_unused]] const shape& s, [[maybe_unused]] const plan& p) {
 #ifdef GNOMON_BENCHMARKS_CGAL

@@ -15,15 +15,17 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-/// What one method makes of a scan.
+/// The result of one method on a scan.
 struct result {
     double gamma;
     double seconds;
 };
 
-result run(const gnomon::true_scan& truth, const gnomon::adjacency& graph, const auto& estimate) {
+result run(const sim::true_scan& truth, const gnomon::adjacency& graph, const auto& estimate) {
     result best{0.0, 1e9};
     for (int repetition = 0; repetition < 3; ++repetition) {
         const auto begin = std::chrono::steady_clock::now();
@@ -43,12 +45,11 @@ int main(int argc, char** argv) {
         std::fputs("usage: ray_ls_against_plane_pca [--quick]\n", stderr);
         return 2;
     }
-    const gnomon::scene world = gnomon::scenes::kitchen();
+    const sim::scene world = sim::scenes::kitchen();
     const std::vector<double> sigmas =
         quick ? std::vector{0.0, 0.015}
               : std::vector{0.0, 0.005, 0.010, 0.015, 0.020, 0.025, 0.030};
-    std::vector finders{gnomon::densities::low(), gnomon::densities::medium(),
-                        gnomon::densities::high()};
+    std::vector finders{sim::densities::low(), sim::densities::medium(), sim::densities::high()};
     if (quick) finders.resize(1);
     std::printf("gamma(ray_ls) - gamma(plane_pca) in thousandths\n\n| scan | points | k |");
     for (const double sigma : sigmas) std::printf(" %g mm |", 1e3 * sigma);
@@ -58,14 +59,14 @@ int main(int argc, char** argv) {
 
     double worst = 0.0;
     const auto rows_of = [&](const char* name, const auto& trajectory) {
-        for (const gnomon::scanner& finder : finders) {
+        for (const sim::scanner& finder : finders) {
             std::array<std::vector<result>, 3> pca;
             std::array<std::vector<result>, 3> ray;
             constexpr std::array<std::size_t, 3> ks{15, 30, 50};
             std::size_t points = 0;
             for (const double sigma : sigmas) {
                 const auto truth =
-                    gnomon::simulate(world, trajectory, finder, {.sigma = sigma, .seed = 1});
+                    sim::simulate(world, trajectory, finder, {.sigma = sigma, .seed = 1});
                 points = truth.scan.size();
                 for (std::size_t i = 0; i < ks.size(); ++i) {
                     const auto graph = gnomon::knn{.k = ks[i]}(truth.scan);
@@ -88,9 +89,9 @@ int main(int argc, char** argv) {
             }
         }
     };
-    rows_of("horizontal", gnomon::horizontal{.mount = world.sensor});
-    rows_of("vertical", gnomon::vertical{.mount = world.sensor});
-    rows_of("rotational", gnomon::rotational{.mount = world.sensor});
+    rows_of("horizontal", sim::horizontal{.mount = world.sensor});
+    rows_of("vertical", sim::vertical{.mount = world.sensor});
+    rows_of("rotational", sim::rotational{.mount = world.sensor});
     std::printf(
         "\nThe largest loss is %.1f thousandths. Time: that of ray_ls in units of that of\n"
         "plane_pca, without the search, median over the levels of noise.\n",

@@ -20,20 +20,21 @@ struct gsl_free {
 using matrix = std::unique_ptr<gsl_matrix, gsl_free>;
 using vector = std::unique_ptr<gsl_vector, gsl_free>;
 
-/// The direction in which k points vary least: the last right singular vector of what they are
-/// apart from their mean.
+/// The direction of least variance of k points: the last right singular vector of their offsets
+/// from the mean.
 class plane_svd {
   public:
     explicit plane_svd(std::size_t k) : rows_(gsl_matrix_alloc(k, 3)) {}
 
-    Eigen::Vector3d operator()(const ANNpoint* points, const std::vector<ANNidx>& ring) {
+    Eigen::Vector3d operator()(const ANNpoint* points, const std::vector<ANNidx>& neighbors) {
         Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-        for (const ANNidx j : ring) mean += Eigen::Map<const Eigen::Vector3d>(points[j]);
-        mean /= static_cast<double>(ring.size());
-        for (std::size_t row = 0; row < ring.size(); ++row) {
+        for (const ANNidx j : neighbors) mean += Eigen::Map<const Eigen::Vector3d>(points[j]);
+        mean /= static_cast<double>(neighbors.size());
+        for (std::size_t row = 0; row < neighbors.size(); ++row) {
             for (std::size_t axis = 0; axis < 3; ++axis) {
-                gsl_matrix_set(rows_.get(), row, axis,
-                               points[ring[row]][axis] - mean[static_cast<Eigen::Index>(axis)]);
+                gsl_matrix_set(
+                    rows_.get(), row, axis,
+                    points[neighbors[row]][axis] - mean[static_cast<Eigen::Index>(axis)]);
             }
         }
         gsl_linalg_SV_decomp(rows_.get(), v_.get(), s_.get(), work_.get());
@@ -67,14 +68,14 @@ class on_points {
     [[nodiscard]] std::size_t size() const { return static_cast<std::size_t>(n_); }
     [[nodiscard]] ANNpointArray points() const { return points_; }
 
-    /// Calls visit(i, ring) with the k nearest neighbors of each point, itself among them.
-    void for_each_ring(std::size_t k, auto&& visit) const {
+    /// Calls visit(i, neighbors) with the k nearest neighbors of each point, itself among them.
+    void for_each_neighborhood(std::size_t k, auto&& visit) const {
         ANNkd_tree tree(points_, n_, 3);
-        std::vector<ANNidx> ring(k + 1);  // the point itself is found, too
+        std::vector<ANNidx> neighbors(k + 1);  // the point itself is found, too
         std::vector<ANNdist> squares(k + 1);
         for (std::size_t i = 0; i < size(); ++i) {
-            tree.annkSearch(points_[i], static_cast<int>(k) + 1, ring.data(), squares.data());
-            visit(i, ring);
+            tree.annkSearch(points_[i], static_cast<int>(k) + 1, neighbors.data(), squares.data());
+            visit(i, neighbors);
         }
     }
 
@@ -89,7 +90,8 @@ struct search : on_points, peers::search_job {
     using on_points::on_points;
     auto operator()(const peers::request& r) const {
         peers::neighbor_lists lists(size(), r.k());
-        for_each_ring(r.k(), [&](std::size_t i, const auto& ring) { lists.set(i, ring); });
+        for_each_neighborhood(
+            r.k(), [&](std::size_t i, const auto& neighbors) { lists.set(i, neighbors); });
         return lists;
     }
 };
@@ -102,8 +104,9 @@ struct normals : on_points {
     auto operator()(const peers::request& r) const {
         plane_svd fit(r.k() + 1);
         peers::vectors result(size());
-        for_each_ring(r.k(),
-                      [&](std::size_t i, const auto& ring) { result[i] = fit(points(), ring); });
+        for_each_neighborhood(r.k(), [&](std::size_t i, const auto& neighbors) {
+            result[i] = fit(points(), neighbors);
+        });
         return result;
     }
 

@@ -50,7 +50,7 @@ class on_points {
   protected:
     [[nodiscard]] points_with_normals& points() { return points_; }
 
-    /// Calls estimate(tag, points, parameters), where the tag says whether to go parallel.
+    /// Calls estimate(tag, points, parameters), where the tag selects parallel execution.
     const points_with_normals& run([[maybe_unused]] unsigned threads, auto&& estimate) {
         const auto maps = CGAL::parameters::point_map(point_map()).normal_map(normal_map());
 #ifdef CGAL_LINKED_WITH_TBB
@@ -96,11 +96,11 @@ struct search : on_numbered_points, peers::search_job {
         peers::neighbor_lists lists(points.size(), r.k());
         const auto k = static_cast<unsigned>(r.k()) + 1;  // the point itself is found, too
         peers::for_each_index(points.size(), r.threads, [&] {
-            return [&, k, ring = std::vector<std::size_t>()](std::size_t i) mutable {
-                ring.clear();
+            return [&, k, neighbors = std::vector<std::size_t>()](std::size_t i) mutable {
+                neighbors.clear();
                 one_search found(tree, points[i].first, k);
-                for (const auto& [p, square] : found) ring.push_back(p.second);
-                lists.set(i, ring);
+                for (const auto& [p, square] : found) neighbors.push_back(p.second);
+                lists.set(i, neighbors);
             };
         });
         return lists;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Makes a cloud and, where it is known, the truth: DIRECTORY/points and DIRECTORY/normals. Kitchens
 // have 15 mm of noise along the rays; the large ones are seen from nine places by a rotational
-// scanner of the density that this takes. Of a file, the finite points are taken. With POINTS, only
-// so many of them, evenly over the scan.
+// scanner of the required density. Of a file, the finite points are taken. With POINTS, only that
+// number of them, evenly over the scan.
 //     cloud NAME DIRECTORY [POINTS]
 // NAME: kitchen, kitchen_preprocessed (without floor and ceiling), kitchen_medium, kitchen_million,
 // kitchen_ten_million, or a file
@@ -27,6 +27,8 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 struct cloud {
@@ -34,16 +36,14 @@ struct cloud {
     peers::vectors normals;  ///< the true ones, or none
 };
 
-cloud scan_of_kitchen(const gnomon::pose& sensor, const gnomon::scanner& finder,
-                      std::uint64_t seed) {
-    const auto truth =
-        gnomon::simulate(gnomon::scenes::kitchen(), gnomon::rotational{.mount = sensor}, finder,
-                         {.sigma = 0.015, .seed = seed}, gnomon::threads{});
+cloud scan_of_kitchen(const sim::pose& sensor, const sim::scanner& finder, std::uint64_t seed) {
+    const auto truth = sim::simulate(sim::scenes::kitchen(), sim::rotational{.mount = sensor},
+                                     finder, {.sigma = 0.015, .seed = seed}, gnomon::threads{});
     return {truth.scan.points, truth.normals};
 }
 
-cloud kitchen(const gnomon::scanner& finder) {
-    return scan_of_kitchen(gnomon::scenes::kitchen().sensor, finder, 1);
+cloud kitchen(const sim::scanner& finder) {
+    return scan_of_kitchen(sim::scenes::kitchen().sensor, finder, 1);
 }
 
 /// What is left of a cloud without floor and ceiling.
@@ -52,7 +52,7 @@ cloud preprocessed(const cloud& all) {
     if (!floor) throw std::runtime_error("there is no floor");
     cloud rest;
     const auto ceiling = gnomon::find_ceiling(all.points, *floor);
-    for (const gnomon::point_index i : gnomon::between_bands(all.points, *floor, ceiling)) {
+    for (const gnomon::point_index i : gnomon::crop_height(all.points, *floor, ceiling)) {
         rest.points.push_back(all.points[i]);
         rest.normals.push_back(all.normals[i]);
     }
@@ -63,11 +63,11 @@ cloud preprocessed(const cloud& all) {
 cloud kitchen_of(std::size_t points) {
     constexpr std::size_t scans = 9;
     // Every ray meets something, as the room is closed: a few more than are kept.
-    const gnomon::scanner dense = gnomon::densities::high();
+    const sim::scanner dense = sim::densities::high();
     const double finer =
         std::sqrt(1.01 * static_cast<double>(points) / static_cast<double>(scans * 115'200));
-    const gnomon::scanner finder{.resolution = gnomon::radians(dense.resolution.radians() / finer),
-                                 .frequency = dense.frequency * finer};
+    const sim::scanner finder{.resolution = gnomon::radians(dense.resolution.radians() / finer),
+                              .frequency = dense.frequency * finer};
     cloud all;
     for (std::size_t scan = 1; scan <= scans; ++scan) {
         gnomon::random_stream random(scan);
@@ -76,8 +76,7 @@ cloud kitchen_of(std::size_t points) {
         const double z = random.uniform(1.2, 2.2);
         const gnomon::angle turn = gnomon::degrees(random.uniform(-180.0, 180.0));
         const cloud one = scan_of_kitchen(
-            gnomon::at(x, y, z) * gnomon::yaw(turn) * gnomon::pitch(gnomon::degrees(10)), finder,
-            scan);
+            sim::at(x, y, z) * sim::yaw(turn) * sim::pitch(gnomon::degrees(10)), finder, scan);
         all.points.insert(all.points.end(), one.points.begin(), one.points.end());
         all.normals.insert(all.normals.end(), one.normals.begin(), one.normals.end());
     }
@@ -96,15 +95,15 @@ cloud finite_points_of(const std::string& path) {
 }
 
 cloud called(const std::string& name) {
-    if (name == "kitchen") return kitchen(gnomon::densities::high());
+    if (name == "kitchen") return kitchen(sim::densities::high());
     if (name == "kitchen_preprocessed") return preprocessed(called("kitchen"));
-    if (name == "kitchen_medium") return kitchen(gnomon::densities::medium());
+    if (name == "kitchen_medium") return kitchen(sim::densities::medium());
     if (name == "kitchen_million") return kitchen_of(1'000'000);
     if (name == "kitchen_ten_million") return kitchen_of(10'000'000);
     return finite_points_of(name);
 }
 
-/// So many of them, one after every so many others.
+/// `points` of them, at equal distances in the list.
 peers::vectors part(const peers::vectors& list, std::size_t points) {
     if (list.empty()) return list;  // the truth is not known
     if (points > list.size()) throw std::runtime_error("the cloud has fewer points");

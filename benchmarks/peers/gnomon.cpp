@@ -9,8 +9,8 @@
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
-#include <gnomon/segmentation/point_segmentation.hpp>
-#include <gnomon/segmentation/surface_segmentation.hpp>
+#include <gnomon/segmentation/euclidean_clusters.hpp>
+#include <gnomon/segmentation/segment_surfaces.hpp>
 #include <gnomon/version.hpp>
 
 namespace {
@@ -65,8 +65,8 @@ struct surfaces : on_points {
 
     auto operator()(const peers::request& r) const {
         auto surface = normals(points)(r);
-        const gnomon::surface_segmentation options{.max_angle = gnomon::radians(peers::max_angle),
-                                                   .min_points = peers::min_points};
+        const gnomon::segment_surfaces_options options{
+            .max_angle = gnomon::radians(peers::max_angle), .min_points = peers::min_points};
         auto segments =
             gnomon::segment_surfaces(points, surface, options, gnomon::threads{r.threads});
         return std::pair(std::move(surface), std::move(segments));
@@ -84,8 +84,8 @@ struct clusters : on_points {
     explicit clusters(const peers::vectors& p) : on_points{p} {}
 
     auto operator()(const peers::request& r) const {
-        return gnomon::segment_points(points, {.radius = r.radius(), .min_points = 1},
-                                      gnomon::threads{r.threads});
+        return gnomon::euclidean_clusters(points, {.radius = r.radius(), .min_points = 1},
+                                          gnomon::threads{r.threads});
     }
 
     static std::size_t segment_count(const gnomon::segments& groups) { return groups.size(); }

@@ -1,6 +1,6 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
-# Installs the libraries that gnomon is measured beside, where the system has them (1.4 GB, most of
+# Installs the libraries that gnomon is compared with, where the system has them (1.4 GB, most of
 # it what PCL and Open3D bring along):
 #     sh benchmarks/peers/install.sh
 # One by one, so that a library that cannot be had takes no other with it.

@@ -18,7 +18,7 @@ inline constexpr bool loops_have_one_thread = false;
 inline constexpr bool loops_have_one_thread = true;
 #endif
 
-/// Calls on each of so many threads make_work(), and what that gives for numbers below n.
+/// Calls make_work() on each of `threads` threads, and its result for each i in 0, ..., n - 1.
 void for_each_index(std::size_t n, [[maybe_unused]] unsigned threads, auto&& make_work) {
 #ifdef _OPENMP
 #pragma omp parallel num_threads(static_cast<int>(threads))
@@ -91,7 +91,7 @@ std::vector<std::size_t> grow(std::size_t n, auto&& for_each_next) {
     return sizes;
 }
 
-/// How many segments there are of at least so many points.
+/// The number of segments with at least `min_points` points.
 inline std::size_t count_of(const auto& sizes, std::size_t min_points) {
     return static_cast<std::size_t>(std::count_if(sizes.begin(), sizes.end(), [&](const auto& s) {
         if constexpr (requires { s.size(); }) {

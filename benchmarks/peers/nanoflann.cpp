@@ -31,12 +31,12 @@ using tree_t = nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<
                                                    point_view, 3>;
 
 /// The direction of least variance of some of the points.
-Eigen::Vector3d fit(const peers::vectors& points, const std::vector<std::uint32_t>& ring) {
+Eigen::Vector3d fit(const peers::vectors& points, const std::vector<std::uint32_t>& neighbors) {
     Eigen::Vector3d mean = Eigen::Vector3d::Zero();
-    for (const std::uint32_t j : ring) mean += points[j];
-    mean /= static_cast<double>(ring.size());
+    for (const std::uint32_t j : neighbors) mean += points[j];
+    mean /= static_cast<double>(neighbors.size());
     Eigen::Matrix3d covariance = Eigen::Matrix3d::Zero();
-    for (const std::uint32_t j : ring) {
+    for (const std::uint32_t j : neighbors) {
         const Eigen::Vector3d d = points[j] - mean;
         covariance += d * d.transpose();
     }
@@ -51,17 +51,18 @@ struct on_points {
 
     const peers::vectors& points;
 
-    /// Calls visit(i, ring) with the k nearest neighbors of each point, itself among them.
-    void for_each_ring(const peers::request& r, auto&& visit) const {
+    /// Calls visit(i, neighbors) with the k nearest neighbors of each point, itself among them.
+    void for_each_neighborhood(const peers::request& r, auto&& visit) const {
         const point_view view{points};
         const tree_t tree(3, view);
         const std::size_t k = r.k() + 1;  // the point itself is found, too
         peers::for_each_index(points.size(), r.threads, [&] {
-            return [&, ring = std::vector<std::uint32_t>(k),
+            return [&, neighbors = std::vector<std::uint32_t>(k),
                     squares = std::vector<double>(k)](std::size_t i) mutable {
-                ring.resize(k);
-                ring.resize(tree.knnSearch(points[i].data(), k, ring.data(), squares.data()));
-                visit(i, ring);
+                neighbors.resize(k);
+                neighbors.resize(
+                    tree.knnSearch(points[i].data(), k, neighbors.data(), squares.data()));
+                visit(i, neighbors);
             };
         });
     }
@@ -74,7 +75,8 @@ struct search : on_points, peers::search_job {
 
     auto operator()(const peers::request& r) const {
         peers::neighbor_lists lists(points.size(), r.k());
-        for_each_ring(r, [&](std::size_t i, const auto& ring) { lists.set(i, ring); });
+        for_each_neighborhood(
+            r, [&](std::size_t i, const auto& neighbors) { lists.set(i, neighbors); });
         return lists;
     }
 };
@@ -87,7 +89,8 @@ struct normals : on_points {
 
     auto operator()(const peers::request& r) const {
         peers::vectors result(points.size());
-        for_each_ring(r, [&](std::size_t i, const auto& ring) { result[i] = fit(points, ring); });
+        for_each_neighborhood(
+            r, [&](std::size_t i, const auto& neighbors) { result[i] = fit(points, neighbors); });
         return result;
     }
 
@@ -107,9 +110,9 @@ struct surfaces : on_points {
     auto operator()(const peers::request& r) const {
         peers::neighbor_lists lists(points.size(), r.k());
         peers::vectors normals(points.size());
-        for_each_ring(r, [&](std::size_t i, const auto& ring) {
-            lists.set(i, ring);
-            normals[i] = fit(points, ring);
+        for_each_neighborhood(r, [&](std::size_t i, const auto& neighbors) {
+            lists.set(i, neighbors);
+            normals[i] = fit(points, neighbors);
         });
         const double min_cosine = std::cos(peers::max_angle);
         auto sizes = peers::grow(points.size(), [&](std::size_t i, auto&& visit) {

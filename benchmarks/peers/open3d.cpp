@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Open3D's PointCloud; OMP_NUM_THREADS, which it obeys, tells the number of threads.
+// Open3D's PointCloud; OMP_NUM_THREADS, which it obeys, sets the number of threads.
 #include <algorithm>
 #include <utility>
 #include <vector>
@@ -32,10 +32,10 @@ struct search : on_cloud, peers::search_job {
         const int k = static_cast<int>(r.k()) + 1;  // the point itself is found, too
         peers::neighbor_lists lists(cloud.points_.size(), r.k());
         peers::for_each_index(cloud.points_.size(), r.threads, [&] {
-            return [&, k, ring = std::vector<int>(),
+            return [&, k, neighbors = std::vector<int>(),
                     squares = std::vector<double>()](std::size_t i) mutable {
-                tree.SearchKNN(cloud.points_[i], k, ring, squares);
-                lists.set(i, ring);
+                tree.SearchKNN(cloud.points_[i], k, neighbors, squares);
+                lists.set(i, neighbors);
             };
         });
         return lists;

@@ -56,10 +56,10 @@ struct search : on_cloud, peers::search_job {
         peers::neighbor_lists lists(cloud()->size(), r.k());
         const auto k = static_cast<unsigned>(r.k()) + 1;  // the point itself is found, too
         peers::for_each_index(cloud()->size(), r.threads, [&] {
-            return [&, k, ring = pcl::Indices(),
+            return [&, k, neighbors = pcl::Indices(),
                     squares = std::vector<float>()](std::size_t i) mutable {
-                tree.nearestKSearch((*cloud())[i], k, ring, squares);
-                lists.set(i, ring);
+                tree.nearestKSearch((*cloud())[i], k, neighbors, squares);
+                lists.set(i, neighbors);
             };
         });
         return lists;

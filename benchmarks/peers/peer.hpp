@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The frame of a program that puts one library to work, told from outside when to run, so that
-/// the programs of several libraries can take turns. No header of gnomon is behind it: every
-/// program holds its library alone.
-///     PROGRAM                             tells in JSON what it is and which jobs it knows
-///     PROGRAM JOB DIRECTORY REACH THREADS does a job on the cloud in a directory: once at the
-///                                         start, as a warm-up, of which it tells memory and
-///                                         quality; and once more for each line that it reads, of
-///                                         which it tells the seconds
+/// The frame of a program that runs one library when it reads a line, so that the programs of
+/// several libraries can take turns. It includes no header of gnomon: every program contains its
+/// library alone.
+///     PROGRAM                             prints in JSON its library and the jobs that it has
+///     PROGRAM JOB DIRECTORY REACH THREADS runs a job on the cloud in a directory: once at the
+///                                         start, as a warm-up, and prints memory and quality; then
+///                                         once for each line that it reads, and prints the seconds
 /// REACH is k, or for clusters the radius.
 #pragma once
 
@@ -32,7 +31,7 @@
 
 namespace peers {
 
-/// What a library is asked for.
+/// The parameters of a job.
 struct request {
     double reach;      ///< k, or a radius [m]
     unsigned threads;  ///< at most
@@ -44,17 +43,17 @@ struct request {
     [[nodiscard]] double radius() const { return reach; }
 };
 
-/// Whether a task is told a radius; the others are told k.
+/// Whether the parameter of a task is a radius; else it is k.
 constexpr bool takes_radius(std::string_view task) { return task == "clusters"; }
 
 /// Smaller segments are noise, of the task "surfaces"; and how far normals of neighbors may differ.
 inline constexpr std::size_t min_points = 30;
 inline constexpr double max_angle = 5.0 * std::numbers::pi / 180.0;
 
-/// A task done by a library. Constructed from points, it puts them into the library's own
-/// container, uncounted; called, it does the work, which is counted. What looks into the result is
-/// optional, and uncounted: `normal(result, i)`, `segment_count(result)`, `last_neighbor(result,
-/// i)`, which is the farthest of the k, and `bytes(result)`, the memory that the result has itself.
+/// A task done by a library. The constructor copies the points into the container of the library
+/// and is not timed; the call is timed. Optional functions evaluate the result and are not timed:
+/// `normal(result, i)`, `segment_count(result)`, `last_neighbor(result, i)`, which is the farthest
+/// of the k, and `bytes(result)`, the memory of the result.
 template <class J>
 concept job = std::constructible_from<J, const vectors&> && requires(J& work, request r) {
     { J::task } -> std::convertible_to<std::string_view>;
@@ -86,9 +85,9 @@ double last_distance(const auto& result, const vectors& points) {
     return sum / static_cast<double>(points.size());
 }
 
-/// Tells in JSON how good the result is, and how many bytes it has itself.
+/// Prints in JSON the quality and the size of the result.
 template <job J>
-void tell_about(const auto& result, const vectors& points, const std::string& directory) {
+void print_quality(const auto& result, const vectors& points, const std::string& directory) {
     if constexpr (requires { J::bytes(result); }) {
         std::printf(", \"result_bytes\": %zu", std::size_t{J::bytes(result)});
     }
@@ -121,7 +120,7 @@ void do_job(const std::string& directory, const request& r) {
         const peak_memory peak;
         const auto result = work(r);
         std::printf("{\"peak_bytes\": %zu, \"process_bytes\": %zu", peak.above(), peak.total());
-        tell_about<J>(result, points, directory);
+        print_quality<J>(result, points, directory);
     }
     std::puts("}");
     std::fflush(stdout);
@@ -148,7 +147,7 @@ std::optional<Number> number(std::string_view text) {
     return good ? std::optional(n) : std::nullopt;
 }
 
-/// k or a radius, as the job wants it.
+/// k or a radius, depending on the job.
 inline std::optional<double> reach_of(std::string_view job, std::string_view text) {
     if (takes_radius(job.substr(0, job.find('/')))) return number<double>(text);
     const auto k = number<std::uint32_t>(text);
@@ -164,10 +163,10 @@ int serve(const std::string& version, int argc, char** argv) {
     if (argc == 1) {
         std::printf(R"({"version": "%s", "compiler": "%s", "flags": "%s", "jobs": [)",
                     version.c_str(), PEERS_COMPILER, PEERS_FLAGS);
-        std::size_t told = 0;
+        std::size_t listed = 0;
         ((std::printf(R"({"task": "%s", "library": "%s", "one_thread_only": %s}%s)", Jobs::task,
                       Jobs::library, Jobs::one_thread_only ? "true" : "false",
-                      ++told < count ? ", " : "]}\n")),
+                      ++listed < count ? ", " : "]}\n")),
          ...);
         return 0;
     }

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Tables and pictures of libraries side by side: what all pages of rows like those of peers.json
-share. The same bytes of the same rows.
+"""Tables and pictures that compare libraries, for all pages with rows like those of peers.json. The
+output is a function of the rows, to the byte.
 
-    page.py FOLDER             writes NAME.md and NAME.png beside the NAME.json in a folder
-    page.py --check FOLDER     compares the page there with what its rows make; leaves with 77 if
-                               it agrees, but Matplotlib, which the picture needs, is missing
+    page.py FOLDER             writes NAME.md and NAME.png from the NAME.json in a folder
+    page.py --check FOLDER     fails if the page there is not up to date; exit status 77 if it is,
+                               but Matplotlib, which the picture requires, is missing
 """
 
 import argparse
@@ -47,14 +47,14 @@ def version_text(row):
 
 
 def markdown(heads, lines, rule="---:"):
-    """A table of Markdown: a column of words, and others, of numbers if their rule is not `---`."""
+    """A Markdown table: a column of words, then columns with the given alignment."""
     return "".join([f"| {' | '.join(heads)} |\n", f"|---|{f'{rule}|' * (len(heads) - 1)}\n",
                     *(f"| {' | '.join(line)} |\n" for line in lines)])
 
 
 def table(rows, columns, cell):
-    """A table with a line for each library. `columns` tells of each heading which rows it is of;
-    cell(row) is what to print of the first of them that was measured."""
+    """A table with a line for each library. `columns` maps each heading to a predicate of its rows;
+    cell(row) is the text for the first of them that was measured."""
     lines = []
     for library in unique(row["library"] for row in rows):
         own = [row for row in rows if row["library"] == library]
@@ -102,14 +102,14 @@ def memory_text(row):
 
 
 def conclusion(rows):
-    """How gnomon does beside the best of the others, setting by setting."""
+    """The comparison of gnomon with the fastest of the others, setting by setting."""
     best = {}
     for row in rows:
         if row["library"] != OURS and row["ratio"] is not None:
             setting = (row["flags"], row["threads"], reach(row))
             best[setting] = min(best.get(setting, row["ratio"]), row["ratio"])
     if not best:
-        return "There was no other library to compare with.\n"
+        return "No other library was measured.\n"
     ratios = sorted(best.values())
     first = sum(ratio > 1 for ratio in ratios)
     return (f"Of {len(ratios)} settings gnomon is the fastest in {first}.\nThe fastest of the "
@@ -120,13 +120,13 @@ def gamma_known(rows):
     return any(row["gamma"] for row in rows)
 
 
-# Tables of quality and memory: title, what to print of a row, and whether there is any.
+# Tables of quality and memory: title, text of a row, and whether any row has a value.
 EXTRAS = [("gamma", gamma_text, gamma_known),
           ("Peak memory above the cloud", memory_text, lambda rows: True)]
 
 
 def section(rows, times=("Milliseconds", time_text), extras=EXTRAS):
-    """What there is to say of one task and cloud."""
+    """The section of one task and cloud."""
     task, cloud = rows[0]["task"], rows[0]["cloud"]
     title = f"## {task.capitalize()} of {CLOUDS.get(cloud, cloud)}\n"
     if rows[0]["library"] is None:
@@ -134,7 +134,7 @@ def section(rows, times=("Milliseconds", time_text), extras=EXTRAS):
     parts = [title, f"{rows[0]['points']:,} points. {conclusion(rows)}"]
     all_flags = unique(row["flags"] for row in rows)
     measured = {row["library"] for row in rows if row["seconds"]}
-    shown = rows  # the first tables say of what is missing that it is
+    shown = rows  # the first tables also list libraries that were not measured
     for name, cell in (("Ratios", ratio_text), times):
         for flags in all_flags:
             own = [row for row in shown if row["flags"] == flags]
@@ -157,11 +157,11 @@ def sections_of(rows):
 
 
 def busy_text(about):
-    """What to say where others were at work, too."""
+    """A warning if other processes were using the machine."""
     if about["busy_cores"] <= BUSY:
         return ""
-    return (f"\nOther work kept {about['busy_cores']:.1f} cores busy when this began, which "
-            "makes the figures scatter,\nmost of all those of several threads.\n")
+    return (f"\nOther processes used {about['busy_cores']:.1f} cores at the start, which increases the "
+            "variance,\nmostly of times with several threads.\n")
 
 
 def draw(axes, rows):
@@ -219,7 +219,7 @@ def draw_panels(panels, title):
 
 def main(name, page, picture):
     """Writes or checks NAME.md, which page(rows) gives, and NAME.png, by picture(rows)."""
-    parser = argparse.ArgumentParser(description=f"Makes the page of {name}.json.")
+    parser = argparse.ArgumentParser(description=f"Writes the page of {name}.json.")
     parser.add_argument("folder", type=pathlib.Path)
     parser.add_argument("--check", action="store_true", help="compare, and write nothing")
     arguments = parser.parse_args()
@@ -233,7 +233,7 @@ def main(name, page, picture):
     drawn = picture(rows) if pyplot else None
     if arguments.check:
         if (folder / f"{name}.md").read_bytes() != text:
-            sys.exit(f"{name}.md is not what {name}.json makes")
+            sys.exit(f"{name}.md is not up to date with {name}.json")
         if drawn is None:
             print("Matplotlib is missing: the picture was not checked")
             sys.exit(77)

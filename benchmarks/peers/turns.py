@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Lets gnomon and its peers do the same work in turns: what all measurements beside others share.
+"""Runs gnomon and other libraries in turns on the same tasks, for all comparisons.
 
 Every library has a program of its own (peer.hpp), started afresh for every setting. It gets the
 cloud, puts it into the library's own container, and does the work once without being timed: this
@@ -33,11 +33,11 @@ HOW_TO_GET = {"nanoflann_newer": "not measured: GNOMON_NEWER_NANOFLANN_INCLUDE_D
 
 
 class Refusal(Exception):
-    """Why there is nothing to measure."""
+    """The reason why a library is not measured."""
 
 
 def cores():
-    """The cores that may be used, or as many numbers where the system does not tell."""
+    """The cores that may be used; all, where the system does not list them."""
     if hasattr(os, "sched_getaffinity"):
         return sorted(os.sched_getaffinity(0))
     return list(range(os.cpu_count() or 1))
@@ -52,12 +52,12 @@ def confine(to):
 def cpu():
     """The name of the processor, and the widest vectors that it has."""
     info = pathlib.Path("/proc/cpuinfo")
-    told = {}
+    fields = {}
     if info.exists():
         for line in info.read_text(encoding="utf-8").splitlines():
             name, _, value = line.partition(":")
-            told.setdefault(name.strip(), value.strip())
-    name = told.get("model name") or platform.processor() or platform.machine()
+            fields.setdefault(name.strip(), value.strip())
+    name = fields.get("model name") or platform.processor() or platform.machine()
     flags = told.get("flags", "").split()
     for flag, vectors in (("avx512f", "AVX-512"), ("avx2", "AVX2")):
         if flag in flags:
@@ -126,13 +126,13 @@ class Worker:
 
 @functools.cache
 def describe(program):
-    """What a program says of itself."""
+    """The self-description of a program."""
     if not program.exists():
         raise Refusal(HOW_TO_GET.get(program.name, "not found; benchmarks/peers/install.sh installs it"))
-    told = subprocess.run([program], capture_output=True, text=True)
-    if told.returncode != 0:
-        raise Refusal(f"does not start: {told.stderr.strip()}")
-    return json.loads(told.stdout)
+    done = subprocess.run([program], capture_output=True, text=True)
+    if done.returncode != 0:
+        raise Refusal(f"does not start: {done.stderr.strip()}")
+    return json.loads(done.stdout)
 
 
 @dataclasses.dataclass(frozen=True)
@@ -140,7 +140,7 @@ class Part:
     """A part of a plan: a task on a cloud, at all combinations of some settings."""
 
     task: str
-    cloud: str      # one that cloud.cpp knows, or a file; NAME/POINTS takes so many of its points
+    cloud: str      # a name of cloud.cpp, or a file; NAME/POINTS takes that number of its points
     reaches: list   # numbers of neighbors; for clusters, radii [m]
     peers: dict     # the libraries, ours first, and the programs that they are in
     threads: tuple = (1, 2)
@@ -167,18 +167,18 @@ def reach_of(setting):
 
 
 def blank(setting, library):
-    """A row of which nothing is known yet."""
+    """A row without measurements."""
     return dict(setting, library=library, version=None, seconds=None, ratio=None, gamma=None,
                 peak_bytes=None)
 
 
 def unmeasured(setting, library, note):
-    """A row that says only why there is nothing to say."""
+    """A row with the reason why nothing was measured."""
     return blank(setting, library) | {"note": note}
 
 
 def enter(folder, setting, part, library, cloud):
-    """A row of the result as far as it is known now, and the worker that will fill it."""
+    """A row of the result without times, and the worker that will measure them."""
     row = blank(setting, library)
     try:
         program = folder / part.peers[library]
@@ -197,7 +197,7 @@ def enter(folder, setting, part, library, cloud):
 
 
 def figures(seconds, ours):
-    """Medians and extremes of some rounds, in seconds and beside ours in the same rounds."""
+    """Medians and extremes over rounds: seconds, and ratios to ours in the same rounds."""
     ratios = [theirs / our for theirs, our in zip(seconds, ours)]
     median = statistics.median(seconds)
     return {
@@ -285,8 +285,8 @@ def measure_all(programs, clouds, plan):
 
 
 def main(name, full, quick, more=lambda programs, clouds, quick: []):
-    """Measures a plan, and what else more(programs, clouds, quick) gives rows of: NAME.json."""
-    parser = argparse.ArgumentParser(description="Measures gnomon beside other libraries.")
+    """Measures a plan, adds the rows of more(programs, clouds, quick), and writes NAME.json."""
+    parser = argparse.ArgumentParser(description="Compares gnomon with other libraries.")
     parser.add_argument("programs", type=pathlib.Path, help="the folder that they were built in")
     parser.add_argument("out", type=pathlib.Path, help=f"the folder for {name}.json")
     parser.add_argument("--scans", type=pathlib.Path, default=pathlib.Path("."),

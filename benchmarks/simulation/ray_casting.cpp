@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// How many rays per second and core? The default caster beside Embree and beside Eigen's own
-// bounding volume hierarchy, on the rays of one high-density rotational scan; and whole scans.
+// Rays per second and core of the default caster, of Embree and of Eigen's bounding volume
+// hierarchy, on the rays of one high-density rotational scan; and whole scans.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -20,6 +20,8 @@
 #include <gnomon/simulation.hpp>
 #include <unsupported/Eigen/BVH>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using box3 = Eigen::AlignedBox<double, 3>;
@@ -27,7 +29,7 @@ using box3 = Eigen::AlignedBox<double, 3>;
 /// The shapes of a scene in Eigen's hierarchy, walked by its own search for a minimum.
 class eigen_caster {
   public:
-    explicit eigen_caster(const gnomon::scene& world) : shapes_(world.shapes()) {
+    explicit eigen_caster(const sim::scene& world) : shapes_(world.shapes()) {
         std::vector<std::size_t> numbers;
         std::vector<box3> boxes;
         for (std::size_t i = 0; i < shapes_.size(); ++i) {
@@ -37,7 +39,7 @@ class eigen_caster {
         tree_.init(numbers.begin(), numbers.end(), boxes.begin(), boxes.end());
     }
 
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
+    std::optional<sim::ray_hit> operator()(const sim::ray& r) const {
         search s{shapes_, r, std::nullopt};
         Eigen::BVMinimize(tree_, s);
         return s.hit;
@@ -47,9 +49,9 @@ class eigen_caster {
     struct search {
         using Scalar = double;
 
-        const std::vector<gnomon::placed_shape>& shapes;
-        gnomon::ray r;
-        std::optional<gnomon::ray_hit> hit;
+        const std::vector<sim::placed_shape>& shapes;
+        sim::ray r;
+        std::optional<sim::ray_hit> hit;
 
         double minimumOnVolume(const box3& b) const {
             double enter = 0.0;
@@ -71,14 +73,14 @@ class eigen_caster {
         }
     };
 
-    std::vector<gnomon::placed_shape> shapes_;
+    std::vector<sim::placed_shape> shapes_;
     Eigen::KdBVH<double, 3, std::size_t> tree_;
 };
 
 /// One mesh: a bumpy cave of 80,000 triangles around the sensor.
-gnomon::scene cave() {
+sim::scene cave() {
     constexpr std::uint32_t n = 200;
-    gnomon::polyhedron faces;
+    sim::polyhedron faces;
     for (std::uint32_t i = 0; i <= n; ++i) {
         for (std::uint32_t j = 0; j < n; ++j) {
             const double latitude = std::numbers::pi * i / n;
@@ -97,26 +99,26 @@ gnomon::scene cave() {
             faces.triangles.push_back({here, right + n, here + n});
         }
     }
-    gnomon::scene world;
-    world.add(world.add_part(world.add_object("cave"), "wall"), gnomon::triangle_mesh(faces));
+    sim::scene world;
+    world.add(world.add_part(world.add_object("cave"), "wall"), sim::triangle_mesh(faces));
     return world;
 }
 
-const gnomon::scene& scene_called(const std::string& name) {
-    static const std::map<std::string, gnomon::scene> scenes{
-        {"kitchen", gnomon::scenes::kitchen()},
-        {"living_room", gnomon::scenes::living_room()},
+const sim::scene& scene_called(const std::string& name) {
+    static const std::map<std::string, sim::scene> scenes{
+        {"kitchen", sim::scenes::kitchen()},
+        {"living_room", sim::scenes::living_room()},
         {"cave_of_80000_triangles", cave()}};
     return scenes.at(name);
 }
 
 /// The rays of a rotational scan of 115,200.
-std::vector<gnomon::ray> rays_of(const gnomon::scene& world) {
-    const gnomon::rotational trajectory{.mount = world.sensor};
-    const gnomon::scanner finder = gnomon::densities::high();
-    std::vector<gnomon::ray> rays;
+std::vector<sim::ray> rays_of(const sim::scene& world) {
+    const sim::rotational trajectory{.mount = world.sensor};
+    const sim::scanner finder = sim::densities::high();
+    std::vector<sim::ray> rays;
     for (std::size_t line = 0; line < finder.lines(4.0); ++line) {
-        const gnomon::pose sensor = trajectory((static_cast<double>(line) + 0.5) / 40.0);
+        const sim::pose sensor = trajectory((static_cast<double>(line) + 0.5) / 40.0);
         for (std::size_t j = 0; j < finder.beams(); ++j)
             rays.push_back({sensor.position, sensor.direction_out(finder.direction(j))});
     }
@@ -125,12 +127,12 @@ std::vector<gnomon::ray> rays_of(const gnomon::scene& world) {
 
 template <class Caster>
 void cast(benchmark::State& state, const std::string& name) {
-    const gnomon::scene& world = scene_called(name);
+    const sim::scene& world = scene_called(name);
     const Caster caster(world);
     const auto rays = rays_of(world);
     for (auto _ : state) {
         double sum = 0.0;
-        for (const gnomon::ray& r : rays) {
+        for (const sim::ray& r : rays) {
             if (const auto hit = caster(r)) sum += hit->range;
         }
         benchmark::DoNotOptimize(sum);
@@ -139,12 +141,12 @@ void cast(benchmark::State& state, const std::string& name) {
                                                   benchmark::Counter::kIsIterationInvariantRate);
 }
 
-void scan(benchmark::State& state, const gnomon::beam& b) {
-    const gnomon::scene& world = scene_called("kitchen");
-    const gnomon::rotational trajectory{.mount = world.sensor};
+void scan(benchmark::State& state, const sim::beam& b) {
+    const sim::scene& world = scene_called("kitchen");
+    const sim::rotational trajectory{.mount = world.sensor};
     std::size_t points = 0;
     for (auto _ : state) {
-        points = gnomon::simulate(world, trajectory, gnomon::densities::high(), b).scan.size();
+        points = sim::simulate(world, trajectory, sim::densities::high(), b).scan.size();
     }
     state.counters["points"] = static_cast<double>(points);
 }
@@ -157,13 +159,13 @@ int main(int argc, char** argv) {
         benchmark::RegisterBenchmark(name.c_str(), what, how)->Unit(benchmark::kMillisecond);
     };
     for (const std::string scene : {"kitchen", "living_room", "cave_of_80000_triangles"}) {
-        measure("cast/" + scene + "/bvh_caster", cast<gnomon::bvh_caster>, scene);
-        measure("cast/" + scene + "/embree_caster", cast<gnomon::embree_caster>, scene);
+        measure("cast/" + scene + "/bvh_caster", cast<sim::bvh_caster>, scene);
+        measure("cast/" + scene + "/embree_caster", cast<sim::embree_caster>, scene);
         measure("cast/" + scene + "/eigen_kdbvh", cast<eigen_caster>, scene);
     }
-    measure("scan/kitchen/noisy", scan, gnomon::beam{.sigma = 0.015});
-    const gnomon::beam_footprint wide{.divergence = gnomon::radians(0.004)};
-    measure("scan/kitchen/skimmed", scan, gnomon::beam{.sigma = 0.015, .footprint = wide});
+    measure("scan/kitchen/noisy", scan, sim::beam{.sigma = 0.015});
+    const sim::beam_footprint wide{.divergence = gnomon::radians(0.004)};
+    measure("scan/kitchen/skimmed", scan, sim::beam{.sigma = 0.015, .footprint = wide});
     benchmark::RunSpecifiedBenchmarks();
     benchmark::Shutdown();
 }

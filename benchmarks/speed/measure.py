@@ -66,6 +66,9 @@ JET = {"CGAL jet": "left out: takes several times as long as the slowest other, 
 SLOW = JET | {"ANN + GSL": "left out: takes twice as long as others, see the kitchen",
               "PCL NormalEstimation": "left out: the same as NormalEstimationOMP on one thread"}
 
+# Libraries of headers alone, which follow the flags of the compiler.
+HEADERS = only(SEARCH, OURS, "nanoflann", "newer nanoflann")
+
 KS = [10, 20, 30, 50]
 TWO_FASTEST = only(NORMALS, OURS, "nanoflann + Eigen", "Open3D")
 NATIVE = ("native",)
@@ -84,6 +87,7 @@ def growing(cloud, sizes, k, rounds):
 FULL = [
     Part("normals", "kitchen", KS, NORMALS, left_out=JET),
     Part("search", "kitchen", KS, SEARCH, rounds=3),
+    Part("search", "kitchen", KS, HEADERS, flags=("v3",), rounds=7),
     Part("clusters", "kitchen", [0.05], CLUSTERS, rounds=3),
     Part("surfaces", "kitchen_preprocessed", [30, 50], SURFACES, rounds=3),
     Part("normals", OFFICE, KS, NORMALS, threads=(1,), rounds=3, left_out=SLOW),
@@ -100,6 +104,7 @@ SMALL = "kitchen_medium"
 QUICK = [
     Part("normals", SMALL, [10, 50], NORMALS, threads=(1,), rounds=2, left_out=JET),
     Part("search", SMALL, [20], SEARCH, threads=(1,), rounds=2),
+    Part("search", SMALL, [20], HEADERS, threads=(1,), flags=("v3",), rounds=2),
     Part("surfaces", SMALL, [30], SURFACES, threads=(1,), rounds=2),
     Part("clusters", SMALL, [0.05], CLUSTERS, threads=(1,), rounds=2),
     *growing(SMALL, [7_200, 28_800], 20, rounds=2),
@@ -162,16 +167,16 @@ def gain(program, setting, part, cloud):
 
 
 def count_instructions(program, job, cloud, reach, times):
-    """Of the whole program, which does the work once and so many times more."""
+    """Of the whole program, which does the work once and `times` times more."""
     valgrind = shutil.which("valgrind")
     if not valgrind:
         raise Refusal("valgrind is not here; benchmarks/peers/install.sh installs it")
-    told = subprocess.run(
+    done = subprocess.run(
         [valgrind, "--tool=callgrind", "--callgrind-out-file=/dev/null", program, job, cloud,
          str(reach), "1"], input="\n" * times, capture_output=True, text=True)
-    found = re.search(r"Collected : (\d+)", told.stderr)
-    if told.returncode != 0 or not found:
-        raise Refusal(f"valgrind failed with status {told.returncode}")
+    found = re.search(r"Collected : (\d+)", done.stderr)
+    if done.returncode != 0 or not found:
+        raise Refusal(f"valgrind failed with status {done.returncode}")
     return int(found.group(1))
 
 

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: BSL-1.0
 """Makes speed.md and speed.png of the speed.json in a folder; see ../peers/tables.py."""
 
-import math
 import pathlib
 import statistics
 import sys
@@ -14,7 +13,8 @@ import tables  # noqa: E402
 from tables import (  # noqa: E402
     GAIN, OURS, busy_text, gamma_known, gamma_text, markdown, section, sections_of, threads_text,
     unique)
-from verdicts import extra_bytes, judged, ours_at, rows_at, table_of  # noqa: E402
+from verdicts import (  # noqa: E402
+    exponent, extra_bytes, judged, ours_at, rows_at, table_of, without_verdict)
 
 INTRODUCTION = """\
 # How fast
@@ -38,6 +38,7 @@ METHOD = """\
 - What is compiled with `-O2` alone may still use better instructions if it asks the processor: so
   does gnomon's search, for AVX2 (with `GNOMON_COMPILED_LANES` it would not); Open3D, PCL and FLANN
   come compiled as packages, Eigen and nanoflann as headers.
+- Compiled for x86-64-v3 (AVX2, without AVX-512): libraries of headers alone, in seven rounds.
 - Search: the k nearest neighbors of all points, sorted by distance, as one list of n times k
   numbers. `knn{}(points, threads{})`; for the others a loop around their search, by OpenMP. Equal
   mean distances to the last neighbor show that the same was found.
@@ -52,7 +53,7 @@ METHOD = """\
     points at least. CGAL: pca_estimate_normals and Region_growing by K_neighbor_query; as its own
     region types would fit a plane or another shape again and again, one that compares normals.
   - Neither PCL, CGAL nor nanoflann's loop grows on several threads.
-- Clusters: `segment_points` (Alg. 4.1), no gap wider than r, every point counts. PCL's
+- Clusters: `euclidean_clusters` (Alg. 4.1), no gap wider than r, every point counts. PCL's
   EuclideanClusterExtraction, Open3D's ClusterDBSCAN where one point is enough for a core, CGAL's
   cluster_point_set, and a loop of one's own by nanoflann's radius search, breadth first. All must
   find the same number of clusters.
@@ -61,11 +62,11 @@ METHOD = """\
   speed; and again, several times over: the table says how many turns count.
 - Memory: how far the resident set rose during the warm-up. Instructions: of the program doing the
   work twice less that of the program doing it once, under `valgrind --tool=callgrind`.
-- A newer nanoflann is measured if CMake is told where: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
+- A newer nanoflann is measured if CMake knows its folder: `GNOMON_NEWER_NANOFLANN_INCLUDE_DIR`.
 
 What was left out, so that all takes less than half an hour: CGAL's jets and, but for the kitchen,
 ANN with GSL and PCL's estimator for one thread, none of which is the fastest anywhere (see
-[peers.md](peers.md)); but for the kitchen, on two threads beside others, normals with another k than
+[peers.md](peers.md)); but for the kitchen, on two threads compared with others, normals with another k than
 30; search and surfaces of the office; clusters of 1,000,000 points; and of 10,000,000 points all but
 normals, k = 20, for this processor, by the two peers that are the fastest on fewer. Those are measured
 in one round.
@@ -116,8 +117,9 @@ def memory_section(rows):
     """Bytes for a point of every library, at the largest k on one thread and the first flags."""
     parts = ["## Memory of normals\n",
              "Bytes for each point: what the result itself takes (gnomon's holds trust, spectrum "
-             "and mean\ndistance beside each normal; CGAL writes into the cloud), and what was "
-             "needed beside it and the cloud.\nThe whole process has libraries and cloud, too.\n"]
+             "and mean\ndistance for each normal; CGAL writes into the cloud), and what was "
+             "needed in addition to it and the cloud.\nThe whole process has libraries and cloud, "
+             "too.\n"]
     lines = []
     for own in sections_of(rows_at(rows, task="normals")):
         flags, k = own[-1]["flags"], max(row["k"] for row in own)
@@ -126,16 +128,11 @@ def memory_section(rows):
                 lines.append([tables.version_text(row), f"{row['points']:,}", str(k),
                               f"{row['result_bytes'] / row['points']:.0f}",
                               f"{extra_bytes(row):.0f}", f"{row['process_bytes'] / 1e6:,.0f} MB"])
-    parts.append(markdown(["library", "points", "k", "result", "beside it", "whole process"], lines))
+    parts.append(markdown(["library", "points", "k", "result", "in addition", "whole process"], lines))
     return "\n".join(parts)
 
 
 # ---- Scaling ------------------------------------------------------------------------------------
-
-def exponent(pairs):
-    """p of y = c x^p, by least squares of logarithms."""
-    return statistics.linear_regression(*zip(*((math.log(x), math.log(y)) for x, y in pairs))).slope
-
 
 def growth(library, along, rows, key):
     """A line of the table: how the time of some rows grows with one of their numbers."""
@@ -176,12 +173,12 @@ GAINS = """\
 ## Two threads
 
 How many times as long gnomon takes on one thread as on two for normals: medians, and the least and
-greatest ratio of any turn. Beside it what the two cores are worth at that time: how much two programs
+greatest ratio of any turn; and what the two cores are worth at that time: how much two programs
 of one thread each, side by side, get done in the time of one alone. More than this no program can
 gain; on a machine that is shared with others it is not always 2.
 
 What is lost: the first levels of the tree have too few parts to share, one thread makes the room for
-the results, and the second is started anew by each call, though only once.
+the results, and the second is started again by each call, though only once.
 """
 
 
@@ -201,7 +198,7 @@ def gains_section(rows):
 def instructions_section(rows):
     counted = [row for row in rows if "instructions" in row]
     if not any(row["instructions"] for row in counted):
-        why = counted[0]["note"] if counted else "they were not asked for"
+        why = counted[0]["note"] if counted else "no row has them"
         return f"## Instructions\n\nNot counted: {why}.\n"
     first = next(row for row in counted if row["instructions"])
     parts = ["## Instructions\n",
@@ -219,8 +216,8 @@ def instructions_section(rows):
 LIMIT = """\
 ## How far from the limit
 
-A neighborhood of k points takes k distances at least, and nobody knows beforehand which: what is
-nearby has to be looked at. And each point must be read (24 bytes), copied into the tree (28 bytes
+A neighborhood of k points takes k distances at least, and it is not known beforehand which: all
+nearby points are candidates. And each point must be read (24 bytes), copied into the tree (28 bytes
 written and read again) and its result written ({result:.0f} bytes). Normals of {points:,} points, one
 thread, `{flags}`:
 """
@@ -266,6 +263,8 @@ def limit_section(rows):
 
 def verdicts_section(rows):
     verdicts = judged(rows)
+    if without_verdict(rows):
+        sys.exit(f"no verdict for {', '.join(sorted(without_verdict(rows)))}: see verdicts.py")
     known = [v for v in verdicts if v["holds"] is not None]
     held = sum(v["holds"] for v in known)
     unknown = len(verdicts) - len(known)
@@ -282,7 +281,7 @@ def page(rows):
     sections = [section(own, times=("Nanoseconds for each point", time_text), extras=EXTRAS)
                 for own in sections_of(timed)]
     gains = [row for row in rows if is_gain(row)]
-    return "\n".join([head, verdicts_section(timed + gains), *sections, gains_section(gains),
+    return "\n".join([head, verdicts_section(rows), *sections, gains_section(gains),
                       memory_section(timed), scaling_section(rows), instructions_section(rows),
                       limit_section(rows), METHOD])
 

@@ -50,7 +50,7 @@ inline Eigen::Vector3d vector_of(const std::string& option, std::string_view tex
     Eigen::Vector3d v;
     for (int i = 0; i < 3; ++i) {
         const std::size_t comma = text.find(',');
-        if ((comma == text.npos) != (i == 2)) throw usage_error(option + ": wants X,Y,Z");
+        if ((comma == text.npos) != (i == 2)) throw usage_error(option + ": requires X,Y,Z");
         v[i] = number_within(option, text.substr(0, comma), -1e9, 1e9, "within 1e9 m");
         if (i < 2) text.remove_prefix(comma + 1);
     }
@@ -63,7 +63,7 @@ inline std::uint64_t seed_of(const std::string& option, std::string_view text) {
     return number_within<std::uint64_t>(option, text, 0, last, "0 or more");
 }
 
-/// An option, whether a value follows it, and what becomes of it.
+/// An option: its name, whether a value follows, and the function that stores it.
 template <class Options>
 struct option {
     const char* name;
@@ -72,9 +72,9 @@ struct option {
 };
 
 /// Reads the words of the command line; values come as `--name VALUE` or `--name=VALUE`.
-/// @param positional  what becomes of a word that is no option
+/// @param positional  stores an argument that is no option
 /// @return nothing if the user asked for help
-/// @throws usage_error  if there is a word that makes no sense, or nothing said where to write
+/// @throws usage_error  for an argument that is not understood, or without a directory to write to
 template <class Options>
 std::optional<Options> options_from(const std::vector<std::string>& words,
                                     std::span<const option<Options>> known,

@@ -17,8 +17,8 @@
 /// The directory that a program writes its files into.
 class output_directory {
   public:
-    /// Makes it if it is missing. Tries whether each of the `files` could be written, and leaves
-    /// nothing of the trial behind: nobody shall wait for results that cannot be kept.
+    /// Creates it if it is missing, and tests that each of the `files` can be written, so that a
+    /// program fails before its computation and not after it. The test leaves no files.
     /// @throws gnomon::error  with the system's reason
     output_directory(std::string path, std::vector<std::string> files)
         : path_(std::move(path)), files_(std::move(files)) {

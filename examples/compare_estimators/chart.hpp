@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How does one see so many methods at once? A row for each, and in every row four bars.
+/// A chart of all methods: a row for each, with four bars.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +14,7 @@
 #include "picture/image.hpp"
 #include "picture/palette.hpp"
 
-/// What is known of one method.
+/// The results of one method.
 struct row {
     std::string name;
     double gamma;                 ///< 0 to 1

@@ -22,7 +22,7 @@ namespace picture {
 /// The points as they are drawn: those that are finite and were not left out.
 template <class Estimate>
 [[nodiscard]] std::vector<splat> splats_of(const gnomon::scan& scan,
-                                           const gnomon::perceived<Estimate>& seen) {
+                                           const gnomon::perception_result<Estimate>& seen) {
     std::vector<splat> splats;
     for (const gnomon::point_index i : seen.kept) {
         if (!gnomon::is_finite(scan.points[i])) continue;
@@ -36,7 +36,7 @@ template <class Estimate>
     return splats;
 }
 
-/// What to say of segments: label and number of points.
+/// Legend of segments: label and number of points.
 [[nodiscard]] inline std::vector<std::string> sizes_of(const gnomon::segments& segments) {
     std::vector<std::string> sizes;
     for (std::size_t label = 0; label < segments.size(); ++label)
@@ -47,8 +47,8 @@ template <class Estimate>
 /// The boundary pairs of the gaps that were closed, and of those that were not.
 template <class Estimate>
 [[nodiscard]] annotation gaps_of(const gnomon::scan& scan,
-                                 const gnomon::perceived<Estimate>& seen) {
-    constexpr color closed{0, 0, 0}, open{235, 0, 235};  // of no segment
+                                 const gnomon::perception_result<Estimate>& seen) {
+    constexpr color closed{0, 0, 0}, open{235, 0, 235};  // not in the palette of segments
     annotation lines;
     std::size_t merged = 0;
     for (const gnomon::considered_gap& gap : seen.gaps) {

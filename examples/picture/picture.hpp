@@ -26,12 +26,12 @@ namespace picture {
     return digits;
 }
 
-/// What there is to say: "1 point", "2 points".
+/// A number with its unit: "1 point", "2 points".
 [[nodiscard]] inline std::string counted(std::size_t n, const std::string& thing) {
     return with_commas(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// Lines over a picture, and what to say of them, by color.
+/// Lines over a picture, and their legend by color.
 struct annotation {
     std::vector<stroke> strokes;
     std::vector<std::pair<color, std::string>> legend;
@@ -39,7 +39,7 @@ struct annotation {
 
 /// The picture of a scan in groups.
 /// @param splats     its finite points
-/// @param legend     what to say of the groups, by label
+/// @param legend     texts for the groups, by label
 /// @param group      what a group is called
 /// @param viewpoint  where the sensor stood [m]
 /// @param up         against gravity; guessed if not known

@@ -28,7 +28,7 @@ struct view {
     backs back = backs::shown;
 };
 
-/// What the choice of a view needs to know of a scan.
+/// The properties of a scan that the choice of a view depends on.
 class scene {
   public:
     /// @param viewpoint  where the sensor stood [m]

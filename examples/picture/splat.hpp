@@ -45,7 +45,7 @@ class canvas {
         : colors_(width, height),
           depth_(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), far_away) {}
 
-    /// Draws one splat as `from` sees it; those of no segment small.
+    /// Draws one splat as `from` sees it; those of unlabeled points are small.
     void draw(const splat& s, const camera& from) {
         const Eigen::Vector3d q = from.project(s.position);
         if (!(q.z() > 0.0) || !(std::abs(q.x()) < 1e6) || !(std::abs(q.y()) < 1e6)) return;

@@ -19,18 +19,18 @@
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]
 
-Segments SCAN (PLY, PCD, VTK or text) into smooth surfaces, and merges those that
-are one behind something; without SCAN, a simulated kitchen. Writes normals.ply,
-segments.ply, segments.png and segments.json into DIR.
+Segments SCAN (PLY, PCD, VTK or text; coordinates in metres) into smooth surfaces,
+and merges surfaces that something occludes in part; without SCAN, a simulated
+kitchen. Writes normals.ply, segments.ply, segments.png and segments.json into DIR.
 
   --k N               neighbors per point (50)
   --max-angle DEG     largest angle between normals of neighbors (5)
-  --max-distance M    no link between points is longer (0.30)
-  --min-points N      smaller segments are noise (30)
-  --merge POLICY      conservative: where something closer was seen in the gap (default);
-                      liberal: unless something farther was seen; or none
-  --sigma M           standard deviation of ranges, for merging and stray points (0.015)
-  --viewpoint X,Y,Z   where the sensor stood (what SCAN says, else 0,0,0)
+  --max-distance M    largest distance between adjacent points (0.30)
+  --min-points N      smaller segments are discarded (30)
+  --merge POLICY      conservative: where the gap is occluded (default);
+                      liberal: unless the gap is free space; or none
+  --sigma M           standard deviation of ranges, for merging and unlabeled points (0.015)
+  --viewpoint X,Y,Z   position of the sensor (from SCAN, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
   --threads N         0 for all there are (0)
@@ -41,10 +41,10 @@ struct options {
     std::string scan;  ///< path, or empty for the simulated kitchen
     std::string out;
     gnomon::knn neighborhood{.ties = gnomon::tie_rule::all};
-    gnomon::surface_segmentation segmentation;
+    gnomon::segment_surfaces_options segmentation;
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<Eigen::Vector3d> up;  ///< unit length
-    std::variant<gnomon::conservative, gnomon::liberal, gnomon::unmerged> merge;
+    std::variant<gnomon::conservative, gnomon::liberal, gnomon::no_merging> merge;
     double sigma = 0.015;  ///< [m]
     bool remove_floor = false;
     gnomon::threads threads;
@@ -79,7 +79,7 @@ inline constexpr option<options> known_options[] = {
          else if (value == "liberal")
              o.merge = gnomon::liberal{};
          else if (value == "none")
-             o.merge = gnomon::unmerged{};
+             o.merge = gnomon::no_merging{};
          else
              throw usage_error(name + ": '" + value + "' is not conservative, liberal or none");
      }},

@@ -15,6 +15,8 @@
 #include <gnomon/core.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 inline constexpr const char* usage =
     R"(usage: simulate_scan --out DIR [options]
 
@@ -43,8 +45,8 @@ struct options {
     std::string scene = "kitchen";  ///< a name, or the path of a mesh file
     std::string out;
     trajectory_kind trajectory = trajectory_kind::rotational;
-    gnomon::scanner finder;
-    gnomon::beam beam{.sigma = 0.015};
+    sim::scanner finder;
+    sim::beam beam{.sigma = 0.015};
     std::optional<Eigen::Vector3d> sensor;
     std::optional<gnomon::angle> yaw;
     std::optional<gnomon::angle> pitch;
@@ -86,10 +88,10 @@ inline const option<options> known_options[] = {
      }},
     {"--density", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.finder = chosen<gnomon::scanner>(name, value,
-                                            {{"low", gnomon::densities::low()},
-                                             {"medium", gnomon::densities::medium()},
-                                             {"high", gnomon::densities::high()}});
+         o.finder = chosen<sim::scanner>(name, value,
+                                         {{"low", sim::densities::low()},
+                                          {"medium", sim::densities::medium()},
+                                          {"high", sim::densities::high()}});
      }},
     {"--sigma", true,
      [](options& o, const std::string& name, const std::string& value) {

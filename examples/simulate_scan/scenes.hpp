@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What is there to scan? The scenes by their names, and mesh files where Assimp is at hand.
+/// The scenes by their names, and mesh files where Assimp is available.
 #pragma once
 
 #include <map>
@@ -17,12 +17,12 @@
 namespace detail {
 
 /// The scene of a mesh file, the sensor in its middle.
-inline gnomon::scene scene_in_file(const std::string& path) {
+inline sim::scene scene_in_file(const std::string& path) {
 #ifdef GNOMON_EXAMPLES_ASSIMP
-    gnomon::scene world = gnomon::read_scene(path);
-    const gnomon::bounds extent = world.extent();
-    world.sensor = gnomon::at(extent.middle().x(), extent.middle().y(), extent.low.z() + 1.2) *
-                   gnomon::pitch(gnomon::degrees(10));
+    sim::scene world = sim::read_scene(path);
+    const sim::bounds extent = world.extent();
+    world.sensor = sim::at(extent.middle().x(), extent.middle().y(), extent.low.z() + 1.2) *
+                   sim::pitch(gnomon::degrees(10));
     return world;
 #else
     throw usage_error("--scene " + path +
@@ -36,26 +36,25 @@ inline gnomon::scene scene_in_file(const std::string& path) {
 /// The scene that the options name, with the sensor where they want it.
 /// @throws usage_error    for a name that is neither a scene nor a file
 /// @throws gnomon::error  for a mesh file that cannot be read
-inline gnomon::scene scene_of(const options& o) {
-    static const std::map<std::string, gnomon::scene (*)(const options&)> scenes{
-        {"kitchen", [](const options&) { return gnomon::scenes::kitchen(); }},
-        {"living_room", [](const options&) { return gnomon::scenes::living_room(); }},
-        {"box_and_cylinder", [](const options&) { return gnomon::scenes::box_and_cylinder(); }},
-        {"boxes_and_bin", [](const options&) { return gnomon::scenes::boxes_and_bin(); }},
-        {"two_chairs", [](const options&) { return gnomon::scenes::two_chairs(); }},
-        {"seat_armchair_table",
-         [](const options&) { return gnomon::scenes::seat_armchair_table(); }},
+inline sim::scene scene_of(const options& o) {
+    static const std::map<std::string, sim::scene (*)(const options&)> scenes{
+        {"kitchen", [](const options&) { return sim::scenes::kitchen(); }},
+        {"living_room", [](const options&) { return sim::scenes::living_room(); }},
+        {"box_and_cylinder", [](const options&) { return sim::scenes::box_and_cylinder(); }},
+        {"boxes_and_bin", [](const options&) { return sim::scenes::boxes_and_bin(); }},
+        {"two_chairs", [](const options&) { return sim::scenes::two_chairs(); }},
+        {"seat_armchair_table", [](const options&) { return sim::scenes::seat_armchair_table(); }},
         {"furnished_room", [](const options& with) {
-             return gnomon::scenes::furnished_room({.seed = with.beam.seed});
+             return sim::scenes::furnished_room({.seed = with.beam.seed});
          }}};
     const auto known = scenes.find(o.scene);
     if (known == scenes.end() && o.scene.find('.') == std::string::npos)
         throw usage_error("--scene: '" + o.scene + "' is neither a scene nor the name of a file");
 
-    gnomon::scene world = known != scenes.end() ? known->second(o) : detail::scene_in_file(o.scene);
+    sim::scene world = known != scenes.end() ? known->second(o) : detail::scene_in_file(o.scene);
     const Eigen::Vector3d place = o.sensor.value_or(world.sensor.position);
-    if (o.pitch) world.sensor = gnomon::pitch(*o.pitch);
-    world.sensor = gnomon::yaw(o.yaw.value_or(gnomon::angle{})) * world.sensor;
+    if (o.pitch) world.sensor = sim::pitch(*o.pitch);
+    world.sensor = sim::yaw(o.yaw.value_or(gnomon::angle{})) * world.sensor;
     world.sensor.position = place;
     return world;
 }

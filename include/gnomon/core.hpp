@@ -13,12 +13,9 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/scan.hpp>
-#include <gnomon/core/small_svd.hpp>
 #include <gnomon/core/spectrum.hpp>
-#include <gnomon/core/square_array.hpp>
 #include <gnomon/core/strided_view.hpp>
 #include <gnomon/core/subset_view.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/supervised.hpp>
 #include <gnomon/core/trust.hpp>
-#include <gnomon/core/union_find.hpp>
 #include <gnomon/core/viewpoints.hpp>

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// gnomon: range scans into meaning. The table of contents, floor by floor: each header sees its
-/// own floor and those above it in this list, except that io stands beside the tower and sees core
-/// alone. So does the simulator, which robots do without: <gnomon/simulation.hpp>. The roof, all
-/// floors in one call, is included by name: <gnomon/perception.hpp>.
+/// All floors of gnomon in their order: each header includes only headers of its own floor and of
+/// the floors above it in this list; io includes only core. The chain of all steps,
+/// <gnomon/perception.hpp>, and the simulator, <gnomon/simulation.hpp>, are included by name.
 #pragma once
 
 #include <gnomon/version.hpp>

@@ -3,7 +3,6 @@
 /// What the surface is at a point. normals/registry.hpp stays outside, as it needs Boost.Hana.
 #pragma once
 
-#include <gnomon/normals/anisotropy.hpp>
 #include <gnomon/normals/averaging.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/estimator.hpp>
@@ -24,8 +23,10 @@
 #include <gnomon/normals/quad_svd.hpp>
 #include <gnomon/normals/quad_trans_svd.hpp>
 #include <gnomon/normals/ray_ls.hpp>
+#include <gnomon/normals/repair_anisotropic.hpp>
 #include <gnomon/normals/robust_pca.hpp>
 #include <gnomon/normals/sample_consensus.hpp>
+#include <gnomon/normals/surfel.hpp>
 #include <gnomon/normals/vector_pca.hpp>
 #include <gnomon/normals/vector_svd.hpp>
 #include <gnomon/normals/weighted_pca.hpp>

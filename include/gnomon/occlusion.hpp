@@ -5,10 +5,9 @@
 #pragma once
 
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/lines_of_sight.hpp>
 #include <gnomon/occlusion/literal_merging.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/ray_spacing.hpp>
-#include <gnomon/occlusion/segment_distances.hpp>
+#include <gnomon/occlusion/visibility.hpp>

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Worlds to scan, and the truth about the scans. Not in gnomon.hpp: it is for tests, benchmarks
-/// and training, and would cost every robot compile time.
+/// The simulator, namespace gnomon::simulation: scenes, range finders, and scans with ground truth.
+/// It is not part of gnomon.hpp: tests, benchmarks and training need it, and it would lengthen
+/// every other compilation.
 #pragma once
 
 #include <gnomon/simulation/beam.hpp>

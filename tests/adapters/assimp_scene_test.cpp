@@ -15,6 +15,8 @@
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/simulate.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 std::string written(const std::string& name, const std::string& text) {
@@ -37,14 +39,14 @@ const std::string two_groups =
 
 TEST(assimp_scene, keeps_the_names_of_groups) {
     const std::string path = written("chair.obj", two_groups);
-    const auto room = gnomon::read_scene(path);
+    const auto room = sim::read_scene(path);
     EXPECT_EQ(room.objects(), (std::vector<std::string>{"seat", "leg"}));
     EXPECT_EQ(room.surface_name(1), "leg/body/mesh");
-    const auto chair = gnomon::read_scene(path, gnomon::mesh_groups::parts);
+    const auto chair = sim::read_scene(path, sim::mesh_groups::parts);
     EXPECT_EQ(chair.objects(), (std::vector<std::string>{"assimp_scene_chair"}));
     EXPECT_EQ(chair.surface_name(0), "assimp_scene_chair/seat/mesh");
     EXPECT_EQ(chair.surface_name(1), "assimp_scene_chair/leg/mesh");
-    const auto hit = gnomon::bvh_caster(chair)({{0.9, 0.8, 3}, {0, 0, -1}});  // the quad's half
+    const auto hit = sim::bvh_caster(chair)({{0.9, 0.8, 3}, {0, 0, -1}});  // the quad's half
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->range, 2.0);
     EXPECT_EQ(hit->surface, 1);
@@ -56,9 +58,9 @@ TEST(assimp_scene, keeps_groups_of_several_materials_together) {
         "chair.obj",
         "o chair\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nusemtl wood\nf 1 2 3\n"
         "usemtl steel\nf 4 5 6\no floor\nv 0 0 -1\nv 1 0 -1\nv 0 1 -1\nusemtl wood\nf 7 8 9\n");
-    const auto room = gnomon::read_scene(path);
+    const auto room = sim::read_scene(path);
     EXPECT_EQ(room.objects(), (std::vector<std::string>{"chair", "floor"}));
-    const gnomon::bvh_caster caster(room);
+    const sim::bvh_caster caster(room);
     for (const double height : {3.0, 0.5, -0.5}) {
         const auto hit = caster({{0.2, 0.2, height}, {0, 0, -1}});
         ASSERT_TRUE(hit);
@@ -67,7 +69,8 @@ TEST(assimp_scene, keeps_groups_of_several_materials_together) {
     }
 }
 
-/// COLLADA tells its unit and which axis points up: metres, and the file's own axes.
+/// COLLADA files declare a unit and an up axis: coordinates are read in metres, along the axes of
+/// the file.
 TEST(assimp_scene, reads_collada_in_metres_and_its_own_axes) {
     const std::string path = written("plate.dae", R"(<?xml version="1.0"?>
 <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
@@ -81,13 +84,13 @@ TEST(assimp_scene, reads_collada_in_metres_and_its_own_axes) {
 </mesh></geometry></library_geometries>
 <library_visual_scenes><visual_scene id="s"><node id="n"><instance_geometry url="#g"/></node>
 </visual_scene></library_visual_scenes><scene><instance_visual_scene url="#s"/></scene></COLLADA>)");
-    const auto extent = gnomon::read_scene(path).extent();
+    const auto extent = sim::read_scene(path).extent();
     EXPECT_LT((extent.low - Eigen::Vector3d(0, 0, 0.05)).norm(), 1e-6);
     EXPECT_LT((extent.high - Eigen::Vector3d(1, 2, 0.05)).norm(), 1e-6);
 }
 
 TEST(assimp_scene, refuses_missing_and_broken_files) {
-    EXPECT_THROW((void)gnomon::read_scene("no/such/file.obj"), gnomon::error);
+    EXPECT_THROW((void)sim::read_scene("no/such/file.obj"), gnomon::error);
     for (const auto& [name, text] : std::vector<std::pair<std::string, std::string>>{
              {"empty.obj", ""},
              {"index.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"},
@@ -101,7 +104,7 @@ TEST(assimp_scene, refuses_missing_and_broken_files) {
               "ELF\x02\x01\x01\xff\xfe\x00\x01 f 1 2 3 4 5 6 7 8 9"}}) {
         const std::string path = written(name, text);
         try {
-            (void)gnomon::read_scene(path);
+            (void)sim::read_scene(path);
             ADD_FAILURE() << name;
         } catch (const gnomon::error& e) {
             EXPECT_EQ(e.file(), path);
@@ -116,16 +119,15 @@ TEST(assimp_scene, every_piece_of_furniture_can_be_scanned) {
     for (const char* folder : {"furniture", "normals_truth"}) {
         for (const auto& entry : std::filesystem::directory_iterator(shared_file(folder))) {
             SCOPED_TRACE(entry.path().filename());
-            const auto world =
-                gnomon::read_scene(entry.path().string(), gnomon::mesh_groups::parts);
+            const auto world = sim::read_scene(entry.path().string(), sim::mesh_groups::parts);
             EXPECT_EQ(world.objects(), std::vector<std::string>{entry.path().stem().string()});
             const auto extent = world.extent();
             const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
             const double size = (extent.high - extent.low).norm();
-            gnomon::pose mount = gnomon::pitch(gnomon::degrees(20));
+            sim::pose mount = sim::pitch(gnomon::degrees(20));
             mount.position = middle - 1.5 * size * mount.direction_out({1, 0, 0});
-            const auto truth = gnomon::simulate(
-                world, gnomon::vertical{.mount = mount},
+            const auto truth = sim::simulate(
+                world, sim::vertical{.mount = mount},
                 {.resolution = gnomon::degrees(0.5), .min_range = 0.0, .max_range = 1e4});
             EXPECT_GT(truth.scan.size(), 300u);
             ++files;
@@ -140,12 +142,12 @@ TEST(assimp_scene, rooms_can_be_scanned) {
     for (const auto& [file, objects, door] :
          {std::tuple{"aws_house_kitchen_dining.obj", 20u, "Refrigerator_01_001"},
           {"aws_house_living_room.obj", 30u, "AirconditionerB_01_001"}}) {
-        const auto world = gnomon::read_scene(shared_file(std::string("scenes/") + file));
+        const auto world = sim::read_scene(shared_file(std::string("scenes/") + file));
         EXPECT_EQ(world.objects().size(), objects);
         EXPECT_NE(std::find(world.objects().begin(), world.objects().end(), door),
                   world.objects().end());
-        const gnomon::bvh_caster exact(world);
-        const gnomon::embree_caster embree(world);
+        const sim::bvh_caster exact(world);
+        const sim::embree_caster embree(world);
         gnomon::random_stream random(1);
         const auto extent = world.extent();
         std::size_t hits = 0;

@@ -7,7 +7,7 @@
 
 #include <gnomon/core/angle.hpp>
 
-TEST(angle, knows_its_unit) {
+TEST(angle, has_units) {
     EXPECT_DOUBLE_EQ(gnomon::degrees(180).radians(), std::numbers::pi);
     EXPECT_DOUBLE_EQ(gnomon::radians(std::numbers::pi / 2).degrees(), 90.0);
     EXPECT_LT(gnomon::degrees(5), gnomon::radians(1));
@@ -16,7 +16,7 @@ TEST(angle, knows_its_unit) {
     EXPECT_EQ(gnomon::angle{}, gnomon::radians(0));
 }
 
-TEST(angle, is_not_made_of_a_bare_number) {
+TEST(angle, is_not_constructible_from_a_number) {
     static_assert(!std::convertible_to<double, gnomon::angle>);
     static_assert(!std::is_constructible_v<gnomon::angle, double>);
 }

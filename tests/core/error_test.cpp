@@ -6,7 +6,7 @@
 
 #include <gnomon/core/error.hpp>
 
-TEST(error, tells_file_position_and_reason) {
+TEST(error, reports_file_position_and_reason) {
     const gnomon::error e("scan.pcd", "line 12", "not a number");
     EXPECT_EQ(e.file(), "scan.pcd");
     EXPECT_EQ(e.position(), "line 12");

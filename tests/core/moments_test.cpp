@@ -50,4 +50,15 @@ TEST(moments, of_some_are_those_of_all_less_the_others) {
     }
 }
 
+TEST(moments, about_a_point_are_those_of_the_offsets) {
+    const clouds::cloud points = clouds::in_cube(30, 1);
+    const Eigen::Vector3d p(0.5, -0.25, 1.0);
+    gnomon::moments m;
+    for (const auto& q : points) m.add(q - p);
+    const auto about = gnomon::moments::about(p, points);
+    EXPECT_EQ(about.count, m.count);
+    EXPECT_EQ(about.sum, m.sum);
+    EXPECT_EQ(about.outer, m.outer);
+}
+
 }  // namespace

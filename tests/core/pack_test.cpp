@@ -57,9 +57,13 @@ TEST(pack, gathers_from_places) {
 }
 
 TEST(pack, clamps_each) {
-    const std::array<double, pack::size> a{-unbounded, -2.0, -0.5, 0.0, 0.25, 0.5, 1.0, unbounded};
-    const pack clamped = clamp(pack(a.data()), -0.5, 0.5);
-    for (std::size_t l = 0; l < pack::size; ++l) EXPECT_EQ(clamped[l], std::clamp(a[l], -0.5, 0.5));
+    for (const double x : {-unbounded, -2.0, -0.5, 0.0, 0.25, 0.5, 1.0, unbounded}) {
+        std::array<double, pack::size> a{};
+        a.back() = x;
+        const pack clamped = clamp(pack(a.data()), -0.5, 0.5);
+        for (std::size_t l = 0; l < pack::size; ++l)
+            EXPECT_EQ(clamped[l], std::clamp(a[l], -0.5, 0.5));
+    }
 }
 
 }  // namespace

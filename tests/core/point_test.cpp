@@ -42,7 +42,7 @@ static_assert(point<decltype(std::declval<Eigen::Matrix3Xd&>().col(0))>);
 static_assert(point<Eigen::Map<Eigen::Vector3f>>);
 static_assert(!point<std::array<int, 3>> && !point<std::array<double, 2>>);
 
-TEST(point, position_is_the_same_through_every_door) {
+TEST(point, position_is_the_same_through_every_interface) {
     const Eigen::Vector3d expected(1.5, -2.25, 3.0);
     EXPECT_EQ(gnomon::position(expected), expected);
     EXPECT_EQ(gnomon::position(Eigen::Vector3f(1.5f, -2.25f, 3.0f)), expected);

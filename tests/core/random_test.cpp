@@ -8,7 +8,7 @@
 
 namespace {
 
-/// The value was computed from the formulas in another language.
+/// The expected values were computed from the formulas in another programming language.
 TEST(random_stream, is_the_same_on_every_platform) {
     EXPECT_EQ(gnomon::random_stream(42, 7).bits(), 4191941099297208311u);
 }
@@ -21,7 +21,7 @@ TEST(random_stream, differs_by_seed_and_by_stream) {
     EXPECT_EQ(first, again.bits());
 }
 
-/// Mean and variance over the first draws of many streams, as a scanner uses them.
+/// Mean and variance over the first numbers of many streams, as the simulated scanner uses them.
 TEST(random_stream, has_the_moments_of_its_distributions_across_streams) {
     constexpr int n = 200'000;
     double u1 = 0, u2 = 0, g1 = 0, g2 = 0, g4 = 0;

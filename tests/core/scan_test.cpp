@@ -4,7 +4,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/scan.hpp>
 
-TEST(scan, is_a_point_range_that_knows_its_view_points) {
+TEST(scan, is_a_point_range_with_view_points) {
     static_assert(gnomon::point_range<gnomon::scan> && gnomon::has_viewpoints<gnomon::scan>);
     gnomon::scan scan;
     scan.points = {{1, 2, 3}, {4, 5, 6}};

@@ -9,13 +9,14 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include <gnomon/core/detail/jacobi_eigen.hpp>
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/separated_eigen.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 
 namespace {
 
-using gnomon::eigen_decomposition;
+using gnomon::detail::eigen_decomposition;
 using gnomon::detail::is_accurate, gnomon::detail::pack;
 
 template <class T>
@@ -23,7 +24,7 @@ using symmetric = gnomon::detail::symmetric_3x3<T>;
 template <class T>
 using separated = gnomon::detail::separated_eigen<T>;
 
-/// Of trace one, its eigenvalues in any ratio: from balls to sheets and needles.
+/// A matrix of trace one with eigenvalues in any ratio: isotropic, planar or linear.
 Eigen::Matrix3d any_matrix(std::uint64_t seed) {
     gnomon::random_stream random(seed, 4);
     const Eigen::Vector3d values(1.0, std::pow(10.0, -4.0 * random.uniform()),
@@ -38,7 +39,7 @@ symmetric<double> packed(const Eigen::Matrix3d& a) {
     return {a(0, 0), a(1, 1), a(2, 2), a(1, 0), a(2, 0), a(2, 1)};
 }
 
-/// Lane l of what a pack gave.
+/// Lane l of the decomposition of a pack.
 struct lane_of {
     eigen_decomposition e;
     double squared_residual;
@@ -52,7 +53,7 @@ struct lane_of {
     }
 };
 
-/// Eight at once: the matrix in lane l, and another in the others.
+/// Decomposes eight matrices at once: `a` in lane l, and `other` in the other lanes.
 separated<pack> found_among(const Eigen::Matrix3d& a, std::size_t l, const Eigen::Matrix3d& other) {
     std::array<std::array<double, pack::size>, 6> all;
     for (std::size_t at = 0; at < pack::size; ++at) {
@@ -73,7 +74,7 @@ eigen_decomposition found_alone(const separated<double>& found) {
     return e;
 }
 
-/// Eigenvalues to the last digits, eigenvectors to as many as their gaps leave.
+/// Eigenvalues are accurate to rounding, eigenvectors to rounding divided by their gap.
 void expect_decomposes(const Eigen::Matrix3d& a, const eigen_decomposition& e) {
     using matrix = Eigen::Matrix<long double, 3, 3>;
     const Eigen::SelfAdjointEigenSolver<matrix> truth(a.cast<long double>());
@@ -89,8 +90,8 @@ void expect_decomposes(const Eigen::Matrix3d& a, const eigen_decomposition& e) {
     }
 }
 
-/// Alone or as one of eight, whatever the others are.
-TEST(separated_eigen, is_as_good_as_long_double_says) {
+/// A single matrix and a lane of a pack have the same accuracy.
+TEST(separated_eigen, matches_long_double) {
     int alone_accepted = 0, in_pack_accepted = 0;
     for (std::uint64_t seed = 0; seed < 20'000; ++seed) {
         const Eigen::Matrix3d a = any_matrix(seed);
@@ -106,13 +107,13 @@ TEST(separated_eigen, is_as_good_as_long_double_says) {
             expect_decomposes(a, in_pack.e);
         }
     }
-    // A pack, which always does the same steps, leaves very elongated ones to rotations.
+    // A pack has fewer rounds and rejects very elongated neighborhoods, which take rotations.
     EXPECT_GT(alone_accepted, 12'000);
     EXPECT_GT(in_pack_accepted, 8000);
     EXPECT_LT(alone_accepted, 20'000);
 }
 
-/// Lanes share nothing, not even with NaN beside them.
+/// The result of a lane does not depend on the other lanes, not even if they are NaN.
 TEST(separated_eigen, of_a_lane_does_not_depend_on_the_others) {
     const Eigen::Matrix3d a = any_matrix(7);
     const lane_of expected(found_among(a, 0, a), 0);
@@ -129,7 +130,8 @@ TEST(separated_eigen, of_a_lane_does_not_depend_on_the_others) {
     }
 }
 
-/// Whose smallest eigenvalue does not stand apart, and what is no matrix of second moments at all.
+/// Matrices whose smallest eigenvalue is not well separated, and matrices that are no second
+/// moments.
 TEST(separated_eigen, is_refused_where_rotations_are_needed) {
     const double infinity = std::numeric_limits<double>::infinity();
     Eigen::Matrix3d with_nan = any_matrix(1), with_infinity = any_matrix(2);
@@ -156,16 +158,16 @@ TEST(separated_eigen, is_refused_where_rotations_are_needed) {
         EXPECT_FALSE(gnomon::detail::has_scale(trace));
 }
 
-/// The faster way and the rotations, at any scale that they are used at.
+/// The fast path agrees with Jacobi rotations at every scale.
 TEST(separated_eigen, agrees_with_rotations) {
     for (std::uint64_t seed = 0; seed < 3000; ++seed) {
         const double scale = std::pow(10.0, double(seed % 581) - 290.0);
         const Eigen::Matrix3d a = scale * any_matrix(seed);
-        const auto e = gnomon::symmetric_eigen(a);
-        gnomon::square_array<3> rows;
+        const auto e = gnomon::detail::symmetric_eigen(a);
+        gnomon::detail::square_array<3> rows;
         for (std::size_t i = 0; i < 3; ++i)
             for (std::size_t j = 0; j < 3; ++j) rows[i][j] = a(Eigen::Index(i), Eigen::Index(j));
-        const auto rotated = gnomon::symmetric_eigen<3>(rows);
+        const auto rotated = gnomon::detail::jacobi_eigen<3>(rows);
         for (int i = 0; i < 3; ++i)
             ASSERT_NEAR(e.values[i] / scale, rotated.values[std::size_t(i)] / scale, 2e-15);
     }

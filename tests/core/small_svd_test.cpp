@@ -7,14 +7,14 @@
 #include <Eigen/SVD>
 #include <gtest/gtest.h>
 
+#include <gnomon/core/detail/small_svd.hpp>
 #include <gnomon/core/random.hpp>
-#include <gnomon/core/small_svd.hpp>
 
 namespace {
 
 using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
-/// Any number of rows, of columns that differ in size by many orders of magnitude.
+/// A random matrix whose columns differ in size by up to six orders of magnitude.
 template <std::size_t N>
 matrix random_rows(std::uint64_t seed, Eigen::Index rows) {
     gnomon::random_stream random(seed);
@@ -27,8 +27,8 @@ matrix random_rows(std::uint64_t seed, Eigen::Index rows) {
 }
 
 template <std::size_t N>
-gnomon::square_array<N> triangle_of(const matrix& m) {
-    gnomon::row_triangle<N> triangle;
+gnomon::detail::square_array<N> triangle_of(const matrix& m) {
+    gnomon::detail::row_triangle<N> triangle;
     for (Eigen::Index i = 0; i < m.rows(); ++i) {
         std::array<double, N> row;
         for (std::size_t j = 0; j < N; ++j)
@@ -39,7 +39,7 @@ gnomon::square_array<N> triangle_of(const matrix& m) {
 }
 
 template <std::size_t N>
-matrix wide(const gnomon::square_array<N>& a) {
+matrix wide(const gnomon::detail::square_array<N>& a) {
     matrix m(static_cast<Eigen::Index>(N), static_cast<Eigen::Index>(N));
     for (std::size_t i = 0; i < N; ++i) {
         for (std::size_t j = 0; j < N; ++j)
@@ -48,8 +48,8 @@ matrix wide(const gnomon::square_array<N>& a) {
     return m;
 }
 
-/// Against a dense SVD in long double: values to rounding, the last vector to rounding over the gap
-/// of singular values, not of their squares.
+/// Compares with a dense SVD in long double: singular values agree to rounding, the last singular
+/// vector to rounding divided by the gap of singular values (not of their squares).
 template <std::size_t N>
 void expect_agrees_with_a_dense_svd() {
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
@@ -59,7 +59,7 @@ void expect_agrees_with_a_dense_svd() {
         for (std::size_t i = 0; i < N; ++i) {
             for (std::size_t j = 0; j < i; ++j) ASSERT_EQ(triangle[i][j], 0.0);
         }
-        const auto svd = gnomon::small_svd<N>(triangle);
+        const auto svd = gnomon::detail::small_svd<N>(triangle);
         const Eigen::JacobiSVD<matrix> oracle(m, Eigen::ComputeFullV);
         const auto& s = oracle.singularValues();
         for (std::size_t j = 0; j < N; ++j) {
@@ -87,18 +87,18 @@ TEST(small_svd, agrees_with_a_dense_svd) {
 }
 
 TEST(small_svd, of_rank_deficient_matrices) {
-    gnomon::row_triangle<4> triangle;
+    gnomon::detail::row_triangle<4> triangle;
     for (int i = 0; i < 5; ++i) triangle.add({1.0 * i, 2.0 * i, 0.0, 1.0});
-    const auto svd = gnomon::small_svd<4>(triangle.matrix());
+    const auto svd = gnomon::detail::small_svd<4>(triangle.matrix());
     EXPECT_GT(svd.values[1], 0.1);
     EXPECT_LT(svd.values[2], 1e-14);
     EXPECT_LT(svd.values[3], 1e-14);
-    gnomon::row_triangle<4> tiny;  // whose squares are zero
+    gnomon::detail::row_triangle<4> tiny;  // whose squares are zero
     tiny.add({1e-200, 1.0, 0.0, 0.0});
     for (const auto& row : tiny.matrix()) {
         for (const double entry : row) EXPECT_TRUE(std::isfinite(entry));
     }
-    const auto zero = gnomon::small_svd<4>({});
+    const auto zero = gnomon::detail::small_svd<4>({});
     for (std::size_t i = 0; i < 4; ++i) {
         EXPECT_EQ(zero.values[i], 0.0);
         EXPECT_EQ(zero.right[i][i], 1.0);

@@ -37,7 +37,7 @@ TEST(strided_view, refuses_null_with_points) {
     EXPECT_EQ(gnomon::strided_view<float>(nullptr, 0, 12).size(), 0u);
 }
 
-/// Every storage order, owner and block of Eigen gives the same points.
+/// Eigen matrices, maps and blocks of either storage order give the same points.
 TEST(strided_view, sees_columns_and_rows_of_any_matrix) {
     const Eigen::MatrixXd m = Eigen::MatrixXd::Random(4, 7);
     const auto expect_columns = [&m](const auto& view) {

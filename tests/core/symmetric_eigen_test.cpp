@@ -7,13 +7,13 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 
 namespace {
 
 /// The law: V is orthonormal, A V = V diag(values), values descend.
 void expect_decomposes(const Eigen::Matrix3d& a) {
-    const auto e = gnomon::symmetric_eigen(a);
+    const auto e = gnomon::detail::symmetric_eigen(a);
     const double scale = std::max(a.cwiseAbs().maxCoeff(), 1e-300);
     ASSERT_TRUE(e.values.allFinite() && e.vectors.allFinite());
     EXPECT_GE(e.values[0], e.values[1]);
@@ -62,7 +62,7 @@ TEST(symmetric_eigen, agrees_with_eigen_s_iterative_solver) {
         for (int i = 0; i < 3; ++i) {
             for (int j = 0; j <= i; ++j) a(i, j) = a(j, i) = random.gaussian();
         }
-        const auto e = gnomon::symmetric_eigen(a);
+        const auto e = gnomon::detail::symmetric_eigen(a);
         const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> oracle(a);
         ASSERT_LT((e.values - oracle.eigenvalues().reverse()).norm(), 1e-14 * a.norm());
         for (int i = 0; i < 3; ++i) {

@@ -15,7 +15,7 @@ namespace {
 
 using gnomon::detail::staying, gnomon::detail::thread_team;
 
-static_assert(gnomon::execution<gnomon::detail::staying_threads>);
+static_assert(gnomon::execution<gnomon::team>);
 
 /// Law: whatever the team did before, each call does its own work, all of it and once. The work
 /// lies on the stack, so that a helper who came too late would be seen to touch it.
@@ -32,7 +32,7 @@ TEST(thread_team, does_each_of_many_works_once) {
 }
 
 /// Law: what one step wrote, every thread of the next step sees.
-TEST(thread_team, shows_each_step_what_the_last_one_wrote) {
+TEST(thread_team, each_step_sees_the_writes_of_the_last) {
     constexpr std::size_t n = 64;
     thread_team team(4);
     std::vector<int> now(n, 0), next(n);
@@ -43,7 +43,7 @@ TEST(thread_team, shows_each_step_what_the_last_one_wrote) {
     }
 }
 
-TEST(thread_team, goes_on_after_a_failure) {
+TEST(thread_team, can_be_used_after_an_exception) {
     thread_team team(3);
     for (std::size_t call = 0; call < 100; ++call) {
         std::string what;
@@ -62,7 +62,7 @@ TEST(thread_team, goes_on_after_a_failure) {
 }
 
 /// Each chunk waits for all others, so that none ends unless all threads come.
-TEST(thread_team, comes_as_a_whole_awake_or_asleep) {
+TEST(thread_team, uses_all_threads_awake_or_asleep) {
     constexpr std::size_t size = 4;
     thread_team team(size);
     for (int call = 0; call < 200; ++call) {
@@ -92,7 +92,7 @@ TEST(thread_team, is_waited_for_however_long_it_takes) {
     }
 }
 
-TEST(thread_team, may_be_idle_and_may_work_within_another) {
+TEST(thread_team, can_be_idle_and_nested) {
     { const thread_team idle(4); }
     std::atomic<int> done{0};
     const auto team = staying(gnomon::threads{3});
@@ -101,7 +101,7 @@ TEST(thread_team, may_be_idle_and_may_work_within_another) {
 }
 
 /// As `threads` may, from within its own work and from several threads.
-TEST(thread_team, may_be_called_while_it_works) {
+TEST(thread_team, can_be_called_while_it_works) {
     for (const unsigned n : {1u, 2u, 4u}) {
         const auto team = staying(gnomon::threads{n});
         const auto copy = team;
@@ -118,7 +118,7 @@ TEST(thread_team, may_be_called_while_it_works) {
     }
 }
 
-TEST(thread_team, is_only_for_who_has_threads) {
+TEST(thread_team, is_created_only_for_executions_with_threads) {
     const gnomon::sequential one;
     EXPECT_EQ(&staying(one), &one);
     std::atomic<int> done{0};

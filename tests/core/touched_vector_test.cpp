@@ -30,7 +30,7 @@ TEST(touched_vector, holds_n_default_values) {
     }
 }
 
-TEST(touched_vector, may_hold_nothing_in_particular) {
+TEST(touched_vector, touched_array_can_be_written) {
     for (const std::size_t n : {std::size_t{0}, std::size_t{1}, std::size_t{1'000'000}}) {
         const auto values = gnomon::detail::touched_array<double>(n, gnomon::threads{3});
         std::fill_n(values.get(), n, 13.0);
@@ -38,8 +38,8 @@ TEST(touched_vector, may_hold_nothing_in_particular) {
     }
 }
 
-/// As standard libraries do that tell AddressSanitizer how much of its memory a vector uses.
-TEST(touched_vector, touches_memory_that_nobody_may_use_yet) {
+/// Annotates the unused capacity of a vector for AddressSanitizer, as some standard libraries do.
+TEST(touched_vector, touches_unused_capacity) {
     std::vector<std::byte> memory(10'000, std::byte{1});
 #if defined(__SANITIZE_ADDRESS__)
     __asan_poison_memory_region(memory.data(), memory.size());

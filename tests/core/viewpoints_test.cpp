@@ -12,7 +12,7 @@ namespace {
 const Eigen::Vector3d a(1, 0, 0);
 const Eigen::Vector3d b(0, 2, 0);
 
-TEST(viewpoint_table, speaks_for_the_cloud_the_scan_or_the_point) {
+TEST(viewpoint_table, holds_view_points_of_the_cloud_the_scan_or_the_point) {
     EXPECT_EQ(gnomon::viewpoint_table()[3], Eigen::Vector3d(0, 0, 0));
     EXPECT_TRUE(gnomon::viewpoint_table().empty());
     EXPECT_EQ(gnomon::viewpoint_table(a)[3], a);

@@ -19,10 +19,11 @@ using gnomon::curvature, gnomon::shape_operator_curvature, gnomon::thesis_curvat
 using patches::up, patches::zero;
 
 struct no_normal {
-    curvature operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+    curvature operator()(const Eigen::Vector3d&, gnomon::neighborhood_view) const;
 };
 struct returns_number {
-    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, gnomon::ring_view) const;
+    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&,
+                      gnomon::neighborhood_view) const;
 };
 struct more_than_curvature : curvature {
     double residual = 0.0;
@@ -36,14 +37,14 @@ static_assert(!gnomon::curvature_estimator<no_normal>);
 static_assert(!gnomon::curvature_estimator<returns_number>);
 static_assert(!gnomon::curvature_estimator<gnomon::plane_pca>);
 
-/// Within 1e-3 of the larger principal curvature, which is what the specification asks for: dense
-/// and without noise.
+/// Errors are at most 1e-3 of the larger principal curvature, for dense neighborhoods without
+/// noise.
 template <class C>
 void expect_known_curvatures(const C& estimate) {
     for (const auto& surface : patches::all()) {
         SCOPED_TRACE(surface.name);
         for (std::uint64_t seed = 0; seed < 20; ++seed) {
-            const auto c = estimate(zero, up, patches::ring_of(surface, 200, 0.01, seed));
+            const auto c = estimate(zero, up, patches::neighborhood_of(surface, 200, 0.01, seed));
             ASSERT_EQ(c.trust, trust::good);
             const double size = std::max(std::abs(surface.kappa1), std::abs(surface.kappa2));
             ASSERT_NEAR(c.kappa1, surface.kappa1, 1e-3 * size);
@@ -57,14 +58,15 @@ void expect_known_curvatures(const C& estimate) {
 TEST(curvature, of_known_surfaces) { expect_known_curvatures(shape_operator_curvature{}); }
 TEST(curvature, of_known_surfaces_by_the_thesis) { expect_known_curvatures(thesis_curvature{}); }
 
-/// Of a column the axis is straight and the way around bends; of z = xy it is the diagonals.
+/// The principal directions of a cylinder are its axis and its circumference; those of z = xy are
+/// the diagonals.
 template <class C>
 void expect_known_directions(const C& estimate) {
     const auto all = patches::all();
-    const auto column = estimate(zero, up, patches::ring_of(all[2], 200, 0.01, 1));
+    const auto column = estimate(zero, up, patches::neighborhood_of(all[2], 200, 0.01, 1));
     EXPECT_LT(laws::angle_between(column.direction1, {1, 0, 0}), 1e-3);
     EXPECT_LT(laws::angle_between(column.direction2, {0, 1, 0}), 1e-3);
-    const auto saddle = estimate(zero, up, patches::ring_of(all[5], 200, 0.01, 1));
+    const auto saddle = estimate(zero, up, patches::neighborhood_of(all[5], 200, 0.01, 1));
     EXPECT_LT(laws::angle_between(saddle.direction1, {1, 1, 0}), 1e-9);
     EXPECT_LT(laws::angle_between(saddle.direction2, {1, -1, 0}), 1e-9);
 }
@@ -75,28 +77,28 @@ TEST(curvature, has_principal_directions_by_the_thesis) {
 }
 
 /// z = xy away from its middle, in a frame inclined by up to 49 degrees and at a point up to 1 mm
-/// off the surface: the first-order terms and the constant take it up. (The thesis's form does not;
-/// the point is one of those fitted, which is why 1 mm is felt at all.)
+/// off the surface: the first-order terms and the constant absorb both. (The thesis's form has no
+/// such terms. The point is one of the fitted points, so 1 mm has a small effect.)
 TEST(curvature, counts_the_inclination_of_the_surface) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         gnomon::random_stream random(seed);
         const double x = random.uniform(-0.8, 0.8);
         const double y = random.uniform(-0.8, 0.8);
-        clouds::cloud ring;
+        clouds::cloud neighbors;
         for (int i = 0; i < 100; ++i) {
             const double u = x + random.uniform(-0.05, 0.05);
             const double v = y + random.uniform(-0.05, 0.05);
-            ring.push_back({u, v, u * v});
+            neighbors.push_back({u, v, u * v});
         }
         for (const double off : {0.0, 0.001}) {
             const double tolerance = off == 0.0 ? 1e-9 : 0.05;
-            const auto c = shape_operator_curvature{}({x, y, x * y + off}, up, ring);
+            const auto c = shape_operator_curvature{}({x, y, x * y + off}, up, neighbors);
             const double w = std::sqrt(1 + x * x + y * y);
             ASSERT_NEAR(c.gaussian(), -1 / (w * w * w * w), tolerance);
             ASSERT_NEAR(c.mean(), -x * y / (w * w * w), tolerance);
             const Eigen::Vector3d n = Eigen::Vector3d(-y, -x, 1) / w;
             ASSERT_LT((c.direction1.cross(c.direction2) - n).norm(), tolerance);
-            // How the surface bends along a unit tangent: II(t, t) = 2 t_x t_y / w.
+            // The normal curvature along a unit tangent: II(t, t) = 2 t_x t_y / w.
             const Eigen::Vector3d& t = c.direction1;
             ASSERT_NEAR(2 * t.x() * t.y() / w, c.kappa1, tolerance);
             const Eigen::Vector3d& u = c.direction2;
@@ -115,24 +117,23 @@ TEST(curvature, is_one_over_a_length) {
     laws::curvature_is_one_over_a_length(shape_operator_curvature{});
 }
 
-/// Squares of what is smaller than 1e-146 m are no numbers any more, nor are those of curvatures
-/// beyond 1e154 / m.
+/// Squares of lengths below 1e-146 m underflow, and squares of curvatures above 1e154 / m overflow.
 TEST(curvature, of_no_size_is_not_determined) {
-    const auto [ring, p] = laws::bent_sample(1);
+    const auto [neighbors, p] = laws::bent_sample(1);
     const Eigen::Matrix3d tiny = 1e-150 * Eigen::Matrix3d::Identity();
     clouds::cloud needle;
     for (int i = -2; i <= 2; ++i) {
         for (int j = -2; j <= 2; ++j)
             needle.push_back({1e-144 * i, 1e-144 * j, -1.0 * (i * i + j * j)});
     }
-    for (const clouds::cloud& points : {clouds::moved(ring, tiny, zero), needle}) {
+    for (const clouds::cloud& points : {clouds::moved(neighbors, tiny, zero), needle}) {
         const auto c = shape_operator_curvature{}(zero, up, points);
         EXPECT_EQ(c.trust, trust::degenerate);
         laws::expect_no_curvature(c);
     }
 }
 
-TEST(curvature, says_what_is_wrong) {
+TEST(curvature, reports_degenerate_neighborhoods) {
     const shape_operator_curvature fit;
     const clouds::cloud five{{1, 0, 0}, {0, 1, 0}, {-1, 0.5, 0}, {0.5, -1, 0}, {1, 1, 0.1}};
     EXPECT_EQ(fit(zero, up, five).trust, trust::good);
@@ -166,13 +167,13 @@ TEST(curvature, says_what_is_wrong) {
     EXPECT_EQ(fit(zero, up, two_lines).trust, trust::weak);
     EXPECT_EQ(shape_operator_curvature{.min_independence = 0}(zero, up, two_lines).trust,
               trust::good);
-    for (const auto& ring : {four, broken, line, circle})
-        laws::expect_no_curvature(fit({1, 0, 0}, up, ring));
+    for (const auto& neighbors : {four, broken, line, circle})
+        laws::expect_no_curvature(fit({1, 0, 0}, up, neighbors));
 }
 
-/// Also where the square of the length is no number.
+/// Also if the square of the length over- or underflows.
 TEST(curvature, of_a_normal_of_any_length) {
-    const auto [ring, p] = laws::bent_sample(1);
+    const auto [neighbors, p] = laws::bent_sample(1);
     const Eigen::Vector3d inclined(0.25, -0.5, 1.0);
     const auto expect_equal = [](const curvature& a, const curvature& b) {
         EXPECT_EQ(a.trust, b.trust);
@@ -183,19 +184,19 @@ TEST(curvature, of_a_normal_of_any_length) {
     };
     for (const double length : {1e-320, 1e-161, 1e-3, 1e161, 1e308}) {
         SCOPED_TRACE(length);
-        expect_equal(shape_operator_curvature{}(p, length * up, ring),
-                     shape_operator_curvature{}(p, up, ring));
+        expect_equal(shape_operator_curvature{}(p, length * up, neighbors),
+                     shape_operator_curvature{}(p, up, neighbors));
         const double power = std::exp2(std::floor(std::log2(length)));
-        expect_equal(thesis_curvature{}(p, power * inclined, ring),
-                     thesis_curvature{}(p, inclined, ring));
+        expect_equal(thesis_curvature{}(p, power * inclined, neighbors),
+                     thesis_curvature{}(p, inclined, neighbors));
     }
 }
 
 TEST(curvature, of_a_perfect_plane_is_zero) {
-    clouds::cloud ring;
-    for (int i = 0; i < 20; ++i) ring.push_back({0.1 * (i % 5), 0.1 * (i / 5), 0.0});
-    for (const curvature& c : {shape_operator_curvature{}({0.2, 0.2, 0.0}, up, ring),
-                               thesis_curvature{}({0.2, 0.2, 0.0}, up, ring)}) {
+    clouds::cloud neighbors;
+    for (int i = 0; i < 20; ++i) neighbors.push_back({0.1 * (i % 5), 0.1 * (i / 5), 0.0});
+    for (const curvature& c : {shape_operator_curvature{}({0.2, 0.2, 0.0}, up, neighbors),
+                               thesis_curvature{}({0.2, 0.2, 0.0}, up, neighbors)}) {
         EXPECT_EQ(c.trust, trust::good);
         EXPECT_EQ(c.kappa1, 0.0);
         EXPECT_EQ(c.kappa2, 0.0);

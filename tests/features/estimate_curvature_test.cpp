@@ -24,15 +24,16 @@ using gnomon::curvature, gnomon::knn, gnomon::trust;
 
 using laws::only_normal, patches::zero;
 
-/// Gauss and Bonnet: over a closed surface like a sphere K sums up to 4 pi, however it is dented.
+/// The theorem of Gauss and Bonnet: the integral of K over a surface of the topology of a sphere is
+/// 4 pi.
 /// @param axes  of an ellipsoid [m]
-/// @return the sum over 4 pi
+/// @return the integral divided by 4 pi
 double total_curvature(const Eigen::Vector3d& axes, std::size_t n) {
     clouds::cloud points;
     std::vector<double> area;
     std::vector<only_normal> surface;
     for (const Eigen::Vector3d& u : patches::on_sphere(n)) {
-        // An area of the unit sphere grows by the cofactors of diag(axes).
+        // The area element of the unit sphere is scaled by the cofactors of diag(axes).
         const Eigen::Vector3d m = u.cwiseQuotient(axes) * axes.prod();
         points.push_back(u.cwiseProduct(axes));
         area.push_back(4.0 * std::numbers::pi / static_cast<double>(n) * m.norm());
@@ -92,16 +93,16 @@ void expect_same_bytes(const std::vector<curvature>& a, const std::vector<curvat
     }
 }
 
-/// The estimator's own answer for each point, with the ring in the order of the graph.
-TEST(estimate_curvature, asks_the_estimator_once_per_point) {
+/// The estimator's result for each point, with the neighbors in the order of the graph.
+TEST(estimate_curvature, calls_the_estimator_once_per_point) {
     const known_sheet sheet(300, 1);
     const auto graph = knn{9}(sheet.points);
     std::vector<curvature> expected;
     for (std::size_t i = 0; i < 300; ++i) {
-        clouds::cloud ring;
-        for (const auto j : graph[i]) ring.push_back(sheet.points[j]);
-        expected.push_back(
-            gnomon::shape_operator_curvature{}(sheet.points[i], sheet.surface[i].normal, ring));
+        clouds::cloud neighbors;
+        for (const auto j : graph[i]) neighbors.push_back(sheet.points[j]);
+        expected.push_back(gnomon::shape_operator_curvature{}(sheet.points[i],
+                                                              sheet.surface[i].normal, neighbors));
     }
     expect_same_bytes(gnomon::estimate_curvature(sheet.points, graph, sheet.surface), expected);
 }
@@ -127,7 +128,7 @@ TEST(estimate_curvature, does_not_depend_on_execution) {
     compare(gnomon::thesis_curvature{});
 }
 
-/// The caller's own memory, through any door, gives the same bytes.
+/// Every kind of point range gives the same bytes.
 TEST(estimate_curvature, reads_any_container) {
     struct laser_return {
         double time;
@@ -149,15 +150,16 @@ TEST(estimate_curvature, reads_any_container) {
                       expected);
 }
 
-/// Any neighborhood, and any estimator: its own result comes back.
+/// Any neighborhood and any estimator; the result has the estimator's own type.
 TEST(estimate_curvature, takes_any_policy) {
     struct mine : curvature {
         std::size_t neighbors = 0;
     };
-    const auto count = [](const Eigen::Vector3d&, const Eigen::Vector3d&, gnomon::ring_view ring) {
+    const auto count = [](const Eigen::Vector3d&, const Eigen::Vector3d&,
+                          gnomon::neighborhood_view neighbors) {
         mine m;
         m.trust = trust::good;
-        m.neighbors = ring.size();
+        m.neighbors = neighbors.size();
         return m;
     };
     const known_sheet sheet(300, 3);
@@ -167,8 +169,9 @@ TEST(estimate_curvature, takes_any_policy) {
     for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(counted[i].neighbors, graph[i].size());
 }
 
-/// A curvature is not worth more than its normal; a missing one says why it is missing.
-TEST(estimate_curvature, hands_on_what_is_wrong_with_the_normal) {
+/// The trust of a curvature is no better than that of its normal; a missing normal passes its trust
+/// on.
+TEST(estimate_curvature, is_at_most_as_trusted_as_the_normal) {
     known_sheet sheet(100, 4);
     sheet.surface[1].trust = trust::weak;
     sheet.surface[2].trust = trust::too_few_neighbors;
@@ -190,15 +193,17 @@ TEST(estimate_curvature, hands_on_what_is_wrong_with_the_normal) {
     }
 }
 
-/// One that promises trust and then returns NaN: the driver must not pass it on.
+/// An estimator that returns NaN with a usable trust: the driver must reject the result.
 TEST(estimate_curvature, keeps_the_promises_that_an_estimator_breaks) {
-    const auto broken = [](const Eigen::Vector3d&, const Eigen::Vector3d&, gnomon::ring_view) {
+    const auto broken = [](const Eigen::Vector3d&, const Eigen::Vector3d&,
+                           gnomon::neighborhood_view) {
         curvature c;
         c.trust = trust::good;
         c.kappa1 = clouds::nan;
         return c;
     };
-    const auto careless = [](const Eigen::Vector3d&, const Eigen::Vector3d&, gnomon::ring_view) {
+    const auto careless = [](const Eigen::Vector3d&, const Eigen::Vector3d&,
+                             gnomon::neighborhood_view) {
         curvature c;
         c.kappa1 = 7.0;  // of too few neighbors
         return c;
@@ -222,7 +227,7 @@ TEST(estimate_curvature, survives_every_cloud_by_the_thesis) {
     laws::curvatures_are_finite_or_zero(gnomon::thesis_curvature{});
 }
 
-TEST(estimate_curvature, refuses_what_is_of_other_points) {
+TEST(estimate_curvature, rejects_inputs_of_different_sizes) {
     const auto ten = clouds::sheet(10, 1);
     const auto eleven = clouds::sheet(11, 1);
     const std::vector<only_normal> normals(10, {patches::up});

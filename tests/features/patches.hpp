@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Pieces of surfaces whose curvature is known: heights z over the tangent plane at the origin,
-/// which is where the curvature is asked for. The sensor is above, at z = +infinity.
+/// Surface patches of known curvature at the origin: heights z over the tangent plane there. The
+/// sensor is at z = +infinity.
 #pragma once
 
 #include <cmath>
@@ -22,7 +22,7 @@ namespace patches {
 inline const Eigen::Vector3d up(0.0, 0.0, 1.0);
 inline const Eigen::Vector3d zero(0, 0, 0);
 
-/// A surface with what is true of it at the origin.
+/// A surface and its true curvature at the origin.
 struct known_surface {
     std::string name;
     double (*height)(double x, double y);
@@ -31,7 +31,7 @@ struct known_surface {
     gnomon::surface_type type;
 };
 
-/// One of each type, radii of half a metre to two.
+/// One patch of each surface type, with radii of 0.5 m to 2 m.
 inline std::vector<known_surface> all() {
     using gnomon::surface_type;
     return {
@@ -54,21 +54,21 @@ inline std::vector<known_surface> all() {
 
 /// The n points of a surface within `radius` [m] of the origin along x and y, spread evenly; noise
 /// of standard deviation `sigma` along z.
-inline clouds::cloud ring_of(const known_surface& surface, std::size_t n, double radius,
-                             std::uint64_t seed, double sigma = 0.0) {
+inline clouds::cloud neighborhood_of(const known_surface& surface, std::size_t n, double radius,
+                                     std::uint64_t seed, double sigma = 0.0) {
     gnomon::random_stream random(seed, 9);
-    clouds::cloud ring;
+    clouds::cloud neighbors;
     for (std::size_t i = 0; i < n; ++i) {
         const double r = radius * std::sqrt(random.uniform());
         const double phi = 2.0 * std::numbers::pi * random.uniform();
         const double x = r * std::cos(phi);
         const double y = r * std::sin(phi);
-        ring.push_back({x, y, surface.height(x, y) + sigma * random.gaussian()});
+        neighbors.push_back({x, y, surface.height(x, y) + sigma * random.gaussian()});
     }
-    return ring;
+    return neighbors;
 }
 
-/// n points on the unit sphere, each for the same area (Fibonacci lattice).
+/// n points on the unit sphere, each of the same area (Fibonacci lattice).
 inline clouds::cloud on_sphere(std::size_t n) {
     clouds::cloud points;
     const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));

@@ -9,7 +9,7 @@
 
 namespace {
 
-/// A box of known size, turned and far away: size, center and axes come back.
+/// A rotated box of known size, far from the origin: size, center and axes are recovered.
 TEST(principal_frame, fits_a_turned_box) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
         const Eigen::Vector3d size(2.0, 1.0, 0.1);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// The fit of the thesis, Eq. (3.25), through thesis_curvature: it agrees with a dense SVD, and with
-// it breaks what the least squares fit keeps.
+// The fit of the thesis, Eq. (3.25), through thesis_curvature: it agrees with a dense SVD, and
+// violates the law of scale, which the least-squares fit satisfies.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -51,37 +51,37 @@ TEST(quadric_fit, finds_the_coefficients) {
 
 /// Without noise the unit matters little, and the thesis's form gives small and large radii too.
 TEST(quadric_fit, of_the_thesis_for_small_and_large_radii) {
-    const auto ring = patches::ring_of(patches::all()[0], 50, 0.02, 2);
+    const auto neighbors = patches::neighborhood_of(patches::all()[0], 50, 0.02, 2);
     for (const double s : {1e-4, 1e-2, 1e2, 1e4}) {
         const Eigen::Matrix3d scaling = s * Eigen::Matrix3d::Identity();
-        const auto c = thesis_curvature{}(zero, up, clouds::moved(ring, scaling, zero));
+        const auto c = thesis_curvature{}(zero, up, clouds::moved(neighbors, scaling, zero));
         EXPECT_EQ(c.trust, trust::good);
         EXPECT_NEAR(c.kappa1 * s, -0.5, 1e-3);
         EXPECT_NEAR(c.kappa2 * s, -0.5, 1e-3);
     }
 }
 
-/// The thesis's form does break the law of scale as soon as there is noise: in millimetres it
-/// finds another surface. Should this fail, say so in its comment.
+/// The thesis's form violates the law of scale if there is noise: the same points in millimetres
+/// give another surface. Should this fail, correct the comment of thesis_curvature.
 TEST(quadric_fit, of_the_thesis_depends_on_the_unit) {
-    const auto ring = patches::ring_of(patches::all()[2], 50, 0.05, 1, 0.005);
+    const auto neighbors = patches::neighborhood_of(patches::all()[2], 50, 0.05, 1, 0.005);
     const Eigen::Matrix3d thousand = 1e3 * Eigen::Matrix3d::Identity();
-    const double in_metres = thesis_curvature{}(zero, up, ring).mean();
+    const double in_metres = thesis_curvature{}(zero, up, neighbors).mean();
     const double in_millimetres =
-        thesis_curvature{}(zero, up, clouds::moved(ring, thousand, zero)).mean();
+        thesis_curvature{}(zero, up, clouds::moved(neighbors, thousand, zero)).mean();
     EXPECT_GT(std::abs(1e3 * in_millimetres - in_metres), 0.1 * std::abs(in_metres));
 }
 
-/// What noise does to both (Fig. 3.14): for the thesis's form noise is a saddle. Of all quadrics xy
-/// and x^2 - y^2 are the smallest; where they are smaller than the noise of z, the least singular
-/// vector consists of them, and divided by a small d' they are steep.
+/// The effect of noise on both fits (Fig. 3.14): the thesis's form classifies noise as a saddle.
+/// The quadrics xy and x^2 - y^2 have the smallest norm; if it is below the noise of z, the
+/// smallest singular vector consists of them, and division by a small d' makes them steep.
 TEST(quadric_fit, of_the_thesis_takes_noise_for_saddles) {
     const auto flat = patches::all()[4];
     int saddles[2] = {0, 0};
     for (std::uint64_t seed = 0; seed < 500; ++seed) {
-        const auto ring = patches::ring_of(flat, 50, 0.05, seed, 0.015);
-        saddles[0] += shape_operator_curvature{}(zero, up, ring).gaussian() < 0.0;
-        saddles[1] += thesis_curvature{}(zero, up, ring).gaussian() < 0.0;
+        const auto neighbors = patches::neighborhood_of(flat, 50, 0.05, seed, 0.015);
+        saddles[0] += shape_operator_curvature{}(zero, up, neighbors).gaussian() < 0.0;
+        saddles[1] += thesis_curvature{}(zero, up, neighbors).gaussian() < 0.0;
     }
     EXPECT_LT(saddles[0], 350);
     EXPECT_GT(saddles[1], 450);
@@ -93,13 +93,14 @@ struct dense_thesis {
     double H;
     double condition;  ///< s_1 / (s_3 - s_4)
 
-    dense_thesis(const Eigen::Vector3d& p, const clouds::cloud& ring, const Eigen::Vector3d& n) {
+    dense_thesis(const Eigen::Vector3d& p, const clouds::cloud& neighbors,
+                 const Eigen::Vector3d& n) {
         using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-        const auto k = static_cast<Eigen::Index>(ring.size());
+        const auto k = static_cast<Eigen::Index>(neighbors.size());
         matrix q(k + 1, 3);
         q.row(k).setZero();
         for (Eigen::Index j = 0; j < k; ++j) {
-            q.row(j) = (ring[static_cast<std::size_t>(j)] - p).transpose().cast<long double>();
+            q.row(j) = (neighbors[static_cast<std::size_t>(j)] - p).transpose().cast<long double>();
         }
         const matrix centered = q.rowwise() - q.colwise().mean().eval();
         const Eigen::JacobiSVD<matrix> principal(centered,
@@ -129,14 +130,15 @@ TEST(quadric_fit, of_the_thesis_agrees_with_a_dense_svd) {
         const double radius = std::pow(10.0, random.uniform(-2.0, 0.0)) * 0.3;
         const double sigma = random.uniform() < 0.3 ? 0.0 : 0.05 * radius * random.uniform();
         const Eigen::Matrix3d r = clouds::random_rotation(seed);
-        const auto ring = clouds::moved(patches::ring_of(all[seed % 8], k, radius, seed, sigma), r,
-                                        Eigen::Vector3d(1, 2, 3));
+        const auto neighbors =
+            clouds::moved(patches::neighborhood_of(all[seed % 8], k, radius, seed, sigma), r,
+                          Eigen::Vector3d(1, 2, 3));
         const Eigen::Vector3d p(1, 2, 3);
-        Eigen::Vector3d n = gnomon::plane_pca{}(p, ring).normal;
+        Eigen::Vector3d n = gnomon::plane_pca{}(p, neighbors).normal;
         if (n.dot(r * up) < 0.0) n = -n;
-        const curvature c = thesis_curvature{}(p, n, ring);
+        const curvature c = thesis_curvature{}(p, n, neighbors);
         if (!gnomon::usable(c.trust)) continue;
-        const dense_thesis oracle(p, ring, n);
+        const dense_thesis oracle(p, neighbors, n);
         if (oracle.condition > 1e4) continue;
         ++compared;
         const double size = std::max({1.0, std::abs(c.kappa1), std::abs(c.kappa2)});
@@ -147,7 +149,7 @@ TEST(quadric_fit, of_the_thesis_agrees_with_a_dense_svd) {
     EXPECT_GT(compared, 1500);
 }
 
-TEST(quadric_fit, of_the_thesis_says_what_is_wrong) {
+TEST(quadric_fit, of_the_thesis_reports_degenerate_neighborhoods) {
     const thesis_curvature fit;
     const clouds::cloud three{{1, 0, 0}, {0, 1, 0}, {-1, 0.5, 0}};
     EXPECT_EQ(fit(zero, up, {three.begin(), three.begin() + 2}).trust, trust::too_few_neighbors);
@@ -172,7 +174,7 @@ TEST(quadric_fit, of_the_thesis_says_what_is_wrong) {
         laws::expect_no_curvature(c);
     }
     EXPECT_EQ(shape_operator_curvature{}(zero, up, diagonals).trust, trust::degenerate);
-    // On the axes xy is zero but for rounding: the least singular vector knows nothing of z.
+    // On the axes xy is zero up to rounding: the smallest singular vector has no component of z.
     clouds::cloud axes;
     for (int i = 1; i < 6; ++i) {
         for (const double x : {-0.2, 0.2}) {
@@ -181,8 +183,8 @@ TEST(quadric_fit, of_the_thesis_says_what_is_wrong) {
         }
     }
     const Eigen::Vector3d turned_up = clouds::random_rotation(1) * up;
-    for (const auto& ring : {axes, clouds::moved(axes, clouds::random_rotation(1), zero)}) {
-        const auto c = fit(zero, ring == axes ? up : turned_up, ring);
+    for (const auto& neighbors : {axes, clouds::moved(axes, clouds::random_rotation(1), zero)}) {
+        const auto c = fit(zero, neighbors == axes ? up : turned_up, neighbors);
         EXPECT_EQ(c.trust, trust::degenerate);
         laws::expect_no_curvature(c);
     }

@@ -40,7 +40,7 @@ static_assert(by_sign(clouds::nan, 0) == surface_type::unknown);
 static_assert(by_sign(0, clouds::nan) == surface_type::unknown);
 static_assert(by_sign(1e-300, -1e-300) == surface_type::peak);
 
-// What is within its tolerance, the end included, is zero; of K and H each by its own.
+// Values up to the tolerance, inclusive, count as zero; K and H each have their own tolerance.
 constexpr besl_jain coarse{.gaussian_tolerance = 0.01, .mean_tolerance = 0.5};
 static_assert(coarse(0.01, 0.5) == surface_type::flat);
 static_assert(coarse(-0.01, -0.5) == surface_type::flat);
@@ -85,9 +85,9 @@ TEST(surface_type, refuses_tolerances_that_are_none) {
     EXPECT_EQ(all_is_flat(1.0, -1.0), surface_type::flat);
 }
 
-/// Each of the eight from its patch, and from its other side the opposite one.
+/// Each of the eight types from its patch, and with the opposite normal the opposite type.
 TEST(surface_type, of_known_surfaces) {
-    // Rings of 1 cm: curvatures err by less than 1e-3 / m, on radii from half a metre.
+    // Neighborhoods of 1 cm: curvatures err by less than 1e-3 / m, on radii from half a metre.
     const besl_jain type{.gaussian_tolerance = 5e-3, .mean_tolerance = 1e-3};
     const auto opposite = [](surface_type t) {
         switch (t) {
@@ -111,10 +111,10 @@ TEST(surface_type, of_known_surfaces) {
     std::set<surface_type> seen;
     for (const auto& surface : patches::all()) {
         SCOPED_TRACE(surface.name);
-        const auto ring = patches::ring_of(surface, 100, 0.01, 3);
+        const auto neighbors = patches::neighborhood_of(surface, 100, 0.01, 3);
         const auto both = [&](const auto& estimate) {
-            EXPECT_EQ(type(estimate(p, patches::up, ring)), surface.type);
-            EXPECT_EQ(type(estimate(p, -patches::up, ring)), opposite(surface.type));
+            EXPECT_EQ(type(estimate(p, patches::up, neighbors)), surface.type);
+            EXPECT_EQ(type(estimate(p, -patches::up, neighbors)), opposite(surface.type));
         };
         both(gnomon::shape_operator_curvature{});
         both(gnomon::thesis_curvature{});
@@ -123,7 +123,7 @@ TEST(surface_type, of_known_surfaces) {
     EXPECT_EQ(seen.size(), 8u);
 }
 
-/// The types of points seen from v, by the whole chain: normals, their side, curvatures.
+/// The types of points observed from v, by the whole chain: normals, their orientation, curvatures.
 std::vector<surface_type> types_seen_from(const Eigen::Vector3d& v, const clouds::cloud& points) {
     const auto seen = gnomon::with_viewpoint(points, v);
     const auto graph = gnomon::knn{.k = 20}(seen);
@@ -136,22 +136,21 @@ std::vector<surface_type> types_seen_from(const Eigen::Vector3d& v, const clouds
     return types;
 }
 
-/// A sphere seen from without is a peak where it faces the sensor, and a pit where it is seen from
-/// its inner side.
-TEST(surface_type, of_a_sphere_depends_on_where_the_sensor_stands) {
+/// A sphere is a peak if observed from outside, and a pit if observed from inside.
+TEST(surface_type, of_a_sphere_depends_on_the_view_point) {
     const auto sphere = patches::on_sphere(4000);
     for (const surface_type t : types_seen_from({0, 0, 0}, sphere)) ASSERT_EQ(t, surface_type::pit);
     const auto from_outside = types_seen_from({10, 0, 0}, sphere);
     for (std::size_t i = 0; i < sphere.size(); ++i) {
-        const double horizon = 0.1;  // where the sphere turns away, at R^2 / 10 m
+        const double horizon = 0.1;  // at R^2 / 10 m the viewing ray is tangent to the sphere
         if (std::abs(sphere[i].x() - horizon) < 0.02) continue;
         ASSERT_EQ(from_outside[i],
                   sphere[i].x() > horizon ? surface_type::peak : surface_type::pit);
     }
 }
 
-/// A column is a ridge from without and a valley from within.
-TEST(surface_type, of_a_cylinder_depends_on_where_the_sensor_stands) {
+/// A cylinder is a ridge if observed from outside, and a valley if observed from inside.
+TEST(surface_type, of_a_cylinder_depends_on_the_view_point) {
     clouds::cloud column;
     for (int i = 0; i < 60; ++i) {
         for (int j = 0; j < 60; ++j) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What the tests of files share: scratch files, the expectation of an error at a place, and two
-/// laws that every parser must keep whatever bytes it is given.
+/// Support for the tests of file formats: temporary files, the expectation of an error at a
+/// position, and laws that every parser satisfies for any bytes.
 #pragma once
 
 #include <cstddef>
@@ -18,13 +18,13 @@
 
 namespace io_test {
 
-/// A path of this test's own.
+/// A path that no other test uses.
 [[nodiscard]] inline std::string scratch_path(const std::string& name) {
     const auto* const test = testing::UnitTest::GetInstance()->current_test_info();
     return testing::TempDir() + test->test_suite_name() + "_" + test->name() + "_" + name;
 }
 
-/// Writes a file with the C library alone.
+/// Writes a file, with the C library only.
 [[nodiscard]] inline std::string scratch_file(const std::string& name, std::string_view bytes) {
     std::string path = scratch_path(name);
     std::FILE* const file = std::fopen(path.c_str(), "wb");
@@ -39,13 +39,13 @@ namespace io_test {
     return file != nullptr && std::fclose(file) == 0;
 }
 
-/// The bytes of literals that may hold zeros.
+/// The bytes of literals, which may contain zeros.
 template <std::size_t N>
 [[nodiscard]] std::string bytes_of(const char (&literal)[N]) {
     return std::string(literal, N - 1);
 }
 
-/// Expects that `parser` refuses `bytes` at `position`, for a reason that has `part` in it.
+/// Expects that `parser` throws an error for `bytes` at `position`, with `part` in its message.
 template <class Parser>
 void expect_error(Parser parser, const std::string& bytes, const std::string& position,
                   const std::string& part) {
@@ -60,8 +60,8 @@ void expect_error(Parser parser, const std::string& bytes, const std::string& po
     }
 }
 
-/// Law: any bytes are a scan or a gnomon::error, never a crash or another exception.
-/// @return whether they are a scan
+/// Law: any bytes give a scan or a gnomon::error, never a crash or another exception.
+/// @return whether they give a scan
 template <class Parser>
 bool survives(Parser parser, const std::string& bytes) {
     try {
@@ -77,7 +77,8 @@ bool survives(Parser parser, const std::string& bytes) {
     }
 }
 
-/// Law: no prefix crashes; of files that say how many bytes follow, no proper prefix is a scan.
+/// Law: no prefix of a file crashes the parser; if the format declares the number of bytes, no
+/// proper prefix gives a scan.
 template <class Parser>
 void check_truncation(Parser parser, const std::string& bytes, bool is_binary) {
     ASSERT_TRUE(survives(parser, bytes));
@@ -87,7 +88,7 @@ void check_truncation(Parser parser, const std::string& bytes, bool is_binary) {
     }
 }
 
-/// Law: no damage crashes; up to four bytes are changed, put in or taken out.
+/// Law: no damage crashes the parser; up to four bytes are changed, inserted or removed.
 template <class Parser>
 void check_mutation(Parser parser, const std::string& bytes, int rounds = 3000) {
     std::mt19937_64 random(20170401);

@@ -20,14 +20,14 @@ gnomon::scan parse_pcd(const std::string& bytes, const std::vector<std::string>&
     return gnomon::io::read_pcd({"some.file", bytes}, fields);
 }
 
-/// Four bytes, the least significant first.
+/// Four bytes, little-endian.
 std::string pcd_word(std::size_t n) {
     std::string result;
     for (int k = 0; k < 4; ++k, n /= 256) result += static_cast<char>(n % 256);
     return result;
 }
 
-/// LZF of literal runs only: what the most careless packer would write.
+/// LZF data of literal runs only, without compression.
 std::string pcd_pack(const std::string& bytes) {
     std::string result;
     for (std::size_t i = 0; i < bytes.size(); i += 32) {
@@ -213,11 +213,11 @@ TEST(io_lzf, unpacks_runs_and_repetitions) {
     EXPECT_EQ(unpacked("", 0), "");
     EXPECT_EQ(unpacked(std::string_view("\0a", 2), 1), "a");
     EXPECT_EQ(unpacked("\4hello", 5), "hello");
-    // "abc", then 4 bytes from 3 back, then 3 from 1 back: overlapping what they write.
+    // "abc", then 4 bytes from distance 3, then 3 from distance 1: source and destination overlap.
     EXPECT_EQ(unpacked(std::string_view("\2abc\x40\2\x20\0", 8), 10), "abcabcaaaa");
-    // A long one: 7 + 2 + 91 more of the same.
+    // A long back reference: 7 + 2 + 91 bytes.
     EXPECT_EQ(unpacked(std::string_view("\0x\xe0\x5b\0", 5), 101), std::string(101, 'x'));
-    // The farthest: 8192 bytes back.
+    // The largest distance, 8192 bytes.
     const std::string far_ = "\xff\xff" + std::string(8190, '-');
     std::string packed = pcd_pack(far_);
     packed += "\x3f\xff";

@@ -18,7 +18,7 @@ gnomon::scan parse_ply(const std::string& bytes, const std::vector<std::string>&
     return gnomon::io::read_ply({"some.file", bytes}, fields);
 }
 
-/// A header that declares what it is told to, and a body.
+/// A file of a header with the given declarations, and a body.
 std::string ply_of(const std::string& format, const std::string& declarations,
                    const std::string& body) {
     return "ply\nformat " + format + " 1.0\n" + declarations + "end_header\n" + body;
@@ -120,7 +120,7 @@ TEST(io_read_ply, reads_a_cloud_of_no_points) {
     EXPECT_EQ(parse_ply(ply_of("ascii", "element vertex 0\n" + xyz_bytes, "")).size(), 0U);
 }
 
-TEST(io_read_ply, refuses_what_the_header_promises_and_the_file_has_not) {
+TEST(io_read_ply, rejects_files_shorter_than_their_header_declares) {
     for (const std::string count : {"3", "2000000000", "9223372036854775808"}) {
         const std::string declarations = "element vertex " + count + "\n" + xyz_bytes;
         const std::string header = ply_of("binary_little_endian", declarations, "");

@@ -19,7 +19,7 @@ namespace {
 
 const auto any_parser = [](const gnomon::io::input& file) { return gnomon::io::read(file); };
 
-/// The same three points in every format, under names that lie about it.
+/// The same three points in every format, under file names of other formats.
 const std::vector<std::string> one_cloud = {
     "ply\nformat ascii 1.0\nelement vertex 2\nproperty float x\nproperty float y\n"
     "property float z\nend_header\n1 2 3\n4.5 5 6\n",
@@ -29,7 +29,7 @@ const std::vector<std::string> one_cloud = {
     "# text\n1 2 3\n4.5 5 6\n",
     "x,y,z\n1,2,3\n4.5,5,6\n"};
 
-TEST(io_read, goes_by_the_content_and_not_by_the_name) {
+TEST(io_read, detects_the_format_by_content) {
     for (const std::string& bytes : one_cloud) {
         const gnomon::scan s = gnomon::io::read(io_test::scratch_file("wrong.jpg", bytes));
         ASSERT_EQ(s.size(), 2U) << bytes;
@@ -37,7 +37,7 @@ TEST(io_read, goes_by_the_content_and_not_by_the_name) {
     }
 }
 
-TEST(io_read, knows_no_locale) {
+TEST(io_read, does_not_depend_on_the_locale) {
     const std::string before = std::setlocale(LC_ALL, nullptr);
     for (const char* const name : {"de_DE.UTF-8", "de_DE.utf8", "fr_FR.UTF-8"})
         if (std::setlocale(LC_ALL, name) != nullptr) break;

@@ -31,7 +31,7 @@ TEST(io_read_vtk, reads_points_that_run_on_over_lines) {
     }
 }
 
-TEST(io_read_vtk, refuses_what_it_cannot_read) {
+TEST(io_read_vtk, rejects_unsupported_files) {
     const auto refuse = [](const std::string& bytes, const std::string& at,
                            const std::string& why) {
         io_test::expect_error(vtk_parser, bytes, at, why);

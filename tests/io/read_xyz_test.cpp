@@ -50,7 +50,7 @@ TEST(io_read_xyz, names_columns_by_position_or_by_the_first_line) {
     EXPECT_EQ(parse_xyz("easting northing height\n1 2 3\n").points[0], Eigen::Vector3d(1, 2, 3));
 }
 
-TEST(io_read_xyz, refuses_what_is_no_table) {
+TEST(io_read_xyz, rejects_files_that_are_no_table) {
     const auto refuse = [](const std::string& bytes, const std::string& at,
                            const std::string& why) {
         io_test::expect_error(xyz_parser, bytes, at, why);

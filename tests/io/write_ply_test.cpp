@@ -31,7 +31,7 @@ constexpr std::array all_formats = {ply_format::ascii, ply_format::binary_little
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-/// UTM coordinates, the smallest and the largest, and a point that is none.
+/// UTM coordinates, the smallest and the largest double, and a NaN point.
 const std::vector<Eigen::Vector3d> awkward_points = {
     {691234.1234567891, 5335678.987654321, 515.0000000001},
     {5e-324, -1.7976931348623157e308, 0.1},
@@ -81,7 +81,7 @@ TEST(io_write_ply, keeps_every_type_exactly_in_every_format) {
             const auto& values = s.fields[static_cast<std::size_t>(column.name[0] - 'a')].values;
             for (const std::size_t i : {0U, 1U}) {
                 const double expected = column.value(i);
-                // The shortest text of a float is not that of the double next to it.
+                // The shortest text of a float differs from that of the equal double.
                 if (column.type == field_type::float32)
                     EXPECT_TRUE(same(static_cast<float>(values[i]), static_cast<float>(expected)));
                 else
@@ -116,7 +116,7 @@ TEST(io_write_ply, keeps_a_single_view_point) {
     EXPECT_EQ(written_and_read(path).viewpoints[0], here);
 }
 
-/// Points of a moving sensor keep their view points.
+/// Points of a moving sensor keep their viewpoints.
 TEST(io_write_ply, keeps_many_view_points) {
     gnomon::scan s;
     s.points = {{1, 2, 3}, {4, 5, 6}, {7, 8, 9}};
@@ -190,7 +190,7 @@ TEST(io_write_ply, leaves_the_older_file_when_a_value_cannot_be_had) {
     EXPECT_FALSE(io_test::exists(path + ".part0"));
 }
 
-TEST(io_write_ply, what_it_writes_survives_truncation_and_damage) {
+TEST(io_write_ply, reader_survives_truncation_and_damage) {
     const auto parser = [](const io::input& file) { return io::read_ply(file, {"v"}); };
     const std::string path = io_test::scratch_path("a.ply");
     const std::vector<std::int16_t> values = {1, 2, 3};

@@ -74,7 +74,7 @@ inline cloud on_grid(std::size_t n, std::uint64_t seed, double step = 0.25) {
     return points;
 }
 
-/// `points`, shuffled; order[i] tells where the i-th of the result was.
+/// `points`, shuffled; order[i] reports where the i-th of the result was.
 inline cloud permuted(const cloud& points, std::uint64_t seed, std::vector<std::size_t>& order) {
     gnomon::random_stream random(seed, 5);
     order.resize(points.size());

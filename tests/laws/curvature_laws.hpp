@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The laws of the `curvature_estimator` concept, for any model: yours, too. Rings are drawn from
-/// bent and noisy sheets whose principal curvatures clearly differ.
+/// The laws of the `curvature_estimator` concept as test functions, for the library's models and
+/// for user-defined ones. Neighborhoods are sampled from curved, noisy surface patches whose
+/// principal curvatures differ clearly.
 #pragma once
 
 #include <cmath>
@@ -22,19 +23,19 @@
 
 namespace laws {
 
-/// The least that a surface may consist of.
+/// The smallest surface element.
 struct only_normal {
     Eigen::Vector3d normal;
 };
 
-/// A point and a ring of a bent and noisy sheet, with clearly different principal curvatures.
+/// A point and its neighbors on a curved, noisy surface patch.
 struct bent_sample {
-    clouds::cloud ring;
+    clouds::cloud neighbors;
     Eigen::Vector3d p = Eigen::Vector3d::Zero();
 
     explicit bent_sample(std::uint64_t seed) {
         const auto all = patches::all();
-        ring = patches::ring_of(all[2 + seed % 2], 40, 0.2, seed, 1e-3);
+        neighbors = patches::neighborhood_of(all[2 + seed % 2], 40, 0.2, seed, 1e-3);
         p.z() = 1e-3;
     }
 };
@@ -56,8 +57,9 @@ inline void expect_same_curvature(const gnomon::curvature& a, const gnomon::curv
     ASSERT_LT(angle_between(a.direction2, b.direction2), tolerance);
 }
 
-/// Usable is finite, with perpendicular unit directions; unusable is zero. Whatever the points and
-/// whatever the normals.
+// [curvatures_are_finite_or_zero]
+/// For any points and any normals: a usable result is finite, with perpendicular unit directions;
+/// an unusable result is zero.
 template <gnomon::curvature_estimator C>
 void curvatures_are_finite_or_zero(const C& estimate) {
     using gnomon::knn, gnomon::trust;
@@ -92,19 +94,22 @@ void curvatures_are_finite_or_zero(const C& estimate) {
         }
     }
 }
+// [curvatures_are_finite_or_zero]
 
-/// Order, place, rotation, and the side of the normal.
+// [curvature_follows_the_cloud]
+/// Invariance to order and translation, equivariance under rotation, and the sign rule of the
+/// normal.
 template <gnomon::curvature_estimator C>
 void curvature_follows_the_cloud(const C& estimate) {
     using patches::up, patches::zero;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        const auto [ring, p] = bent_sample(seed);
-        const gnomon::curvature c = estimate(p, up, ring);
+        const auto [neighbors, p] = bent_sample(seed);
+        const gnomon::curvature c = estimate(p, up, neighbors);
         ASSERT_EQ(c.trust, gnomon::trust::good);
         ASSERT_GT(c.kappa1 - c.kappa2, 1.0);
 
         std::vector<std::size_t> order;
-        expect_same_curvature(estimate(p, up, clouds::permuted(ring, seed, order)), c, 1e-10);
+        expect_same_curvature(estimate(p, up, clouds::permuted(neighbors, seed, order)), c, 1e-10);
 
         const Eigen::Matrix3d r = clouds::random_rotation(seed);
         for (const Eigen::Vector3d& t : {zero, Eigen::Vector3d(6e5, 4.8e6, 100)}) {
@@ -112,32 +117,35 @@ void curvature_follows_the_cloud(const C& estimate) {
             gnomon::curvature expected = c;
             expected.direction1 = r * c.direction1;
             expected.direction2 = r * c.direction2;
-            expect_same_curvature(estimate(r * p + t, r * up, clouds::moved(ring, r, t)), expected,
-                                  tolerance);
+            expect_same_curvature(estimate(r * p + t, r * up, clouds::moved(neighbors, r, t)),
+                                  expected, tolerance);
         }
 
-        const gnomon::curvature back = estimate(p, -up, ring);
+        const gnomon::curvature back = estimate(p, -up, neighbors);
         ASSERT_NEAR(back.mean(), -c.mean(), 1e-10);
         ASSERT_NEAR(back.gaussian(), c.gaussian(), 1e-9);
         ASSERT_LT(angle_between(back.direction1, c.direction2), 1e-10);
     }
 }
+// [curvature_follows_the_cloud]
 
-/// A cloud s times as large has curvatures 1/s as large.
+// [curvature_is_one_over_a_length]
+/// Scaling a cloud by s scales its curvatures by 1/s.
 template <gnomon::curvature_estimator C>
 void curvature_is_one_over_a_length(const C& estimate) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
-        const auto [ring, p] = bent_sample(seed);
-        const gnomon::curvature c = estimate(p, patches::up, ring);
+        const auto [neighbors, p] = bent_sample(seed);
+        const gnomon::curvature c = estimate(p, patches::up, neighbors);
         for (const double s : {1e-30, 1e-3, 7.0, 1e30}) {
             const Eigen::Matrix3d scaling = s * Eigen::Matrix3d::Identity();
             gnomon::curvature scaled =
-                estimate(s * p, patches::up, clouds::moved(ring, scaling, patches::zero));
+                estimate(s * p, patches::up, clouds::moved(neighbors, scaling, patches::zero));
             scaled.kappa1 *= s;
             scaled.kappa2 *= s;
             expect_same_curvature(scaled, c, 1e-10);
         }
     }
 }
+// [curvature_is_one_over_a_length]
 
 }  // namespace laws

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The law of the `ray_caster` concept, to be run on every model, yours too: the answer is that of
-/// asking all shapes one by one.
+/// casting the ray at all shapes one by one.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,11 @@
 
 namespace laws {
 
+namespace sim = gnomon::simulation;
+
 /// Oracle.
-inline std::optional<gnomon::ray_hit> by_asking_all(const gnomon::scene& world, gnomon::ray r) {
-    std::optional<gnomon::ray_hit> nearest;
+inline std::optional<sim::ray_hit> by_asking_all(const sim::scene& world, sim::ray r) {
+    std::optional<sim::ray_hit> nearest;
     for (const auto& s : world.shapes()) {
         if (const auto hit = s.first_hit(r)) {
             nearest = hit;
@@ -34,7 +36,7 @@ inline std::optional<gnomon::ray_hit> by_asking_all(const gnomon::scene& world, 
 }
 
 /// A ray from anywhere within the bounds in any direction.
-inline gnomon::ray ray_within(const gnomon::bounds& extent, gnomon::random_stream& random) {
+inline sim::ray ray_within(const sim::bounds& extent, gnomon::random_stream& random) {
     Eigen::Vector3d from;
     for (int a = 0; a < 3; ++a) from[a] = random.uniform(extent.low[a], extent.high[a]);
     const Eigen::Vector3d u(random.gaussian(), random.gaussian(), random.gaussian());
@@ -45,17 +47,18 @@ inline gnomon::ray ray_within(const gnomon::bounds& extent, gnomon::random_strea
 struct casting {
     std::size_t hits = 0;      ///< of the oracle
     std::size_t others = 0;    ///< rays for which one hits and the other does not, or elsewhere
-    std::size_t ties = 0;      ///< rays that met two surfaces at once: each told of another one
+    std::size_t ties = 0;      ///< rays that met two surfaces at once: each reported another one
     double worst_range = 0.0;  ///< largest relative difference where both hit the same surface
 };
 
-inline casting compare_casters(const gnomon::scene& world, const gnomon::ray_caster auto& caster,
+// [compare_casters]
+inline casting compare_casters(const sim::scene& world, const sim::ray_caster auto& caster,
                                std::size_t rays, std::uint64_t seed, double precision = 1e-12) {
     casting result;
     gnomon::random_stream random(seed, 31);
-    const gnomon::bounds extent = world.extent();
+    const sim::bounds extent = world.extent();
     for (std::size_t i = 0; i < rays; ++i) {
-        gnomon::ray r = ray_within(extent, random);
+        sim::ray r = ray_within(extent, random);
         if (i % 4 == 0) r.reach = random.uniform(0.0, 4.0);
         const auto expected = by_asking_all(world, r);
         const auto found = caster(r);
@@ -72,12 +75,13 @@ inline casting compare_casters(const gnomon::scene& world, const gnomon::ray_cas
     }
     return result;
 }
+// [compare_casters]
 
 /// The same surfaces at the same ranges, for a caster of which single rays may not err.
 /// @param precision  of ranges, relative
 /// @return how many rays hit
-inline std::size_t obeys_ray_caster_laws(const gnomon::scene& world,
-                                         const gnomon::ray_caster auto& caster, std::uint64_t seed,
+inline std::size_t obeys_ray_caster_laws(const sim::scene& world,
+                                         const sim::ray_caster auto& caster, std::uint64_t seed,
                                          double precision = 1e-12) {
     const casting result = compare_casters(world, caster, 20'000, seed, precision);
     EXPECT_EQ(result.others, 0u);

@@ -19,23 +19,24 @@
 
 namespace laws {
 
+namespace sim = gnomon::simulation;
+
 inline Eigen::Vector3d random_direction(gnomon::random_stream& random) {
     return Eigen::Vector3d(random.gaussian(), random.gaussian(), random.gaussian()).normalized();
 }
 
 /// Rays towards, past and from within a shape, and along the axes.
-inline std::vector<gnomon::ray> rays_at(const gnomon::bounds& extent, std::size_t n,
-                                        std::uint64_t seed) {
+inline std::vector<sim::ray> rays_at(const sim::bounds& extent, std::size_t n, std::uint64_t seed) {
     const Eigen::Vector3d middle = 0.5 * (extent.low + extent.high);
     const double size = (extent.high - extent.low).norm();
     gnomon::random_stream random(seed, 21);
-    std::vector<gnomon::ray> rays;
+    std::vector<sim::ray> rays;
     for (std::size_t i = 0; i < n; ++i) {
         const double distance = i % 3 == 0 ? random.uniform(0.0, 0.3) : random.uniform(0.5, 20.0);
         const Eigen::Vector3d from = middle + size * distance * random_direction(random);
         const Eigen::Vector3d to =
             middle + 0.6 * size * random.uniform() * random_direction(random);
-        gnomon::ray r{from, (to - from).normalized()};
+        sim::ray r{from, (to - from).normalized()};
         if (i % 7 == 0) {
             r.direction.setZero();
             r.direction[static_cast<int>(i % 3)] = i % 2 ? 1.0 : -1.0;
@@ -46,14 +47,15 @@ inline std::vector<gnomon::ray> rays_at(const gnomon::bounds& extent, std::size_
 }
 
 /// The laws, for rays at the shape; see obeys_shape_laws.
-template <gnomon::shape S>
+template <sim::shape S>
 void expect_shape_laws(const S& s, std::uint64_t seed, std::size_t& hits) {
-    const gnomon::bounds extent = s.extent();
+    const sim::bounds extent = s.extent();
     const double slack = 1e-9 * (1.0 + extent.low.norm() + extent.high.norm());
-    for (const gnomon::ray& r : rays_at(extent, 3000, seed)) {
+    for (const sim::ray& r : rays_at(extent, 3000, seed)) {
         const auto hit = s.first_hit(r);
         if (!hit) continue;
         ++hits;
+        // [hits_are_valid]
         EXPECT_GT(hit->range, 0.0);
         EXPECT_NEAR(hit->normal.norm(), 1.0, 1e-12);
         EXPECT_LE(hit->normal.dot(r.direction), 1e-12);
@@ -64,8 +66,9 @@ void expect_shape_laws(const S& s, std::uint64_t seed, std::size_t& hits) {
             EXPECT_GE(p[a], extent.low[a] - slack * (1 + hit->range));
             EXPECT_LE(p[a], extent.high[a] + slack * (1 + hit->range));
         }
+        // [hits_are_valid]
 
-        gnomon::ray shorter = r;
+        sim::ray shorter = r;
         shorter.reach = hit->range;
         const auto same = s.first_hit(shorter);
         EXPECT_TRUE(same && same->range == hit->range && same->surface == hit->surface);
@@ -96,17 +99,17 @@ void expect_shape_laws(const S& s, std::uint64_t seed, std::size_t& hits) {
 
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const Eigen::Vector3d inside = 0.5 * (extent.low + extent.high);
-    for (const gnomon::ray& broken :
-         {gnomon::ray{inside, {0, 0, 0}}, gnomon::ray{inside, {nan, 0, 1}},
-          gnomon::ray{{nan, nan, nan}, {0, 0, 1}}, gnomon::ray{{0, 0, nan}, {0, 0, -1}},
-          gnomon::ray{inside, {1, 0, 0}, nan}, gnomon::ray{inside, {1, 0, 0}, 0.0},
-          gnomon::ray{inside, {1, 0, 0}, -1.0}}) {
+    for (const sim::ray& broken :
+         {sim::ray{inside, {0, 0, 0}}, sim::ray{inside, {nan, 0, 1}},
+          sim::ray{{nan, nan, nan}, {0, 0, 1}}, sim::ray{{0, 0, nan}, {0, 0, -1}},
+          sim::ray{inside, {1, 0, 0}, nan}, sim::ray{inside, {1, 0, 0}, 0.0},
+          sim::ray{inside, {1, 0, 0}, -1.0}}) {
         EXPECT_FALSE(s.first_hit(broken));
     }
 }
 
 /// @return how many of the rays hit
-template <gnomon::shape S>
+template <sim::shape S>
 std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
     std::size_t hits = 0;
     expect_shape_laws(s, seed, hits);
@@ -117,11 +120,11 @@ std::size_t obeys_shape_laws(const S& s, std::uint64_t seed) {
 /// are right to 1e-12 relative (a Newton step on f along the ray leads no farther) where
 /// |n . u| > 0.01, normals are the gradient, and no sample before the hit lies on the other side.
 /// @return how many hits were held against it
-template <gnomon::shape S>
+template <sim::shape S>
 std::size_t agrees_with_equation(const S& s, std::uint64_t seed, auto&& f) {
     using real = long double;
     std::size_t compared = 0;
-    for (const gnomon::ray& r : rays_at(s.extent(), 3000, seed)) {
+    for (const sim::ray& r : rays_at(s.extent(), 3000, seed)) {
         const auto at = [&](real t) {
             return f(real(r.origin.x()) + t * real(r.direction.x()),
                      real(r.origin.y()) + t * real(r.direction.y()),

@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include "laws/size_preference_laws.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/neighborhoods/adaptive_knn.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
@@ -79,7 +80,8 @@ TEST(adaptive_knn, takes_fewer_neighbors_near_an_edge) {
     EXPECT_GT(far / far_count, 100.0);
 }
 
-/// The rings are beginnings of the rings of knn, and the preference saw each size that was offered.
+/// The neighborhoods are beginnings of the neighborhoods of knn, and the preference saw each size
+/// that was offered.
 TEST(adaptive_knn, is_a_beginning_of_knn) {
     const auto points = clouds::sheet(500, 4);
     const auto all = gnomon::knn{.k = 60}(points);
@@ -110,6 +112,15 @@ TEST(adaptive_knn, refuses_sizes_that_make_no_series) {
     constexpr std::size_t all = std::numeric_limits<std::size_t>::max();
     EXPECT_EQ((policy{.min_k = all, .max_k = all}(points))[0].size(), 9u);
     EXPECT_EQ((policy{.min_k = 2, .growth = 1e300}(points)).size(), 10u);
+}
+
+static_assert(!gnomon::size_preference<double>);
+
+TEST(size_preference, models_obey_the_laws) {
+    laws::costs_are_comparable(gnomon::prefer_isotropic{});
+    laws::costs_are_comparable(gnomon::prefer_low_entropy{});
+    laws::costs_are_comparable(gnomon::prefer_small_error{});
+    laws::costs_are_comparable(gnomon::prefer_small_error{.sigma = 0.0});
 }
 
 }  // namespace

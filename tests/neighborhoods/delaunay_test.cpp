@@ -232,7 +232,7 @@ TEST(delaunay, certified_stars_are_those_of_all_points) {
 }
 
 /// Uncertified at k = 5, where a star of six needs more; certified after doubling.
-TEST(delaunay, looks_farther_until_it_is_certain) {
+TEST(delaunay, widens_the_search_until_the_star_is_certified) {
     const auto points = clouds::sheet(3000, 4);
     const auto count = [&](const gnomon::delaunay& policy) {
         const auto graph = policy(points);
@@ -246,7 +246,7 @@ TEST(delaunay, looks_farther_until_it_is_certain) {
 }
 
 /// When there are no more points to look at, a closed star is certain.
-TEST(delaunay, certifies_what_has_seen_all) {
+TEST(delaunay, certifies_stars_of_all_points) {
     gnomon::random_stream random(7);
     clouds::cloud points{{0, 0, 0}};
     for (int i = 0; i < 12; ++i) points.push_back({random.gaussian(), random.gaussian(), 0.0});
@@ -256,7 +256,7 @@ TEST(delaunay, certifies_what_has_seen_all) {
 }
 
 /// Twenty copies of a point fill its neighborhood: there are others beyond.
-TEST(delaunay, looks_beyond_copies_of_the_point) {
+TEST(delaunay, searches_beyond_duplicates_of_the_point) {
     auto points = clouds::sheet(400, 5);
     for (int i = 0; i < 20; ++i) points.push_back(points[0]);
     const auto graph = gnomon::delaunay{}(points);

@@ -11,7 +11,7 @@
 
 namespace {
 
-/// Oracle: the rings of knn, cut at the radius.
+/// Oracle: the neighborhoods of knn, cut at the radius.
 TEST(hybrid, is_knn_within_a_radius) {
     for (const auto& points : {clouds::in_cube(800, 1), clouds::on_grid(800, 2, 0.125)}) {
         const auto nearest = gnomon::knn{.k = 12}(points);
@@ -29,7 +29,7 @@ TEST(hybrid, is_knn_within_a_radius) {
     }
 }
 
-TEST(hybrid, refuses_what_is_no_number_of_neighbors_and_no_radius) {
+TEST(hybrid, rejects_invalid_numbers_of_neighbors_and_radii) {
     const auto points = clouds::in_cube(10, 1);
     EXPECT_THROW((void)(gnomon::hybrid{.k = 0}(points)), std::invalid_argument);
     for (const double r : {-1.0, clouds::nan, std::numeric_limits<double>::infinity()})

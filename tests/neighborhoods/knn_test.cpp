@@ -20,7 +20,7 @@ TEST(knn, gives_k_neighbors_or_all_others) {
     }
 }
 
-/// The self is told by its index: duplicates of a point are neighbors of it.
+/// The query point is excluded by its index: its duplicates are neighbors.
 TEST(knn, counts_duplicates_as_neighbors) {
     const clouds::cloud same(60, {1, 2, 3});
     const auto graph = gnomon::knn{.k = 5}(same);
@@ -32,7 +32,8 @@ TEST(knn, counts_duplicates_as_neighbors) {
               (std::vector<gnomon::point_index>{0, 1, 3, 4, 5}));
 }
 
-/// With all ties, on a grid full of them, the rings are the same sets in any order of the points.
+/// With all ties, on a grid full of them, the neighborhoods are the same sets in any order of the
+/// points.
 TEST(knn, with_all_ties_does_not_depend_on_the_order_of_the_points) {
     const auto points = clouds::on_grid(500, 3, 0.1);
     std::vector<std::size_t> order;

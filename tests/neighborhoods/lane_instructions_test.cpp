@@ -98,7 +98,7 @@ TEST(lane_instructions, keep_those_whose_bits_are_set) {
     expect_compression(compiled_instructions{});
 }
 
-/// The widest are those of the processor, whatever the compiler was told of.
+/// The widest instruction set is chosen by the processor, not by compiler flags.
 TEST(lane_instructions, are_the_widest_that_there_are) {
 #if defined(GNOMON_LANES_UP_TO_AVX2)
     using gnomon::detail::avx2_instructions;

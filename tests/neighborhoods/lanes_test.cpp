@@ -41,7 +41,7 @@ TEST(lanes, measure_points_and_boxes) {
 }
 
 /// The k-th least of few numbers, many of them equal, against sorting.
-TEST(lanes, tell_the_kth_least) {
+TEST(lanes, find_the_kth_least) {
     gnomon::random_stream random(4);
     for (std::size_t n = 1; n <= lane_count; ++n) {
         for (const double kinds : {1.0, 3.0, 1e6}) {

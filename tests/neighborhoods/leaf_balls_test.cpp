@@ -14,10 +14,10 @@
 
 #include "laws/clouds.hpp"
 #include "neighborhoods/sweep_clouds.hpp"
+#include "oracles/nanoflann_index.hpp"
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/hybrid.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 
 namespace {
@@ -25,40 +25,38 @@ namespace {
 using gnomon::adjacency, gnomon::hybrid, gnomon::radius;
 using gnomon::detail::leaf_balls, gnomon::detail::leaf_tree;
 
-/// Radii at which there is next to nothing, and exactly those of neighbors.
+/// Radii with almost no neighbors, and radii that equal the distance of a neighbor.
 std::vector<double> radii_for(const clouds::cloud& points) {
     std::vector<double> all{0.0};
-    std::vector<gnomon::neighbor> ring;
     const auto some = std::find_if(points.begin(), points.end(),
                                    [](const auto& p) { return gnomon::is_finite(p); });
     if (some == points.end()) return all;
-    gnomon::kd_tree(points).nearest(*some, 12, gnomon::kd_tree::no_point, ring);
+    const auto neighbors = gnomon::spatial_index(points).nearest(*some, 12);
     for (const std::size_t k : {1u, 11u})
-        if (k < ring.size()) all.push_back(std::sqrt(ring[k].squared_distance));
+        if (k < neighbors.size()) all.push_back(std::sqrt(neighbors[k].squared_distance));
     std::erase_if(all, [](double r) { return r > 1e140; });  // all pairs of 1500
     return all;
 }
 
-template <class Policy>
-void expect_what_nanoflann_finds(const clouds::cloud& points, const Policy& policy) {
-    const adjacency found = policy(points), expected(policy.search(points));
+void expect_equal(const clouds::cloud& points, const adjacency& found, const adjacency& expected) {
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         ASSERT_TRUE(std::ranges::equal(found[i], expected[i])) << "point " << i;
 }
 
-TEST(leaf_balls, hold_what_nanoflann_finds) {
+TEST(leaf_balls, match_nanoflann) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         for (const double r : radii_for(points)) {
             SCOPED_TRACE(name + ", r " + std::to_string(r));
-            expect_what_nanoflann_finds(points, radius{r});
-            for (const std::size_t k : {2u, 30u}) expect_what_nanoflann_finds(points, hybrid{k, r});
+            expect_equal(points, radius{r}(points), oracles::graph_within(points, r));
+            for (const std::size_t k : {2u, 30u})
+                expect_equal(points, hybrid{k, r}(points), oracles::graph_within(points, r, k));
         }
     }
 }
 
 /// Radii that differ from point to point by a lot, none, and infinite ones.
-TEST(leaf_balls, may_have_a_radius_for_each_point) {
+TEST(leaf_balls, accept_a_radius_for_each_point) {
     const auto radius_of = [](std::size_t i) {
         if (i % 11 == 0) return -1.0;
         if (i % 101 == 0) return std::numeric_limits<double>::infinity();
@@ -69,12 +67,12 @@ TEST(leaf_balls, may_have_a_radius_for_each_point) {
         std::vector<std::vector<std::uint32_t>> found(points.size());
         std::size_t visited = 0;
         const auto visit = [&](std::size_t p, std::span<const std::uint32_t> places) {
-            auto& ring = found[tree.index()[p]];
-            for (const std::uint32_t q : places) ring.push_back(tree.index()[q]);
-            std::sort(ring.begin(), ring.end());
+            auto& neighbors = found[tree.index()[p]];
+            for (const std::uint32_t q : places) neighbors.push_back(tree.index()[q]);
+            std::sort(neighbors.begin(), neighbors.end());
             ++visited;
         };
-        leaf_balls search(tree, radius_of);
+        leaf_balls search(tree, [&](std::size_t p) { return radius_of(tree.index()[p]); });
         for (std::size_t g = 0; g < tree.groups(); ++g) search(g, visit);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double r = radius_of(i);

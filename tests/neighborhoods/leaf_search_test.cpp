@@ -11,13 +11,14 @@
 
 #include "laws/clouds.hpp"
 #include "neighborhoods/sweep_clouds.hpp"
+#include "oracles/nanoflann_index.hpp"
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 
 namespace {
 
-using gnomon::knn, gnomon::knn_backend, gnomon::tie_rule;
+using gnomon::knn, gnomon::tie_rule;
 using gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
 using found_neighbors = gnomon::detail::found_neighbors<leaf_tree>;
 using gnomon::detail::place_visitor;
@@ -25,13 +26,13 @@ using gnomon::detail::place_visitor;
 void expect_the_same_neighbors(const clouds::cloud& points, std::size_t k,
                                tie_rule ties = tie_rule::by_index) {
     const auto found = knn{.k = k, .ties = ties}(points);
-    const auto expected = knn{.k = k, .ties = ties, .backend = knn_backend::nanoflann}(points);
+    const auto expected = oracles::knn_graph(points, k, ties);
     ASSERT_EQ(found.size(), expected.size());
     for (std::size_t i = 0; i < points.size(); ++i)
         ASSERT_TRUE(std::ranges::equal(found[i], expected[i])) << "k " << k << ", point " << i;
 }
 
-TEST(leaf_search, finds_what_nanoflann_finds) {
+TEST(leaf_search, matches_nanoflann) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 8u, 19u, 26u, 130u}) expect_the_same_neighbors(points, k);
@@ -47,7 +48,7 @@ TEST(leaf_search, keeps_the_ties_that_nanoflann_keeps) {
 
 /// As few as are compared all with all, one more, and many: all as far from one point, for they are
 /// whole numbers whose squares have the same sum.
-TEST(leaf_search, tells_apart_what_is_as_far) {
+TEST(leaf_search, breaks_ties_of_equal_distances) {
     clouds::cloud shell;
     for (int x = -12; x <= 12; ++x)
         for (int y = -12; y <= 12; ++y)
@@ -68,7 +69,7 @@ TEST(leaf_search, tells_apart_what_is_as_far) {
 }
 
 /// About full leaves and groups, and for more neighbors than there are.
-TEST(leaf_search, finds_what_nanoflann_finds_of_any_number_of_points) {
+TEST(leaf_search, matches_nanoflann_for_any_number_of_points) {
     for (const std::size_t n :
          {0u, 1u, 2u, 3u, 31u, 32u, 33u, 63u, 64u, 65u, 127u, 128u, 129u, 160u, 161u, 1000u}) {
         for (const auto& points : {clouds::in_cube(n, n), clouds::on_grid(n, n)}) {
@@ -81,12 +82,12 @@ TEST(leaf_search, finds_what_nanoflann_finds_of_any_number_of_points) {
     }
 }
 
-/// The search sweeps all of these clouds but where points crowd: it does not leave them to the
-/// other way, which would make the comparison worthless.
-TEST(leaf_search, is_what_was_tried) {
+/// All these clouds are swept, except those with crowded leaves: else the comparisons in this file
+/// would test the single-point search instead.
+TEST(leaf_search, sweeps_all_clouds_without_crowded_leaves) {
     std::size_t left_out = 0;
     for (const auto& [name, points] : clouds::to_sweep()) {
-        const bool swept = knn{.k = 8}.sweep(points, gnomon::sequential{}, std::identity{},
+        const bool swept = knn{.k = 8}.sweep(gnomon::spatial_index(points), gnomon::sequential{},
                                              [] { return gnomon::detail::any_visitor{}; });
         left_out += !swept;
         EXPECT_TRUE(swept || name.find("equal") != name.npos || name.find("origin") != name.npos ||
@@ -99,7 +100,7 @@ TEST(leaf_search, is_what_was_tried) {
 /// What one search finds for point i, by point, in the order of the tree.
 struct finding {
     std::vector<gnomon::neighbor> neighbors;
-    gnomon::detail::ring_sums sums;
+    gnomon::detail::neighborhood_sums sums;
 
     friend bool operator==(const finding& a, const finding& b) {
         return a.neighbors == b.neighbors && a.sums.about_point.sum == b.sums.about_point.sum &&
@@ -108,8 +109,9 @@ struct finding {
     }
 };
 
-/// Guesses come from what was found before; what is found does not, to the last bit.
-TEST(leaf_search, does_not_depend_on_what_was_found_before) {
+/// The initial search radius comes from earlier queries; results do not depend on it, to the last
+/// bit.
+TEST(leaf_search, does_not_depend_on_earlier_queries) {
     for (const auto& [name, points] : clouds::to_sweep()) {
         const leaf_tree tree(gnomon::position_view<clouds::cloud>(points), gnomon::sequential{});
         if (tree.size() == 0 || tree.crowded()) continue;
@@ -131,8 +133,8 @@ TEST(leaf_search, does_not_depend_on_what_was_found_before) {
     }
 }
 
-/// Moments and mean distance of what was found, against plain sums.
-TEST(leaf_search, sums_up_what_it_finds) {
+/// Moments and mean distance of the neighbors, against plain sums.
+TEST(leaf_search, accumulates_the_moments_of_the_neighbors) {
     const auto points = clouds::sheet(1000, 3);
     const leaf_tree tree(gnomon::position_view<clouds::cloud>(points), gnomon::sequential{});
     for (const std::size_t k : {1u, 3u, 4u, 5u, 7u, 8u, 9u, 20u}) {
@@ -140,9 +142,9 @@ TEST(leaf_search, sums_up_what_it_finds) {
             ASSERT_EQ(found.size(), k);
             gnomon::moments expected;
             double distance = 0.0;
-            std::vector<gnomon::neighbor> ring;
-            found.sort_into(ring);
-            for (const gnomon::neighbor& neighbor : ring) {
+            std::vector<gnomon::neighbor> neighbors;
+            found.sort_into(neighbors);
+            for (const gnomon::neighbor& neighbor : neighbors) {
                 const Eigen::Vector3d& q = points[neighbor.index];
                 ASSERT_EQ(neighbor.squared_distance, gnomon::squared_distance(points[i], q));
                 expected.add(q - points[i]);

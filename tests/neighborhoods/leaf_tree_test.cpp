@@ -121,7 +121,7 @@ TEST(leaf_tree, is_the_same_for_any_number_of_threads) {
 
 /// Fewer points than a leaf holds cannot fill one. More may share leaves with others, but not many
 /// more.
-TEST(leaf_tree, says_where_points_crowd) {
+TEST(leaf_tree, reports_crowded_leaves) {
     for (const std::size_t heap : {31u, 2000u}) {
         auto points = clouds::in_cube(5000, 5);
         std::fill_n(points.begin() + 100, heap, Eigen::Vector3d(0.5, 0.5, 0.5));

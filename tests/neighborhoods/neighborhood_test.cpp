@@ -6,12 +6,12 @@
 #include "laws/clouds.hpp"
 #include "laws/neighborhood_laws.hpp"
 #include <gnomon/neighborhoods/adaptive_knn.hpp>
+#include <gnomon/neighborhoods/angularly_sorted.hpp>
 #include <gnomon/neighborhoods/delaunay.hpp>
 #include <gnomon/neighborhoods/hybrid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
-#include <gnomon/neighborhoods/sorted_around.hpp>
 
 namespace {
 
@@ -31,14 +31,14 @@ struct scan_line {
     }
 };
 
-static_assert(gnomon::streaming_neighborhood<gnomon::knn, clouds::cloud>);
-static_assert(gnomon::streaming_neighborhood<gnomon::radius, clouds::cloud>);
-static_assert(gnomon::sweeping_neighborhood<gnomon::knn, clouds::cloud>);
-static_assert(gnomon::sweeping_neighborhood<gnomon::radius, clouds::cloud>);
-static_assert(gnomon::sweeping_neighborhood<gnomon::hybrid, clouds::cloud>);
-static_assert(!gnomon::sweeping_neighborhood<gnomon::delaunay, clouds::cloud>);
+static_assert(gnomon::indexed_neighborhood<gnomon::delaunay>);
+static_assert(gnomon::indexed_neighborhood<gnomon::angularly_sorted<gnomon::radius>>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::knn>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::radius>);
+static_assert(gnomon::sweeping_neighborhood<gnomon::hybrid>);
+static_assert(!gnomon::sweeping_neighborhood<gnomon::delaunay>);
 static_assert(gnomon::neighborhood<scan_line, clouds::cloud>);
-static_assert(!gnomon::streaming_neighborhood<scan_line, clouds::cloud>);
+static_assert(!gnomon::indexed_neighborhood<scan_line>);
 static_assert(!gnomon::neighborhood<int, clouds::cloud>);
 static_assert(!gnomon::neighborhood<gnomon::knn, std::vector<int>>);
 static_assert(gnomon::neighborhood_graph<std::vector<std::vector<gnomon::point_index>>>);
@@ -62,18 +62,18 @@ TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
                                 points);
         laws::neighborhood_laws(gnomon::adaptive_knn<gnomon::prefer_small_error>{}, points);
         for (const std::size_t k : {3u, 20u}) laws::neighborhood_laws(gnomon::delaunay{k}, points);
-        laws::neighborhood_laws(gnomon::sorted_around{gnomon::knn{9}}, points);
-        laws::neighborhood_laws(gnomon::sorted_around{gnomon::radius{0.1}}, points);
+        laws::neighborhood_laws(gnomon::angularly_sorted{gnomon::knn{9}}, points);
+        laws::neighborhood_laws(gnomon::angularly_sorted{gnomon::radius{0.1}}, points);
         laws::neighborhood_laws(scan_line{}, points);
     }
 }
 
 TEST(neighborhood, policies_without_an_order_of_their_own_list_the_nearest_first) {
     for (const auto& points : {clouds::sheet(500, 1), clouds::on_grid(500, 2)}) {
-        laws::rings_are_in_canonical_order(gnomon::knn{9}, points);
-        laws::rings_are_in_canonical_order(gnomon::radius{0.2}, points);
-        laws::rings_are_in_canonical_order(gnomon::hybrid{9, 0.1}, points);
-        laws::rings_are_in_canonical_order(gnomon::adaptive_knn<>{}, points);
+        laws::neighbors_are_in_canonical_order(gnomon::knn{9}, points);
+        laws::neighbors_are_in_canonical_order(gnomon::radius{0.2}, points);
+        laws::neighbors_are_in_canonical_order(gnomon::hybrid{9, 0.1}, points);
+        laws::neighbors_are_in_canonical_order(gnomon::adaptive_knn<>{}, points);
     }
 }
 

@@ -27,7 +27,7 @@ TEST(radius, is_symmetric) {
     }
 }
 
-TEST(radius, refuses_what_is_no_distance) {
+TEST(radius, rejects_invalid_radii) {
     for (const double r : {-1.0, clouds::nan, clouds::infinity}) {
         EXPECT_THROW((void)gnomon::radius{.r = r}(clouds::in_cube(5, 1)), std::invalid_argument);
     }

@@ -23,7 +23,7 @@ inline cloud scaled(const cloud& points, double scale) {
     return moved(points, scale * Eigen::Matrix3d::Identity(), {0, 0, 0});
 }
 
-/// `points`, some of which are made anew: those whose number is a multiple of `every`.
+/// `points`, where each point with an index that is a multiple of `every` is replaced by make(i).
 inline cloud with_every(std::size_t every, cloud points, auto&& make) {
     for (std::size_t i = 0; i < points.size(); i += every) points[i] = make(i);
     return points;

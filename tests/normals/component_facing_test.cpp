@@ -18,7 +18,7 @@ namespace {
 using orientations::outwards, orientations::part_right, orientations::surface_elements,
     orientations::unoriented, solids::solid;
 
-/// A sphere seen from its center, from outside, and by nobody.
+/// A sphere seen from its center, from outside, and without a view point.
 TEST(component_facing, view_points_decide_for_a_component) {
     solid sphere;
     sphere.add_sphere({3, 0, 0}, 500);
@@ -61,7 +61,7 @@ TEST(component_facing, an_outlier_does_not_decide) {
 }
 
 /// Where there is no outside the rule is a convention.
-TEST(component_facing, a_plane_looks_up) {
+TEST(component_facing, orients_a_plane_upwards) {
     for (const double z : {-2.0, 2.0}) {  // rounding puts the centroid above it or below
         clouds::cloud plane;
         for (int i = 0; i < 100; ++i) plane.push_back({0.1 * (i % 10), 0.1 * (i / 10), z});

@@ -23,7 +23,7 @@ using vector = Eigen::Matrix<long double, Eigen::Dynamic, 1>;
 using vector3 = Eigen::Matrix<long double, 3, 1>;
 
 /// A random neighborhood about `place`, seen from there less (0.3, 0.4, 2): an ellipsoid of any
-/// shape from a ball to a needle or a sheet, of 3 to 60 neighbors. With float coordinates if asked.
+/// shape from a ball to a line or a sheet, of 3 to 60 neighbors. With float coordinates if asked.
 inline laws::neighborhood_sample random_neighborhood(std::uint64_t seed,
                                                      const Eigen::Vector3d& place,
                                                      bool in_float = false) {
@@ -52,14 +52,14 @@ inline laws::neighborhood_sample neighborhood_of_few_digits(std::uint64_t seed) 
     return random_neighborhood(seed, place_of_few_digits(in_float), in_float);
 }
 
-/// The rows that `row` makes of the ring, and of the point before them if `with_point`.
+/// The rows `row(q)` of the neighbors, and of the point before them if `with_point`.
 inline matrix rows_of(const laws::neighborhood_sample& sample, bool with_point,
                       Eigen::Index columns, auto&& row) {
-    matrix m(static_cast<Eigen::Index>(sample.ring.size()) + with_point, columns);
+    matrix m(static_cast<Eigen::Index>(sample.neighbors.size()) + with_point, columns);
     if (with_point) m.row(0) = row(sample.p.cast<long double>().eval()).transpose();
-    for (std::size_t j = 0; j < sample.ring.size(); ++j) {
+    for (std::size_t j = 0; j < sample.neighbors.size(); ++j) {
         m.row(static_cast<Eigen::Index>(j) + with_point) =
-            row(sample.ring[j].cast<long double>().eval()).transpose();
+            row(sample.neighbors[j].cast<long double>().eval()).transpose();
     }
     return m;
 }
@@ -83,8 +83,7 @@ inline answer last_singular_vector(const matrix& m) {
     return {n.normalized().cast<double>(), static_cast<double>(gap), s};
 }
 
-/// The angle [rad] that rounding may make: what the specification allows for doubles, and for what
-/// came in floats.
+/// The largest angle [rad] that rounding explains, for points in double and for points in float.
 inline double allowed(double gap) { return gap >= 1e-2 ? 1e-12 : 1e-14 / gap; }
 
 /// Runs `estimate` and the oracle on 10,000 neighborhoods each at the origin, at UTM coordinates
@@ -101,7 +100,7 @@ void expect_agrees_with(const E& estimate, auto&& oracle, std::size_t min_k = 3,
             // Every other one near the origin.
             const auto sample =
                 random_neighborhood(seed, trial % 2 ? place : Eigen::Vector3d(0, 0, 0), in_float);
-            if (sample.ring.size() < min_k) continue;
+            if (sample.neighbors.size() < min_k) continue;
             const auto found = laws::estimate_one(estimate, sample);
             const answer expected = oracle(sample);
             wide_gaps += expected.gap >= 1e-2;

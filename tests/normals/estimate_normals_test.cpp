@@ -9,6 +9,7 @@
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
 #include "normals/dense_oracles.hpp"
+#include "oracles/nanoflann_index.hpp"
 #include <gnomon/core/strided_view.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
@@ -31,7 +32,7 @@ TEST(estimate_normals, measures_the_neighborhood) {
     }
 }
 
-/// The caller's own memory, through any door, gives the same bytes.
+/// Vectors, spans, projections and the caller's own point type give the same bytes.
 TEST(estimate_normals, reads_any_container) {
     struct laser_return {
         double time;
@@ -85,7 +86,7 @@ TEST(estimate_normals, distrusts_coordinates_that_are_too_coarse) {
 }
 
 /// A NaN among the points changes no other normal.
-TEST(estimate_normals, is_not_poisoned_by_nan) {
+TEST(estimate_normals, does_not_propagate_nan) {
     auto points = clouds::sheet(400, 5);
     const auto clean = gnomon::estimate_normals(points, knn{12}, plane_pca{});
     for (int i = 0; i < 40; ++i) points.push_back({clouds::nan, 0.1 * i, clouds::infinity});
@@ -96,7 +97,7 @@ TEST(estimate_normals, is_not_poisoned_by_nan) {
 
 TEST(estimate_normals, hands_view_points_to_ray_estimators) {
     const auto points = clouds::sheet(50, 6);
-    const auto looks_from = [](const Eigen::Vector3d& p, gnomon::ring_view,
+    const auto looks_from = [](const Eigen::Vector3d& p, gnomon::neighborhood_view,
                                const Eigen::Vector3d& v) -> Eigen::Vector3d { return v - p; };
     const Eigen::Vector3d v(1, 2, 30);
     for (const auto& s :
@@ -127,22 +128,23 @@ std::vector<clouds::named_cloud> swept_clouds() {
     return all;
 }
 
-/// A sweep tells an estimator of any kind the very rings that the graph lists.
-TEST(estimate_normals, sweeps_over_the_rings_of_the_graph) {
-    struct whole_ring : gnomon::normal_fit {
-        clouds::cloud ring;
+/// Estimators of every kind receive from a sweep the neighborhoods that the graph lists.
+TEST(estimate_normals, sweeps_over_the_neighborhoods_of_the_graph) {
+    struct whole_neighborhood : gnomon::normal_fit {
+        clouds::cloud neighbors;
     };
-    const auto tell = [](const Eigen::Vector3d&, gnomon::ring_view ring) {
-        return whole_ring{{Eigen::Vector3d::UnitZ(), trust::good}, {ring.begin(), ring.end()}};
+    const auto tell = [](const Eigen::Vector3d&, gnomon::neighborhood_view neighbors) {
+        return whole_neighborhood{{Eigen::Vector3d::UnitZ(), trust::good},
+                                  {neighbors.begin(), neighbors.end()}};
     };
     for (const auto& [name, points] : swept_clouds()) {
         SCOPED_TRACE(name);
         for (const std::size_t k : {1u, 12u}) {
             const auto swept = gnomon::estimate_normals(points, knn{k}, tell);
-            const auto stored = gnomon::estimate_normals(
-                points, knn{.k = k, .backend = gnomon::knn_backend::nanoflann}(points), tell);
+            const auto stored =
+                gnomon::estimate_normals(points, oracles::knn_graph(points, k), tell);
             for (std::size_t i = 0; i < points.size(); ++i) {
-                ASSERT_EQ(swept[i].ring, stored[i].ring);
+                ASSERT_EQ(swept[i].neighbors, stored[i].neighbors);
                 ASSERT_EQ(swept[i].neighbors, stored[i].neighbors);
                 ASSERT_EQ(swept[i].trust, stored[i].trust);
                 ASSERT_EQ(swept[i].mean_distance, stored[i].mean_distance);

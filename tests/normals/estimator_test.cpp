@@ -12,10 +12,10 @@ namespace {
 
 /// A user's own estimator that returns a bare vector: the normal of the triangle of largest area
 /// with a corner in p; unusual, but lawful.
-const auto largest_triangle = [](const Eigen::Vector3d& p, gnomon::ring_view ring) {
+const auto largest_triangle = [](const Eigen::Vector3d& p, gnomon::neighborhood_view neighbors) {
     Eigen::Vector3d best = Eigen::Vector3d::Zero();
-    for (const auto& q : ring) {
-        for (const auto& r : ring) {
+    for (const auto& q : neighbors) {
+        for (const auto& r : neighbors) {
             const Eigen::Vector3d a = q - p, b = r - p;
             const Eigen::Vector3d c(a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
                                     a.x() * b.y() - a.y() * b.x());
@@ -27,7 +27,7 @@ const auto largest_triangle = [](const Eigen::Vector3d& p, gnomon::ring_view rin
 
 /// One that promises trust and then returns NaN: the driver must not pass it on.
 struct broken {
-    gnomon::plane_fit operator()(const Eigen::Vector3d&, gnomon::ring_view) const {
+    gnomon::plane_fit operator()(const Eigen::Vector3d&, gnomon::neighborhood_view) const {
         gnomon::plane_fit fit;
         fit.normal.setConstant(clouds::nan);
         fit.trust = gnomon::trust::good;
@@ -35,35 +35,36 @@ struct broken {
     }
 };
 
-struct no_ring {
+struct no_neighborhood {
     Eigen::Vector3d operator()(const Eigen::Vector3d&) const;
 };
 struct returns_text {
-    std::string operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+    std::string operator()(const Eigen::Vector3d&, gnomon::neighborhood_view) const;
 };
 
 /// One that forgets to normalise.
 struct too_long {
-    gnomon::plane_fit operator()(const Eigen::Vector3d& p, gnomon::ring_view ring) const {
-        gnomon::plane_fit fit = gnomon::plane_pca{}(p, ring);
+    gnomon::plane_fit operator()(const Eigen::Vector3d& p,
+                                 gnomon::neighborhood_view neighbors) const {
+        gnomon::plane_fit fit = gnomon::plane_pca{}(p, neighbors);
         fit.normal *= 2.0;
         return fit;
     }
 };
 
 struct returns_matrix {
-    Eigen::Matrix3d operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+    Eigen::Matrix3d operator()(const Eigen::Vector3d&, gnomon::neighborhood_view) const;
 };
 struct returns_float {
-    Eigen::Vector3f operator()(const Eigen::Vector3d&, gnomon::ring_view) const;
+    Eigen::Vector3f operator()(const Eigen::Vector3d&, gnomon::neighborhood_view) const;
 };
 static_assert(!gnomon::estimator<returns_matrix> && gnomon::estimator<returns_float>);
 static_assert(gnomon::estimator<gnomon::plane_pca>);
 static_assert(gnomon::estimator<decltype(largest_triangle)>);
 static_assert(gnomon::estimator<decltype([](const auto& p, auto) { return p; })>);
-static_assert(!gnomon::estimator<no_ring> && !gnomon::estimator<returns_text>);
+static_assert(!gnomon::estimator<no_neighborhood> && !gnomon::estimator<returns_text>);
 static_assert(!gnomon::estimator<int>);
-// A column of a matrix that is gone: the textbook way to dangle.
+// A column of a matrix that is destroyed: a dangling reference.
 static_assert(!gnomon::estimator<decltype([](const auto& p, auto) {
     const Eigen::Matrix3d m = p * p.transpose();
     return m.col(0);

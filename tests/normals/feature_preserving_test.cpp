@@ -89,7 +89,7 @@ TEST(feature_preserving, keeps_close_walls_apart) {
     }
 }
 
-TEST(feature_preserving, takes_as_many_neighbors_as_noise_asks_for) {
+TEST(feature_preserving, chooses_the_number_of_neighbors_by_the_noise) {
     const roof clean(8000, 0.0, 3), noisy(8000, 0.01, 3);
     EXPECT_EQ(estimate_normals(clean.points, feature_preserving{})[0].neighbors, 8u);
     EXPECT_GT(estimate_normals(noisy.points, feature_preserving{})[0].neighbors, 24u);
@@ -145,8 +145,8 @@ TEST(feature_preserving, is_the_same_bytes_on_any_number_of_threads) {
     }
 }
 
-/// A point off its own plane, and off everybody else's, keeps its normal.
-TEST(feature_preserving, makes_up_no_normal_for_outliers) {
+/// A point that lies neither on its own plane nor on that of a neighbor keeps its normal.
+TEST(feature_preserving, keeps_the_normals_of_outliers) {
     gnomon::random_stream random(10);
     clouds::cloud points;
     for (int i = 0; i < 4000; ++i) points.emplace_back(random.uniform(), random.uniform(), 0.0);
@@ -191,7 +191,7 @@ TEST(feature_preserving, survives_degenerate_clouds) {
     }
 }
 
-TEST(feature_preserving, says_what_is_wrong) {
+TEST(feature_preserving, rejects_invalid_options) {
     const clouds::cloud points = clouds::sheet(50, 1);
     const auto refuses = [&](const feature_preserving& method) {
         EXPECT_THROW((void)estimate_normals(points, method), std::invalid_argument);

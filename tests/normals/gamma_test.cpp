@@ -35,8 +35,8 @@ TEST(gamma, counts_a_missing_normal_as_nothing) {
 TEST(gamma, grows_with_k_on_scenario_1_for_every_seed_and_scale) {
     for (const double scale : {0.85, 1.0, 1.15}) {
         for (std::uint64_t seed = 1; seed <= 5; ++seed) {
-            const auto truth = gnomon::simulate(
-                gnomon::box_and_cylinder{.sigma = 0.015, .scale = scale, .seed = seed});
+            const auto truth = gnomon::simulation::simulate(
+                gnomon::simulation::box_and_cylinder{.sigma = 0.015, .scale = scale, .seed = seed});
             double last = 0.0;
             for (std::size_t k = 10; k <= 50; k += 5) {
                 const double quality = gnomon::mean_gamma(

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -15,8 +16,8 @@ namespace {
 using gnomon::detail::tangent_basis;
 
 /// A belief in the z axis with deviations a, b along directions turned by `turn` in the plane.
-gnomon::normal_belief belief_in_z(double a, double b, double turn) {
-    gnomon::normal_belief belief;
+gnomon::normal_belief<> belief_in_z(double a, double b, double turn) {
+    gnomon::normal_belief<> belief;
     belief.normal = Eigen::Vector3d::UnitZ();
     const Eigen::Vector3d u(std::cos(turn), std::sin(turn), 0.0);
     const Eigen::Vector3d v(-u.y(), u.x(), 0.0);
@@ -56,7 +57,7 @@ TEST(normal_belief, nees_of_certainty) {
 }
 
 /// Drawn from its own covariance, an error has a mean NEES of two, and 5.991 is exceeded in 5 %.
-TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
+TEST(normal_belief, nees_of_consistent_errors_is_chi_square_with_two_degrees) {
     gnomon::random_stream random(1);
     const auto belief = belief_in_z(0.02, 0.05, -0.3);
     const Eigen::Vector3d u(std::cos(-0.3), std::sin(-0.3), 0.0);
@@ -76,7 +77,40 @@ TEST(normal_belief, nees_of_honest_errors_is_chi_square_with_two_degrees) {
     EXPECT_NEAR(static_cast<double>(beyond) / trials, 0.05, 0.003);
 }
 
-TEST(normal_belief, tangent_basis_goes_there_and_back) {
+/// Eigenvalues above (pi/2)^2 become that, the eigenvectors stay, and what is within the limits
+/// keeps its bits.
+TEST(normal_belief, covariances_are_limited) {
+    using gnomon::detail::largest_variance, gnomon::detail::limited_covariance;
+    const auto matrix_of = [](const gnomon::detail::tangent_matrix& p) -> Eigen::Matrix2d {
+        return Eigen::Matrix2d{{p.p11, p.p12}, {p.p12, p.p22}};
+    };
+    gnomon::random_stream random(3);
+    for (int i = 0; i < 1000; ++i) {
+        const double turn = random.uniform(0.0, 4.0);
+        const Eigen::Vector2d u(std::cos(turn), std::sin(turn));
+        const Eigen::Vector2d v(-u.y(), u.x());
+        const double a = std::pow(10.0, random.uniform(-5.0, 5.0));
+        const double b = std::pow(10.0, random.uniform(-5.0, 5.0));
+        const Eigen::Matrix2d given = a * u * u.transpose() + b * v * v.transpose();
+        const Eigen::Matrix2d expected = std::min(a, largest_variance) * u * u.transpose() +
+                                         std::min(b, largest_variance) * v * v.transpose();
+        const auto found = matrix_of(limited_covariance({given(0, 0), given(0, 1), given(1, 1)}));
+        ASSERT_LT((found - expected).norm(), 1e-9);
+        if (a < largest_variance && b < largest_variance) {
+            ASSERT_EQ(found.triangularView<Eigen::Upper>().toDenseMatrix(),
+                      given.triangularView<Eigen::Upper>().toDenseMatrix());
+        }
+    }
+    const Eigen::Matrix2d anywhere = largest_variance * Eigen::Matrix2d::Identity();
+    EXPECT_EQ(matrix_of(limited_covariance({clouds::infinity, 0.0, 1.0})), anywhere);
+    EXPECT_EQ(matrix_of(limited_covariance({1.0, clouds::nan, 1.0})), anywhere);
+    // Rounding made it indefinite: the negative eigenvalue goes.
+    const auto limited = matrix_of(limited_covariance({1e-4, 1.1e-4, 1e-4}));
+    EXPECT_GE(limited.determinant(), 0.0);
+    EXPECT_NEAR(limited.trace(), 2.1e-4, 1e-12);
+}
+
+TEST(normal_belief, tangent_basis_round_trip_is_exact) {
     gnomon::random_stream random(2);
     for (int i = 0; i < 1000; ++i) {
         const Eigen::Vector3d n = clouds::gaussian_vector(random).normalized();

@@ -57,9 +57,8 @@ TEST(normal_quality, of_missing_normals_and_missing_truth) {
 }
 
 TEST(normal_quality, small_angles_are_accurate) {
-    EXPECT_NEAR(gnomon::unoriented_angle(tilted(1e-9).normal, Eigen::Vector3d::UnitZ()) /
-                    gnomon::degrees(1e-9).radians(),
-                1.0, 1e-9);
+    const gnomon::angle a = gnomon::unoriented_angle(tilted(1e-9).normal, Eigen::Vector3d::UnitZ());
+    EXPECT_NEAR(a.degrees() / 1e-9, 1.0, 1e-9);
 }
 
 }  // namespace

@@ -19,17 +19,17 @@ inline double mean_gamma_with(const auto& estimate, double share) {
     constexpr int trials = 500;
     for (std::uint64_t seed = 0; seed < trials; ++seed) {
         gnomon::random_stream random(seed, 21);
-        clouds::cloud ring;
+        clouds::cloud neighbors;
         for (int i = 0; i < 40; ++i) {
             const double x = random.uniform(-0.1, 0.1);
             const double y = random.uniform(-0.1, 0.1);
             const bool is_outlier = random.uniform() < share;
-            ring.push_back({x, y,
-                            is_outlier ? random.uniform(0.0, 0.1) * (1.0 + 10.0 * x)
-                                       : 0.005 * random.gaussian()});
+            neighbors.push_back({x, y,
+                                 is_outlier ? random.uniform(0.0, 0.1) * (1.0 + 10.0 * x)
+                                            : 0.005 * random.gaussian()});
         }
         const Eigen::Vector3d p(0.0, 0.0, 0.005 * random.gaussian());
-        sum += gnomon::gamma(estimate(p, ring).normal, Eigen::Vector3d::UnitZ());
+        sum += gnomon::gamma(estimate(p, neighbors).normal, Eigen::Vector3d::UnitZ());
     }
     return sum / trials;
 }

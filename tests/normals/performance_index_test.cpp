@@ -22,7 +22,7 @@ TEST(performance_index, is_half_quality_and_half_speed) {  // Eq. (3.13)
     EXPECT_NEAR(performance_index(0.8840, 8.61, 1.0), 0.5001, 1e-4);
 }
 
-TEST(performance_index, refuses_what_is_no_time_and_no_quality) {
+TEST(performance_index, rejects_invalid_times_and_qualities) {
     for (const double bad : {0.0, -1.0, clouds::nan, clouds::infinity}) {
         EXPECT_THROW((void)performance_index(0.5, bad, 1.0), std::invalid_argument);
         EXPECT_THROW((void)performance_index(0.5, 1.0, bad), std::invalid_argument);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <cstdint>
+#include <numbers>
+#include <span>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -18,7 +20,7 @@ namespace {
 using gnomon::plane_eif, gnomon::trust;
 
 /// The batch is the sequential filter on m = n/d at the same linearization point: the measurement
-/// 1/r = u . m is linear, with variance sigma^2 / r^4. Long double, and a start that says nothing.
+/// 1/r = u . m is linear, with variance sigma^2 / r^4. Long double, and an uninformative prior.
 TEST(plane_eif, is_the_sequential_filter_in_one_batch) {
     constexpr double sigma = 0.01;
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
@@ -35,25 +37,34 @@ TEST(plane_eif, is_the_sequential_filter_in_one_batch) {
             p -= pu * pu.transpose() / variance;
         };
         update(s.p);
-        for (const auto& q : s.ring) update(q);
+        for (const auto& q : s.neighbors) update(q);
         const oracles::vector3 n = m.normalized();
         const Eigen::Matrix<long double, 3, 3> j =
             (Eigen::Matrix<long double, 3, 3>::Identity() - n * n.transpose()) / m.norm();
         const Eigen::Matrix3d covariance = (j * p * j.transpose()).cast<double>();
 
-        const auto belief = plane_eif{.sigma = sigma}(s.p, s.ring, s.viewpoint);
+        const auto belief = plane_eif{.sigma = sigma}(s.p, s.neighbors, s.viewpoint);
         ASSERT_LT(laws::angle_between(belief.normal, n.cast<double>()), 1e-9);
         ASSERT_LT((belief.covariance - covariance).norm(), 1e-7 * covariance.norm());
-        ASSERT_EQ(belief.normal, gnomon::ray_ls{}(s.p, s.ring, s.viewpoint).normal);
+        ASSERT_EQ(belief.normal, gnomon::ray_ls{}(s.p, s.neighbors, s.viewpoint).normal);
     }
 }
 
-TEST(plane_eif, says_what_is_wrong) {
+TEST(plane_eif, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(2, 0, 0);
     EXPECT_EQ(plane_eif{}(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(plane_eif{}(p, clouds::cloud{{2, 1, 0}, {2, 2, 0}, {2, -1, 0}}).trust,
               trust::degenerate);
     EXPECT_THROW((void)(plane_eif{.sigma = -1.0}(p, clouds::cloud(4, p))), std::invalid_argument);
+}
+
+/// The variance of the inverse range overflows where the cloud is as small as this.
+TEST(plane_eif, of_a_tiny_cube_is_anywhere) {
+    clouds::cloud cube = clouds::in_cube(30, 1);
+    for (Eigen::Vector3d& p : cube) p *= 1e-160;
+    const auto belief = plane_eif{}(cube[0], std::span(cube).subspan(1), {0, 0, -3e-160});
+    EXPECT_EQ(belief.trust, trust::weak);
+    EXPECT_NEAR(belief.trace(), 0.5 * std::numbers::pi * std::numbers::pi, 1e-12);
 }
 
 TEST(plane_eif, laws_hold) { laws::estimator_laws(plane_eif{}); }

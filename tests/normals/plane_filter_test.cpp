@@ -17,15 +17,15 @@ namespace {
 using gnomon::plane_ekf, gnomon::plane_ukf, gnomon::trust;
 
 struct of_no_state {
-    gnomon::linear_range operator()(const Eigen::Vector3d& u) const;
+    gnomon::detail::linear_range operator()(const Eigen::Vector3d& u) const;
 };
-static_assert(gnomon::range_linearization<gnomon::by_derivative>);
-static_assert(gnomon::range_linearization<gnomon::by_sigma_points>);
-static_assert(!gnomon::range_linearization<of_no_state>);
+static_assert(gnomon::detail::range_linearization<gnomon::detail::by_derivative>);
+static_assert(gnomon::detail::range_linearization<gnomon::detail::by_sigma_points>);
+static_assert(!gnomon::detail::range_linearization<of_no_state>);
 
 /// A plane and rays that see it, at random.
 struct view {
-    gnomon::plane_state state;
+    gnomon::detail::plane_state state;
     Eigen::Vector3d anchor;
     Eigen::Vector3d u;
 
@@ -45,7 +45,7 @@ struct view {
 TEST(plane_filter, derivative_agrees_with_finite_differences) {
     for (std::uint64_t seed = 0; seed < 1000; ++seed) {
         const view v(seed);
-        const auto z = gnomon::by_derivative(v.state, v.anchor)(v.u);
+        const auto z = gnomon::detail::by_derivative(v.state, v.anchor)(v.u);
         EXPECT_EQ(z.value, v.state.range(v.anchor, v.u));
         constexpr double h = 1e-5;
         for (int j = 0; j < 3; ++j) {
@@ -63,28 +63,28 @@ TEST(plane_filter, derivative_agrees_with_finite_differences) {
 TEST(plane_filter, sigma_points_tend_to_the_derivative) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         view v(seed);
-        const auto exact = gnomon::by_derivative(v.state, v.anchor)(v.u);
+        const auto exact = gnomon::detail::by_derivative(v.state, v.anchor)(v.u);
         v.state.covariance = 1e-10 * Eigen::Matrix3d::Identity();
-        const auto near = gnomon::by_sigma_points(v.state, v.anchor)(v.u);
+        const auto near = gnomon::detail::by_sigma_points(v.state, v.anchor)(v.u);
         EXPECT_LT((near.slope - exact.slope).norm(), 1e-6 * (1.0 + exact.slope.norm()));
         EXPECT_NEAR(near.value, exact.value, 1e-6);
         v.state.covariance = 1e-2 * Eigen::Matrix3d::Identity();
-        EXPECT_GT(gnomon::by_sigma_points(v.state, v.anchor)(v.u).variance, 1e-10);
+        EXPECT_GT(gnomon::detail::by_sigma_points(v.state, v.anchor)(v.u).variance, 1e-10);
     }
 }
 
 /// Oracle: the most likely plane by Newton steps on the sum of squares, with its inverse Hessian of
-/// first order, in long double; the filter must arrive there, its prior saying nothing.
+/// first order, in long double; the filter must converge to it with an uninformative prior.
 TEST(plane_filter, extended_filter_finds_the_most_likely_plane) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         const auto s = laws::sample_neighborhood(seed);
         const plane_ekf filter{.sigma = 0.005, .prior_angle = 10, .prior_distance = 10};
-        const auto belief = filter(s.p, s.ring, s.viewpoint);
+        const auto belief = filter(s.p, s.neighbors, s.viewpoint);
         ASSERT_EQ(belief.trust, trust::good);
 
         // The gradient of the sum of squares vanishes at the estimate with the best distance.
-        clouds::cloud all = s.ring;
+        clouds::cloud all = s.neighbors;
         all.push_back(s.p);
         const Eigen::Vector3d n = belief.normal;
         double over = 0.0;
@@ -121,12 +121,12 @@ TEST(plane_filter, extended_filter_finds_the_most_likely_plane) {
 
 TEST(plane_filter, covariance_grows_with_the_square_of_sigma) {
     const auto s = laws::sample_neighborhood(3);
-    const double one = plane_ekf{.sigma = 0.001}(s.p, s.ring, s.viewpoint).trace();
-    const double ten = plane_ekf{.sigma = 0.01}(s.p, s.ring, s.viewpoint).trace();
+    const double one = plane_ekf{.sigma = 0.001}(s.p, s.neighbors, s.viewpoint).trace();
+    const double ten = plane_ekf{.sigma = 0.01}(s.p, s.neighbors, s.viewpoint).trace();
     EXPECT_NEAR(ten / one, 100.0, 1.0);
 }
 
-TEST(plane_filter, says_what_is_wrong) {
+TEST(plane_filter, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 0);
     const Eigen::Vector3d v(0, 0, 2);
     const clouds::cloud corner{{1, 0, 0}, {0, 1, 0}, {-1, -1, 0}};
@@ -134,7 +134,7 @@ TEST(plane_filter, says_what_is_wrong) {
               trust::too_few_neighbors);
     EXPECT_EQ(plane_ekf{}(p, corner, v).trust, trust::good);
     EXPECT_EQ(plane_ekf{}(p, clouds::cloud(5, p), v).trust, trust::degenerate);
-    // Rays within the plane say nothing of it.
+    // Rays within the plane do not determine it.
     const auto grazed = plane_ekf{}(p, corner, {5, 0, 0});
     EXPECT_EQ(grazed.trust, trust::weak);
     EXPECT_GT(grazed.trace(), 1.0);
@@ -149,9 +149,10 @@ TEST(plane_filter, of_tiny_noise_stays_a_covariance) {
     for (const double sigma : {1e-5, 1e-7, 1e-9}) {
         for (std::uint64_t seed = 0; seed < 100; ++seed) {
             const auto s = laws::sample_neighborhood(seed);
-            const auto belief = plane_ekf{.sigma = sigma}(s.p, s.ring, s.viewpoint);
+            const auto belief = plane_ekf{.sigma = sigma}(s.p, s.neighbors, s.viewpoint);
             const double reference =
-                plane_ekf{.sigma = 1e-3}(s.p, s.ring, s.viewpoint).trace() * 1e6 * sigma * sigma;
+                plane_ekf{.sigma = 1e-3}(s.p, s.neighbors, s.viewpoint).trace() * 1e6 * sigma *
+                sigma;
             ASSERT_GT(belief.determinant(), 0.0);
             ASSERT_NEAR(belief.trace() / reference, 1.0, 1e-3);
         }
@@ -163,11 +164,11 @@ TEST(plane_filter, of_tiny_noise_stays_a_covariance) {
 TEST(plane_filter, covariance_lies_as_the_neighborhood_does) {
     gnomon::random_stream random(9);
     for (int trial = 0; trial < 200; ++trial) {
-        clouds::cloud ring;
+        clouds::cloud neighbors;
         for (int i = 0; i < 30; ++i)
-            ring.push_back({random.uniform(-0.4, 0.4), random.uniform(-0.05, 0.05), 0.0});
+            neighbors.push_back({random.uniform(-0.4, 0.4), random.uniform(-0.05, 0.05), 0.0});
         const auto check = [&](const auto& filter) {
-            const auto belief = filter({0, 0, 0}, ring, {0, 0, 2});
+            const auto belief = filter({0, 0, 0}, neighbors, {0, 0, 2});
             ASSERT_GT(belief.covariance(1, 1), 10.0 * belief.covariance(0, 0));
         };
         check(plane_ekf{.sigma = 0.001});
@@ -177,7 +178,7 @@ TEST(plane_filter, covariance_lies_as_the_neighborhood_does) {
 
 TEST(plane_filter, refuses_priors_and_iterations_that_make_no_sense) {
     const auto s = laws::sample_neighborhood(1);
-    const auto run = [&](const plane_ekf& filter) { (void)filter(s.p, s.ring, s.viewpoint); };
+    const auto run = [&](const plane_ekf& filter) { (void)filter(s.p, s.neighbors, s.viewpoint); };
     EXPECT_THROW(run({.max_iterations = 0}), std::invalid_argument);
     for (const double bad : {0.0, -1.0, clouds::nan, clouds::infinity}) {
         EXPECT_THROW(run({.prior_angle = bad}), std::invalid_argument);
@@ -194,6 +195,10 @@ TEST(plane_filter, laws_hold) {
     laws::normal_follows_the_cloud(plane_ukf{.sigma = 0.005}, 1e-7);
     laws::result_does_not_depend_on_execution(plane_ekf{});
     laws::result_does_not_depend_on_execution(plane_ukf{});
+    laws::covariances_are_bounded(plane_ekf{});
+    laws::covariances_are_bounded(plane_ekf{.sigma = 1e-6, .prior_angle = 100.0});
+    laws::covariances_are_bounded(plane_ukf{});
+    laws::covariances_are_bounded(plane_ukf{.sigma = 2.0, .prior_distance = 100.0});
     static_assert(gnomon::ray_estimator<plane_ekf>);
 }
 

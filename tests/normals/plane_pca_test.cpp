@@ -17,12 +17,12 @@ struct dense_svd {
     Eigen::Vector3d normal;
     Eigen::Vector3d singular_values;
 
-    dense_svd(const Eigen::Vector3d& p, const clouds::cloud& ring) {
+    dense_svd(const Eigen::Vector3d& p, const clouds::cloud& neighbors) {
         using matrix = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
-        matrix q(static_cast<Eigen::Index>(ring.size()) + 1, 3);
+        matrix q(static_cast<Eigen::Index>(neighbors.size()) + 1, 3);
         q.row(0) = p.transpose().cast<long double>();
-        for (std::size_t j = 0; j < ring.size(); ++j) {
-            q.row(static_cast<Eigen::Index>(j) + 1) = ring[j].transpose().cast<long double>();
+        for (std::size_t j = 0; j < neighbors.size(); ++j) {
+            q.row(static_cast<Eigen::Index>(j) + 1) = neighbors[j].transpose().cast<long double>();
         }
         q.rowwise() -= q.colwise().mean().eval();
         const Eigen::JacobiSVD<matrix> svd(q, Eigen::ComputeThinU | Eigen::ComputeThinV);
@@ -35,11 +35,11 @@ struct dense_svd {
 void expect_agrees_with_dense_svd(const Eigen::Vector3d& place) {
     int wide_gaps = 0;
     for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
-        const auto [p, ring, viewpoint] = oracles::random_neighborhood(seed, place);
-        const gnomon::plane_fit fit = gnomon::plane_pca{}(p, ring);
-        const dense_svd oracle(p, ring);
+        const auto [p, neighbors, viewpoint] = oracles::random_neighborhood(seed, place);
+        const gnomon::plane_fit fit = gnomon::plane_pca{}(p, neighbors);
+        const dense_svd oracle(p, neighbors);
         const Eigen::Vector3d lambda =
-            oracle.singular_values.array().square() / static_cast<double>(ring.size() + 1);
+            oracle.singular_values.array().square() / static_cast<double>(neighbors.size() + 1);
         const double gap = (lambda[1] - lambda[2]) / lambda[0];
         if (fit.trust == gnomon::trust::degenerate) {
             ASSERT_LT(gap, 2e-12);
@@ -60,7 +60,7 @@ TEST(plane_pca, agrees_with_a_dense_svd_at_utm_coordinates) {
     expect_agrees_with_dense_svd({6e5, 4.8e6, 100});
 }
 
-TEST(plane_pca, says_what_is_wrong) {
+TEST(plane_pca, reports_degenerate_neighborhoods) {
     using gnomon::trust;
     const gnomon::plane_pca fit;
     const Eigen::Vector3d p(0, 0, 0);
@@ -80,9 +80,9 @@ TEST(plane_pca, says_what_is_wrong) {
 }
 
 TEST(plane_pca, of_a_perfect_plane_is_perfect) {
-    clouds::cloud ring;
-    for (int i = 0; i < 20; ++i) ring.push_back({0.1 * (i % 5), 0.1 * (i / 5), 0.0});
-    const auto fit = gnomon::plane_pca{}({0.2, 0.2, 0.0}, ring);
+    clouds::cloud neighbors;
+    for (int i = 0; i < 20; ++i) neighbors.push_back({0.1 * (i % 5), 0.1 * (i / 5), 0.0});
+    const auto fit = gnomon::plane_pca{}({0.2, 0.2, 0.0}, neighbors);
     EXPECT_EQ(laws::angle_between(fit.normal, Eigen::Vector3d::UnitZ()), 0.0);
     EXPECT_EQ(fit.surface_variation(), 0.0);
 }

@@ -33,14 +33,14 @@ TEST(plane_svd, laws_hold) {
 TEST(plane_svd, centred_is_plane_pca) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         const auto s = laws::sample_neighborhood(seed);
-        EXPECT_EQ(plane_svd{.centred = true}(s.p, s.ring).normal,
-                  gnomon::plane_pca{}(s.p, s.ring).normal);
+        EXPECT_EQ(plane_svd{.centred = true}(s.p, s.neighbors).normal,
+                  gnomon::plane_pca{}(s.p, s.neighbors).normal);
     }
 }
 
-/// The unit four-vector leans the normal towards the sensor: a ball of points, which has no normal
-/// of its own, gets the line of sight.
-TEST(plane_svd, leans_towards_the_line_of_sight) {
+/// The unit 4-vector biases the normal towards the ray: a ball of points, which does not determine
+/// a normal, has the ray as normal.
+TEST(plane_svd, is_biased_towards_the_ray) {
     gnomon::random_stream random(5);
     clouds::cloud ball;
     for (int i = 0; i < 400; ++i)
@@ -49,7 +49,7 @@ TEST(plane_svd, leans_towards_the_line_of_sight) {
     EXPECT_LT(laws::angle_between(fit.normal, {1, 0, 0}), 0.05);
 }
 
-TEST(plane_svd, says_what_is_wrong) {
+TEST(plane_svd, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 1);
     EXPECT_EQ(plane_svd{}(p, clouds::cloud{{1, 0, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(plane_svd{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}}).trust, trust::good);

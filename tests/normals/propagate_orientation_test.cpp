@@ -19,12 +19,12 @@
 
 namespace {
 
-using rings = std::vector<std::vector<gnomon::point_index>>;
+using neighborhoods = std::vector<std::vector<gnomon::point_index>>;
 using orientations::scramble_signs, orientations::surface_elements, orientations::unoriented,
     solids::solid;
 
 /// |<n_i, n_j>| of Hoppe et al. would be 1 for the first three and 0 at both edges.
-TEST(propagate_orientation, weighs_links_by_what_leaves_the_tangent_planes) {
+TEST(propagate_orientation, weighs_links_by_their_angle_to_the_tangent_planes) {
     const Eigen::Vector3d x(1, 0, 0);
     const Eigen::Vector3d z(0, 0, 1);
     const Eigen::Vector3d origin(0, 0, 0);
@@ -64,7 +64,7 @@ struct row {
 TEST(propagate_orientation, confidence_is_the_weakest_link_of_the_strongest_path) {
     // A core of three points, a weak link, two points; and a direct but weaker way to the last.
     row r({0, 10, 20, 80, 100});
-    const rings graph{{1}, {2}, {3}, {4}, {0}};
+    const neighborhoods graph{{1}, {2}, {3}, {4}, {0}};
     const auto o = gnomon::propagate_orientation(r.points, graph, r.surface);
     const auto c = [](double degrees) { return std::cos(degrees * std::numbers::pi / 180.0); };
     for (const std::size_t i : {0u, 1u, 2u}) EXPECT_NEAR(o.confidence[i], c(10), 1e-12) << i;
@@ -81,8 +81,8 @@ TEST(propagate_orientation, a_graph_is_read_in_both_directions) {
     solid sphere;
     sphere.add_sphere({0, 0, 0}, 300);
     const auto graph = gnomon::knn{.k = 10}(sphere.points);
-    rings both(graph.size());
-    rings one(graph.size());
+    neighborhoods both(graph.size());
+    neighborhoods one(graph.size());
     for (gnomon::point_index i = 0; i < graph.size(); ++i) {
         for (const auto j : graph[i]) {
             both[i].push_back(j);
@@ -186,12 +186,12 @@ TEST(propagate_orientation, survives_degenerate_clouds) {
     }
 }
 
-TEST(propagate_orientation, leaves_alone_what_has_no_normal_or_no_link) {
+TEST(propagate_orientation, skips_points_without_normal_or_link) {
     row r({0, 180, 0, 180, 0});
     r.surface[2].normal = {0, 0, 0};
     r.surface[4].normal = {0, clouds::nan, 1};
     const auto o =
-        gnomon::propagate_orientation(r.points, rings{{1}, {2}, {3}, {4}, {0}}, r.surface);
+        gnomon::propagate_orientation(r.points, neighborhoods{{1}, {2}, {3}, {4}, {0}}, r.surface);
     EXPECT_EQ(o.component, (std::vector<std::int32_t>{0, 0, -1, 1, -1}));
     EXPECT_EQ(o.confidence, (std::vector<double>{1, 1, 0, 0, 0}));
     EXPECT_TRUE(gnomon::is_missing(r.surface[2].normal));
@@ -200,17 +200,18 @@ TEST(propagate_orientation, leaves_alone_what_has_no_normal_or_no_link) {
 
     row far_off({0, 0, 0, 0});  // a link to a point that is not finite leads nowhere
     far_off.points[2].x() = 1e200;
-    const auto parted =
-        gnomon::propagate_orientation(far_off.points, rings{{1}, {2}, {}, {2}}, far_off.surface);
+    const auto parted = gnomon::propagate_orientation(
+        far_off.points, neighborhoods{{1}, {2}, {}, {2}}, far_off.surface);
     EXPECT_EQ(parted.component, (std::vector<std::int32_t>{0, 0, -1, 1}));
 
     row self({0, 0});
-    const auto lonely = gnomon::propagate_orientation(self.points, rings{{0}, {1}}, self.surface);
+    const auto lonely =
+        gnomon::propagate_orientation(self.points, neighborhoods{{0}, {1}}, self.surface);
     EXPECT_EQ(lonely.components, 2u);
     EXPECT_EQ(lonely.confidence, (std::vector<double>{0, 0}));
 }
 
-TEST(propagate_orientation, refuses_bad_input_and_changes_nothing) {
+TEST(propagate_orientation, rejects_invalid_input_and_changes_nothing) {
     const solid s = rough_scene();
     const auto graph = gnomon::knn{.k = 4}(s.points);
     auto surface = unoriented(s.points);
@@ -219,10 +220,10 @@ TEST(propagate_orientation, refuses_bad_input_and_changes_nothing) {
         EXPECT_THROW(gnomon::propagate_orientation(points, g, sf, {.min_link = min_link}),
                      std::invalid_argument);
     };
-    rings stray(s.points.size());
+    neighborhoods stray(s.points.size());
     stray.back().push_back(static_cast<gnomon::point_index>(s.points.size()));
     surface_elements fewer(s.points.size() - 1);
-    refuses(s.points, rings(s.points.size() - 1), surface);
+    refuses(s.points, neighborhoods(s.points.size() - 1), surface);
     refuses(s.points, stray, surface);
     refuses(s.points, graph, fewer);
     for (const double bad : {-0.1, 1.1, clouds::nan}) refuses(s.points, graph, surface, bad);
@@ -253,7 +254,7 @@ TEST(propagate_orientation, takes_the_caller_s_own_types) {
 
 /// A surface that cannot be written to is not taken.
 template <class S>
-concept taken = requires(const clouds::cloud& points, const rings& graph, S& surface) {
+concept taken = requires(const clouds::cloud& points, const neighborhoods& graph, S& surface) {
     gnomon::propagate_orientation(points, graph, surface);
 };
 static_assert(taken<surface_elements> && !taken<const surface_elements>);

@@ -46,7 +46,7 @@ TEST(quad_svd, agrees_with_a_dense_svd) {
     for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
         const auto sample = oracles::neighborhood_of_few_digits(seed);
         const auto found = laws::estimate_one(quad_svd{}, sample);
-        if (sample.ring.size() < 9) {
+        if (sample.neighbors.size() < 9) {
             ASSERT_EQ(found.trust, trust::too_few_neighbors);
             continue;
         }
@@ -66,7 +66,7 @@ TEST(quad_svd, agrees_with_a_dense_svd) {
 /// Points of a quadric near p, without noise, and its normal there.
 struct quadric_patch {
     Eigen::Vector3d p, normal;
-    clouds::cloud ring;
+    clouds::cloud neighbors;
 };
 quadric_patch patch(int kind, std::uint64_t seed) {
     gnomon::random_stream random(seed, 11);
@@ -89,8 +89,8 @@ quadric_patch patch(int kind, std::uint64_t seed) {
     quadric_patch s;
     s.p = center + r * surface(0.1, 0.05);
     for (int i = 0; i < 30; ++i)
-        s.ring.push_back(center + r * surface(0.1 + random.uniform(-0.4, 0.4),
-                                              0.05 + random.uniform(-0.4, 0.4)));
+        s.neighbors.push_back(center + r * surface(0.1 + random.uniform(-0.4, 0.4),
+                                                   0.05 + random.uniform(-0.4, 0.4)));
     constexpr double h = 1e-6;
     const Eigen::Vector3d du = surface(0.1 + h, 0.05) - surface(0.1 - h, 0.05);
     const Eigen::Vector3d dv = surface(0.1, 0.05 + h) - surface(0.1, 0.05 - h);
@@ -104,20 +104,21 @@ TEST(quad_svd, is_exact_on_quadrics) {
             SCOPED_TRACE(testing::Message() << "kind " << kind << " seed " << seed);
             const auto s = patch(kind, seed);
             for (const bool centred : {false, true}) {
-                const auto fit = quad_svd{.centred = centred}(s.p, s.ring);
+                const auto fit = quad_svd{.centred = centred}(s.p, s.neighbors);
                 ASSERT_EQ(fit.trust, trust::good);
                 ASSERT_LT(laws::angle_between(fit.normal, s.normal), 1e-6);
             }
-            ASSERT_GT(laws::angle_between(gnomon::plane_pca{}(s.p, s.ring).normal, s.normal), 1e-4);
+            ASSERT_GT(laws::angle_between(gnomon::plane_pca{}(s.p, s.neighbors).normal, s.normal),
+                      1e-4);
         }
     }
 }
 
 /// Many pairs of planes contain a perfect plane; the normal is then that of PlanePCA, and weak.
 TEST(quad_svd, of_a_perfect_plane_is_weak) {
-    clouds::cloud ring;
-    for (int i = 0; i < 20; ++i) ring.push_back({0.1 * (i % 5), 0.1 * (i / 5), 1.0});
-    const auto fit = quad_svd{}({0.2, 0.2, 1.0}, ring);
+    clouds::cloud neighbors;
+    for (int i = 0; i < 20; ++i) neighbors.push_back({0.1 * (i % 5), 0.1 * (i / 5), 1.0});
+    const auto fit = quad_svd{}({0.2, 0.2, 1.0}, neighbors);
     EXPECT_EQ(fit.trust, trust::weak);
     EXPECT_LT(laws::angle_between(fit.normal, Eigen::Vector3d::UnitZ()), 1e-12);
     EXPECT_EQ(quad_svd{}({0, 0, 1}, clouds::cloud(9, {0, 0, 1})).trust, trust::degenerate);

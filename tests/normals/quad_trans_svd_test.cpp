@@ -37,7 +37,7 @@ oracles::answer literal_quad_trans_svd(const laws::neighborhood_sample& sample, 
     const oracles::vector3 n =
         v.leftCols(3) * oracles::vector3(-c[3], -c[4], 1.0L);  // [1 0 c4] x [0 1 c5]
     const auto& f = frame.singularValues();
-    // Of two steps the smaller gap: that of the frame and that of what is kept.
+    // The smaller of two gaps: of the frame, and between kept and other singular values.
     long double gap = (f[1] * f[1] - f[2] * f[2]) / (f[0] * f[0]);
     gap = std::min(gap, (f[0] * f[0] - f[1] * f[1]) / (f[0] * f[0]));
     if (rank < 6) gap = std::min(gap, (s[rank - 1] - s[rank]) / s[0]);
@@ -50,7 +50,7 @@ TEST(quad_trans_svd, agrees_with_a_dense_svd) {
         int compared = 0;
         for (std::uint64_t seed = 0; seed < 10'000; ++seed) {
             const auto sample = oracles::neighborhood_of_few_digits(seed);
-            if (sample.ring.size() < 6) continue;
+            if (sample.neighbors.size() < 6) continue;
             const auto found = laws::estimate_one(quad_trans_svd{.rank = rank}, sample);
             const auto expected = literal_quad_trans_svd(sample, rank);
             if (!gnomon::usable(found.trust)) {
@@ -70,14 +70,14 @@ TEST(quad_trans_svd, agrees_with_a_dense_svd) {
 /// A paraboloid without noise: the full rank is exact, up to the turn of the frame; three are not.
 TEST(quad_trans_svd, full_rank_is_exact_on_a_paraboloid) {
     gnomon::random_stream random(1);
-    clouds::cloud ring;
+    clouds::cloud neighbors;
     for (int i = 0; i < 30; ++i) {
         const double x = random.uniform(-0.3, 0.5);
         const double y = random.uniform(-0.3, 0.3);
-        ring.push_back({x, y, x * x + 0.5 * y * y});
+        neighbors.push_back({x, y, x * x + 0.5 * y * y});
     }
     const auto off = [&](const auto& estimate) {
-        return laws::angle_between(estimate({0, 0, 0}, ring).normal, Eigen::Vector3d::UnitZ());
+        return laws::angle_between(estimate({0, 0, 0}, neighbors).normal, Eigen::Vector3d::UnitZ());
     };
     EXPECT_LT(off(quad_trans_svd{.rank = 6}), 0.2 * off(quad_trans_svd{.rank = 3}));
 }
@@ -88,7 +88,7 @@ TEST(quad_trans_svd, laws_hold) {
     laws::result_does_not_depend_on_execution(quad_trans_svd{});
 }
 
-TEST(quad_trans_svd, says_what_is_wrong) {
+TEST(quad_trans_svd, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 1);
     EXPECT_EQ(quad_trans_svd{}(p, clouds::cloud(4, p)).trust, trust::too_few_neighbors);
     EXPECT_EQ(quad_trans_svd{}(p, clouds::cloud(9, p)).trust, trust::degenerate);

@@ -26,9 +26,9 @@ TEST(ray_ls, solves_the_weighted_normal_equations_of_inverse_range) {
             b += x.squaredNorm() * x;
         };
         add(s.p);
-        for (const auto& q : s.ring) add(q);
+        for (const auto& q : s.neighbors) add(q);
         const oracles::vector3 m = a.fullPivLu().solve(b);
-        const auto fit = ray_ls{}(s.p, s.ring, s.viewpoint);
+        const auto fit = ray_ls{}(s.p, s.neighbors, s.viewpoint);
         ASSERT_EQ(fit.trust, trust::good);
         ASSERT_LT(laws::angle_between(fit.normal, m.normalized().cast<double>()), 1e-12);
         ASSERT_NEAR(fit.distance, static_cast<double>(1.0L / m.norm()), 1e-12);
@@ -54,7 +54,7 @@ TEST(ray_ls, of_a_perfect_plane_is_perfect) {
     }
 }
 
-TEST(ray_ls, says_what_is_wrong) {
+TEST(ray_ls, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(2, 0, 0);
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(ray_ls{}(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}).trust, trust::good);

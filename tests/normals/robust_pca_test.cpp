@@ -20,7 +20,7 @@ TEST(robust_pca, turns_away_from_outliers) {
               outliers::mean_gamma_with(plane_pca{}, 0.3) + 0.03);
 }
 
-/// Where there is nothing but noise, it loses next to nothing.
+/// On planes with noise and without outliers, it loses less than 2e-4 of gamma.
 TEST(robust_pca, keeps_the_points_of_a_plane_with_noise) {
     EXPECT_GT(outliers::mean_gamma_with(robust_pca{}, 0.0),
               outliers::mean_gamma_with(plane_pca{}, 0.0) - 2e-4);
@@ -28,7 +28,7 @@ TEST(robust_pca, keeps_the_points_of_a_plane_with_noise) {
 
 TEST(robust_pca, laws_hold) { laws::estimator_laws(robust_pca{}); }
 
-TEST(robust_pca, says_what_is_wrong) {
+TEST(robust_pca, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 0);
     EXPECT_EQ(robust_pca{}(p, clouds::cloud{{1, 0, 0}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(robust_pca{}(p, clouds::cloud(5, p)).trust, trust::degenerate);

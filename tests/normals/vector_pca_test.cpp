@@ -21,19 +21,19 @@ TEST(vector_pca, agrees_with_a_dense_svd) {
     });
 }
 
-/// The point itself does not matter, which PlanePCA cannot say.
-TEST(vector_pca, does_not_look_at_the_point) {
+/// The result does not depend on the point itself, unlike that of PlanePCA.
+TEST(vector_pca, does_not_use_the_point) {
     const auto s = laws::sample_neighborhood(1);
     const Eigen::Vector3d elsewhere = s.p + Eigen::Vector3d(0.1, 0.2, 0.3);
-    EXPECT_LT(laws::angle_between(vector_pca{}(s.p, s.ring).normal,
-                                  vector_pca{}(elsewhere, s.ring).normal),
+    EXPECT_LT(laws::angle_between(vector_pca{}(s.p, s.neighbors).normal,
+                                  vector_pca{}(elsewhere, s.neighbors).normal),
               1e-13);
-    EXPECT_GT(laws::angle_between(gnomon::plane_pca{}(s.p, s.ring).normal,
-                                  gnomon::plane_pca{}(elsewhere, s.ring).normal),
+    EXPECT_GT(laws::angle_between(gnomon::plane_pca{}(s.p, s.neighbors).normal,
+                                  gnomon::plane_pca{}(elsewhere, s.neighbors).normal),
               1e-3);
 }
 
-TEST(vector_pca, says_what_is_wrong) {
+TEST(vector_pca, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 5);
     EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(vector_pca{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}, {0, 0, 1}}).trust, trust::good);

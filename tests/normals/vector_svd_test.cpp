@@ -26,14 +26,14 @@ TEST(vector_svd, is_plane_pca_about_the_centroid) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         const auto s = laws::sample_neighborhood(seed);
         Eigen::Vector3d centroid = Eigen::Vector3d::Zero();
-        for (const auto& q : s.ring) centroid += q / static_cast<double>(s.ring.size());
-        EXPECT_LT(laws::angle_between(vector_svd{}(centroid, s.ring).normal,
-                                      gnomon::plane_pca{}(centroid, s.ring).normal),
+        for (const auto& q : s.neighbors) centroid += q / static_cast<double>(s.neighbors.size());
+        EXPECT_LT(laws::angle_between(vector_svd{}(centroid, s.neighbors).normal,
+                                      gnomon::plane_pca{}(centroid, s.neighbors).normal),
                   1e-12);
     }
 }
 
-TEST(vector_svd, says_what_is_wrong) {
+TEST(vector_svd, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 1);
     EXPECT_EQ(vector_svd{}(p, clouds::cloud{{1, 0, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(vector_svd{}(p, clouds::cloud{{1, 0, 1}, {0, 1, 1}}).trust, trust::good);

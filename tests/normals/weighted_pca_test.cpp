@@ -33,15 +33,15 @@ TEST(weighted_pca, agrees_with_a_dense_svd) {
 TEST(weighted_pca, of_infinite_bandwidth_is_plane_pca) {
     for (std::uint64_t seed = 0; seed < 100; ++seed) {
         const auto s = laws::sample_neighborhood(seed);
-        EXPECT_LT(laws::angle_between(weighted_pca{.bandwidth = 1e9}(s.p, s.ring).normal,
-                                      plane_pca{}(s.p, s.ring).normal),
+        EXPECT_LT(laws::angle_between(weighted_pca{.bandwidth = 1e9}(s.p, s.neighbors).normal,
+                                      plane_pca{}(s.p, s.neighbors).normal),
                   1e-12);
     }
 }
 
 TEST(weighted_pca, laws_hold) { laws::estimator_laws(weighted_pca{}); }
 
-TEST(weighted_pca, says_what_is_wrong) {
+TEST(weighted_pca, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(0, 0, 0);
     EXPECT_EQ(weighted_pca{}(p, clouds::cloud{{1, 0, 0}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(weighted_pca{}(p, clouds::cloud(5, p)).trust, trust::degenerate);

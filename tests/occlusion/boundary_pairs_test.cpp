@@ -15,7 +15,7 @@
 
 namespace {
 
-using gnomon::boundary_pairs, gnomon::boundary_pair, gnomon::point_index;
+using gnomon::detail::boundary_pairs, gnomon::boundary_pair, gnomon::point_index;
 using index_list = std::vector<point_index>;
 
 Eigen::Vector3d mean(const clouds::cloud& points, const index_list& some) {
@@ -92,7 +92,7 @@ TEST(boundary_pairs, lie_where_rectangles_face_each_other) {
         EXPECT_GE(points[p.first].x(), -0.06);
         EXPECT_LE(points[p.second].x(), 0.36);
     }
-    EXPECT_NEAR(gnomon::coplanar_distance(found), std::hypot(0.3, 0.01), 1e-12);
+    EXPECT_NEAR(gnomon::detail::coplanar_distance(found), std::hypot(0.3, 0.01), 1e-12);
 }
 
 TEST(boundary_pairs, of_equally_near_points_take_the_first) {
@@ -129,7 +129,7 @@ TEST(boundary_pairs, pass_over_points_that_are_not_finite) {
         EXPECT_TRUE(p.first == 1u || p.first == 2u);
         EXPECT_TRUE(p.second == 4u || p.second == 5u);
     }
-    EXPECT_EQ(gnomon::coplanar_distance(found), 2.0);
+    EXPECT_EQ(gnomon::detail::coplanar_distance(found), 2.0);
     const index_list none{0}, some{4};
     const std::pair<Eigen::Vector3d, Eigen::Vector3d> centroids{{0, 0, 0}, {3, 0, 0}};
     EXPECT_TRUE(boundary_pairs(points, std::span(none), std::span(some), centroids).empty());
@@ -143,8 +143,8 @@ TEST(boundary_pairs, pass_over_points_that_are_not_finite) {
 
 TEST(coplanar_distance, is_the_least_and_infinite_without_pairs) {
     const std::vector<boundary_pair> pairs{{0, 1, 3.0}, {0, 2, 0.5}, {1, 2, 2.0}};
-    EXPECT_EQ(gnomon::coplanar_distance(pairs), 0.5);
-    EXPECT_EQ(gnomon::coplanar_distance({}), std::numeric_limits<double>::infinity());
+    EXPECT_EQ(gnomon::detail::coplanar_distance(pairs), 0.5);
+    EXPECT_EQ(gnomon::detail::coplanar_distance({}), std::numeric_limits<double>::infinity());
 }
 
 }  // namespace

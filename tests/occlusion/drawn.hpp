@@ -12,7 +12,7 @@
 
 namespace looks {
 
-/// What a surface tells of a point.
+/// A surface element with a normal only.
 struct element {
     Eigen::Vector3d normal;
 };
@@ -41,10 +41,9 @@ struct drawn {
     }
 
     [[nodiscard]] gnomon::merged_segments merged(
-        const gnomon::occlusion_merging& options = {}) const {
-        return gnomon::merge_occluded(points, gnomon::segments(labels),
-                                      gnomon::lines_of_sight(points), gnomon::conservative{},
-                                      options);
+        const gnomon::merge_occluded_options& options = {}) const {
+        return gnomon::merge_occluded(points, gnomon::segments(labels), gnomon::visibility(points),
+                                      gnomon::conservative{}, options);
     }
 };
 

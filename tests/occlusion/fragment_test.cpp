@@ -15,7 +15,7 @@
 
 namespace {
 
-using gnomon::lines_of_sight, gnomon::merge_occluded, gnomon::segments;
+using gnomon::visibility, gnomon::merge_occluded, gnomon::segments;
 using looks::drawn, looks::element;
 
 /// Something as thick as wide is no wall, be its middle in the wall's plane.
@@ -43,30 +43,30 @@ TEST(fragment, is_flat_but_for_a_corner) {
 }
 
 /// Two strips hardly wider than noise, side by side, say little of their planes: their normals do.
-TEST(fragment, adjoins_what_has_like_normals) {
+TEST(fragment, is_adjacent_to_segments_with_similar_normals) {
     drawn strips;
     strips.add({3, -0.03, 0}, 2, 20);
     strips.add({3, 0.03, 0}, 2, 20);
     const segments parts(strips.labels);
-    const lines_of_sight sights(strips.points);
+    const visibility visible(strips.points);
     const auto rest = [&](double degrees) {
         const gnomon::angle turned = gnomon::degrees(degrees);
         std::vector<element> surface(40, {{-1.0, 0.0, 0.0}});
         surface.resize(80, {{-cos(turned), sin(turned), 0.0}});
         surface[3].normal.setZero();
         surface[7].normal.setConstant(std::numeric_limits<double>::quiet_NaN());
-        return merge_occluded(strips.points, surface, parts, sights).segments.size();
+        return merge_occluded(strips.points, surface, parts, visible).segments.size();
     };
     for (const double alike : {0.0, 30.0, 44.0}) EXPECT_EQ(rest(alike), 1u) << alike;
     for (const double unlike : {46.0, 90.0, 180.0}) EXPECT_EQ(rest(unlike), 2u) << unlike;
     const std::vector<element> none(80, {{0.0, 0.0, 0.0}});
-    EXPECT_EQ(merge_occluded(strips.points, none, parts, sights).segments,
-              merge_occluded(strips.points, parts, sights).segments);
+    EXPECT_EQ(merge_occluded(strips.points, none, parts, visible).segments,
+              merge_occluded(strips.points, parts, visible).segments);
     EXPECT_EQ(strips.merged().segments.size(), 1u);
 }
 
 /// A spot narrower than noise has normals of noise: it goes on in a wall, but not in another spot.
-TEST(fragment, that_is_a_spot_adjoins_only_what_knows_its_plane) {
+TEST(fragment, narrower_than_noise_is_merged_only_with_a_wide_segment) {
     drawn spots;
     spots.add({3, 0, 0}, 2, 2, 3);
     spots.add({3, 0.1, 0}, 2, 2, 3);
@@ -77,15 +77,14 @@ TEST(fragment, that_is_a_spot_adjoins_only_what_knows_its_plane) {
     wall.add({3, 0.1, 0}, 2, 2, 3);
     std::vector<element> surface(2500, {{-1.0, 0.0, 0.0}});
     surface.resize(2512, {{0.0, 1.0, 0.0}});
-    EXPECT_EQ(
-        merge_occluded(wall.points, surface, segments(wall.labels), lines_of_sight(wall.points))
-            .segments.size(),
-        1u);
+    EXPECT_EQ(merge_occluded(wall.points, surface, segments(wall.labels), visibility(wall.points))
+                  .segments.size(),
+              1u);
 }
 
 /// A fragment above a piece of furniture that has lent it some points, the nearest to the wall
 /// among them: between these and the wall the wall itself seems to be seen through a gap.
-TEST(fragment, begins_gaps_on_its_plane) {
+TEST(fragment, starts_gaps_on_its_plane) {
     drawn wall;
     wall.add({3, 0, 0.8}, 80, 40);
     wall.add({3, 0, -0.25}, 20, 15);
@@ -99,16 +98,16 @@ TEST(fragment, begins_gaps_on_its_plane) {
 }
 
 /// What hides the gap tells more than normals, which are of points on both sides of an edge.
-TEST(fragment, has_no_say_by_normals_across_a_hidden_gap) {
+TEST(fragment, ignores_normals_across_an_occluded_gap) {
     const auto seen = looks::look_at(looks::hidden());
     const auto parts = looks::halves(seen);
     std::vector<element> surface;
     for (const std::int32_t label : parts.labels())
         surface.push_back({label == 0 ? Eigen::Vector3d(-1, 0, 0) : Eigen::Vector3d(0, 1, 0)});
-    const lines_of_sight sights(seen.scan);
-    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, sights).segments,
-              merge_occluded(seen.scan, parts, sights).segments);
-    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, sights).segments.size(), 1u);
+    const visibility visible(seen.scan);
+    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, visible).segments,
+              merge_occluded(seen.scan, parts, visible).segments);
+    EXPECT_EQ(merge_occluded(seen.scan, surface, parts, visible).segments.size(), 1u);
 }
 
 }  // namespace

@@ -14,14 +14,14 @@
 
 namespace {
 
-using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight,
-    gnomon::merge_occluded_literally, gnomon::segments;
+using gnomon::conservative, gnomon::liberal, gnomon::visibility, gnomon::merge_occluded_literally,
+    gnomon::segments;
 
 /// How many segments the two halves of a wall make.
 std::size_t remaining_literally(const looks::look& seen, const auto& policy,
-                                const gnomon::occlusion_merging& options = {}) {
-    return merge_occluded_literally(seen.scan, looks::halves(seen), lines_of_sight(seen.scan),
-                                    policy, options)
+                                const gnomon::merge_occluded_options& options = {}) {
+    return merge_occluded_literally(seen.scan, looks::halves(seen), visibility(seen.scan), policy,
+                                    options)
         .size();
 }
 
@@ -38,25 +38,25 @@ TEST(merge_occluded_literally, follows_the_truth_table_of_the_policies) {
     EXPECT_EQ(remaining_literally(nothing, liberal{}), 1u);
 }
 
-/// Line 8, where merge_occluded looks through the gap (A18).
+/// Line 8. merge_occluded tests what is seen in the gap instead (docs/thesis-notes.md, A18).
 TEST(merge_occluded_literally, closes_a_narrow_gap_whatever_is_seen_in_it) {
     const auto seen = looks::look_at(looks::opened(0.1));
     EXPECT_EQ(remaining_literally(seen, conservative{}), 1u);
     EXPECT_EQ(remaining_literally(seen, conservative{}, {.max_gap = 0.0}), 2u);
-    EXPECT_EQ(gnomon::merge_occluded(seen.scan, looks::halves(seen), lines_of_sight(seen.scan))
+    EXPECT_EQ(gnomon::merge_occluded(seen.scan, looks::halves(seen), visibility(seen.scan))
                   .segments.size(),
               2u);
 }
 
-/// Lines 12 and 13, where merge_occluded reasons with view points that move (F12).
-TEST(merge_occluded_literally, does_not_look_between_view_points) {
+/// Lines 12 and 13 use single view points; merge_occluded also handles view points that move.
+TEST(merge_occluded_literally, does_not_combine_view_points) {
     const auto seen =
         looks::look_at(looks::hidden(), {.first = {0, 0.5, 0}, .step = {0, -0.01, 0}});
     EXPECT_EQ(remaining_literally(seen, liberal{}), 2u);
 }
 
 /// View points that noise makes one share an image, and what both have seen is in it.
-TEST(merge_occluded_literally, looks_from_view_points_that_are_one_but_for_noise) {
+TEST(merge_occluded_literally, shares_images_of_view_points_closer_than_noise) {
     const auto seen =
         looks::look_at(looks::hidden(), {.first = {0, 0.003, 0}, .step = {0, -0.0001, 0}});
     EXPECT_EQ(remaining_literally(seen, conservative{}), 1u);
@@ -68,11 +68,11 @@ TEST(merge_occluded_literally, passes_over_empty_segments) {
     std::vector<std::int32_t> labels = looks::halves(seen).labels();
     for (std::int32_t& l : labels)
         if (l != gnomon::unlabeled) l += 400;
-    EXPECT_EQ(merge_occluded_literally(seen.scan, segments(labels), lines_of_sight(seen.scan),
-                                       conservative{})
-                  .size(),
-              1u);
-    EXPECT_EQ(gnomon::merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan),
+    EXPECT_EQ(
+        merge_occluded_literally(seen.scan, segments(labels), visibility(seen.scan), conservative{})
+            .size(),
+        1u);
+    EXPECT_EQ(gnomon::merge_occluded(seen.scan, segments(labels), visibility(seen.scan),
                                      conservative{}, {.candidates = 1})
                   .segments.size(),
               1u);
@@ -80,7 +80,7 @@ TEST(merge_occluded_literally, passes_over_empty_segments) {
 
 TEST(merge_occluded_literally, refuses_thresholds_of_no_sense) {
     const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
-    const auto refused = [&](const gnomon::occlusion_merging& options) {
+    const auto refused = [&](const gnomon::merge_occluded_options& options) {
         EXPECT_THROW((void)remaining_literally(seen, conservative{}, options),
                      std::invalid_argument);
     };
@@ -90,8 +90,8 @@ TEST(merge_occluded_literally, refuses_thresholds_of_no_sense) {
     refused({.boundary_pairs = 3});
 }
 
-TEST(merge_occluded_literally, keeps_what_is_not_in_one_plane) {
-    gnomon::scene world;
+TEST(merge_occluded_literally, keeps_segments_that_are_not_coplanar) {
+    gnomon::simulation::scene world;
     looks::add_wall(world, -2.0, 0.0);
     looks::add_wall(world, 0.0, 2.0, 3.07);
     EXPECT_EQ(remaining_literally(looks::look_at(world), liberal{}), 2u);
@@ -99,7 +99,7 @@ TEST(merge_occluded_literally, keeps_what_is_not_in_one_plane) {
 
 TEST(merge_occluded_literally, refuses_segments_of_other_points) {
     const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
-    EXPECT_THROW((void)merge_occluded_literally(seen.scan, segments(), lines_of_sight(seen.scan)),
+    EXPECT_THROW((void)merge_occluded_literally(seen.scan, segments(), visibility(seen.scan)),
                  std::invalid_argument);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What is seen of small scenes: of walls with gaps and of what stands before or behind them, in
-/// parts that a segmentation would find.
+/// Scans of small scenes: walls with gaps, objects in front of or behind them, and the segments
+/// that a segmentation would find.
 #pragma once
 
 #include <cmath>
@@ -19,6 +19,8 @@
 
 namespace looks {
 
+namespace sim = gnomon::simulation;
+
 inline const Eigen::Vector3d origin(0, 0, 0);
 
 /// Rays in scan lines from floor to ceiling, one after another from right to left.
@@ -31,7 +33,7 @@ struct eye {
     double sigma = 0.0;                               ///< of ranges [m]
 };
 
-/// A scan whose points are told apart.
+/// A scan with the true object of each point.
 struct look {
     gnomon::scan scan;
     std::vector<std::int32_t> objects;
@@ -45,7 +47,7 @@ struct look {
     }
 };
 
-inline look look_at(const gnomon::scene& world, const eye& e = {}) {
+inline look look_at(const sim::scene& world, const eye& e = {}) {
     look seen;
     std::vector<Eigen::Vector3d> viewpoints;
     std::vector<gnomon::point_index> line_of_point;
@@ -55,18 +57,18 @@ inline look look_at(const gnomon::scene& world, const eye& e = {}) {
         viewpoints.push_back(e.first + line * e.step);
         for (double t = e.low; t <= e.high; t += e.spacing) {
             const gnomon::angle elevation = gnomon::degrees(t);
-            const gnomon::ray r{
+            const sim::ray r{
                 viewpoints.back(),
                 {cos(elevation) * cos(azimuth), cos(elevation) * sin(azimuth), sin(elevation)}};
             double range = 100.0;
-            std::int32_t surface = gnomon::nothing;
-            for (const gnomon::placed_shape& s : world.shapes()) {
+            std::int32_t surface = sim::nothing;
+            for (const sim::placed_shape& s : world.shapes()) {
                 const auto hit = s.first_hit(r);
                 if (!hit || hit->range >= range) continue;
                 range = hit->range;
                 surface = hit->surface;
             }
-            if (surface == gnomon::nothing) continue;
+            if (surface == sim::nothing) continue;
             const auto part = world.surfaces()[static_cast<std::size_t>(surface)].part;
             seen.scan.points.push_back(r.point_at(range + e.sigma * random.gaussian()));
             seen.objects.push_back(world.parts()[static_cast<std::size_t>(part)].object);
@@ -81,35 +83,35 @@ inline look look_at(const gnomon::scene& world, const eye& e = {}) {
 }
 
 /// A wall 3 m ahead from y = right to y = left, its front at x = 3.
-inline void add_wall(gnomon::scene& world, double right, double left, double front = 3.0) {
-    world.add_object("wall", gnomon::box{0.1, left - right, 3.0},
-                     gnomon::at(front + 0.05, 0.5 * (right + left), 0.0));
+inline void add_wall(sim::scene& world, double right, double left, double front = 3.0) {
+    world.add_object("wall", sim::box{0.1, left - right, 3.0},
+                     sim::at(front + 0.05, 0.5 * (right + left), 0.0));
 }
 
 /// A column half way to the wall; what it hides of that is 60 cm wide.
-inline void add_column(gnomon::scene& world) {
-    world.add_object("column", gnomon::box{0.1, 0.3, 3.0}, gnomon::at(1.55, 0.0, 0.0));
+inline void add_column(sim::scene& world) {
+    world.add_object("column", sim::box{0.1, 0.3, 3.0}, sim::at(1.55, 0.0, 0.0));
 }
 
 /// The wall behind the column.
-inline gnomon::scene hidden() {
-    gnomon::scene world;
+inline sim::scene hidden() {
+    sim::scene world;
     add_wall(world, -2.0, 2.0);
     add_column(world);
     return world;
 }
 
 /// A wall with a gap of some width, through which nothing is seen.
-inline gnomon::scene torn(double gap) {
-    gnomon::scene world;
+inline sim::scene torn(double gap) {
+    sim::scene world;
     add_wall(world, -2.0, -0.5 * gap);
     add_wall(world, 0.5 * gap, 2.0);
     return world;
 }
 
 /// Such a gap, through which another wall is seen.
-inline gnomon::scene opened(double gap) {
-    gnomon::scene world = torn(gap);
+inline sim::scene opened(double gap) {
+    sim::scene world = torn(gap);
     add_wall(world, -3.0, 3.0, 5.0);
     return world;
 }

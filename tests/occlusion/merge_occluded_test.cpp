@@ -15,15 +15,17 @@
 #include "occlusion/looks.hpp"
 #include <gnomon/occlusion/merge_occluded.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::conservative, gnomon::liberal, gnomon::lines_of_sight, gnomon::merge_occluded,
-    gnomon::occlusion_merging, gnomon::segments, gnomon::unlabeled;
+using gnomon::conservative, gnomon::liberal, gnomon::visibility, gnomon::merge_occluded,
+    gnomon::merge_occluded_options, gnomon::segments, gnomon::unlabeled;
 
 using looks::drawn, looks::element, looks::origin;
 
 TEST(merge_occluded, has_the_defaults_of_the_thesis) {
-    const occlusion_merging options;
+    const merge_occluded_options options;
     EXPECT_DOUBLE_EQ(options.max_variation, 0.15);
     EXPECT_DOUBLE_EQ(options.max_angle.degrees(), 15.0);
     EXPECT_DOUBLE_EQ(options.max_offset, 0.05);
@@ -42,10 +44,10 @@ struct remaining {
 };
 
 remaining after_merging(const looks::look& seen, const segments& parts,
-                        const occlusion_merging& options = {}) {
-    const lines_of_sight sights(seen.scan);
-    return {merge_occluded(seen.scan, parts, sights, conservative{}, options).segments.size(),
-            merge_occluded(seen.scan, parts, sights, liberal{}, options).segments.size()};
+                        const merge_occluded_options& options = {}) {
+    const visibility visible(seen.scan);
+    return {merge_occluded(seen.scan, parts, visible, conservative{}, options).segments.size(),
+            merge_occluded(seen.scan, parts, visible, liberal{}, options).segments.size()};
 }
 
 /// Fig. 4.4: what is seen in a gap of 60 cm, and who merges.
@@ -61,27 +63,27 @@ TEST(merge_occluded, follows_the_truth_table_of_the_policies) {
     }
 }
 
-TEST(merge_occluded, asks_a_policy_of_your_own) {
+TEST(merge_occluded, calls_a_user_defined_policy) {
     const auto seen = looks::look_at(looks::torn(0.6));
     const auto parts = looks::halves(seen);
-    const lines_of_sight sights(seen.scan);
-    const auto always = [](gnomon::sighting) { return true; };
-    const auto never = [](gnomon::sighting) { return false; };
-    EXPECT_EQ(merge_occluded(seen.scan, parts, sights, always).segments.size(), 1u);
-    EXPECT_EQ(merge_occluded(seen.scan, parts, sights, never).segments.size(), 2u);
+    const visibility visible(seen.scan);
+    const auto always = [](gnomon::observation) { return true; };
+    const auto never = [](gnomon::observation) { return false; };
+    EXPECT_EQ(merge_occluded(seen.scan, parts, visible, always).segments.size(), 1u);
+    EXPECT_EQ(merge_occluded(seen.scan, parts, visible, never).segments.size(), 2u);
 }
 
 /// Sec. 4.3.2: what a column hides may be a door that stands open. Either policy takes it for wall.
-TEST(merge_occluded, takes_a_door_behind_a_column_for_wall) {
-    gnomon::scene world = looks::opened(0.56);
+TEST(merge_occluded, merges_across_an_occluded_door) {
+    sim::scene world = looks::opened(0.56);
     looks::add_column(world);
     const auto seen = looks::look_at(world);
     EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{1, 1}));
 }
 
-/// The gap is wider than the column: what is seen past it speaks against a wall.
-TEST(merge_occluded, sees_past_a_column) {
-    gnomon::scene world = looks::opened(1.4);
+/// The gap is wider than the column: points seen past the column are evidence against a wall.
+TEST(merge_occluded, uses_points_seen_past_a_column) {
+    sim::scene world = looks::opened(1.4);
     looks::add_column(world);
     const auto seen = looks::look_at(world);
     EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
@@ -89,10 +91,10 @@ TEST(merge_occluded, sees_past_a_column) {
 
 /// Two seats, 15 cm apart, 60 cm below the sensor, with or without a floor.
 looks::look seats(bool floor) {
-    gnomon::scene world;
+    sim::scene world;
     for (const double y : {-0.3, 0.3})
-        world.add_object("seat", gnomon::box{0.45, 0.45, 0.02}, gnomon::at(1.2, y, -0.61));
-    if (floor) world.add_object("floor", gnomon::box{6.0, 6.0, 0.1}, gnomon::at(0, 0, -1.15));
+        world.add_object("seat", sim::box{0.45, 0.45, 0.02}, sim::at(1.2, y, -0.61));
+    if (floor) world.add_object("floor", sim::box{6.0, 6.0, 0.1}, sim::at(0, 0, -1.15));
     return looks::look_at(world, {.spacing = 0.5, .low = -60.0, .sigma = 0.003});
 }
 
@@ -102,7 +104,7 @@ segments seats_of(const looks::look& seen) {
     });
 }
 
-/// A18
+/// docs/thesis-notes.md, A18.
 TEST(merge_occluded, closes_a_narrow_gap_unless_something_farther_is_seen) {
     const auto above_floor = seats(true);
     ASSERT_EQ(seats_of(above_floor).size(), 2u);
@@ -122,13 +124,13 @@ TEST(merge_occluded, closes_no_gap_that_is_not_narrow) {
 
 /// A third of the gap is seen through, past the column.
 TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
-    gnomon::scene world = looks::opened(0.9);
+    sim::scene world = looks::opened(0.9);
     looks::add_column(world);
     const auto seen = looks::look_at(world);
     EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
 }
 
-TEST(merge_occluded, wants_planes_at_a_small_angle) {
+TEST(merge_occluded, requires_planes_at_a_small_angle) {
     for (const auto& [turned, rest] : {std::pair(0.0, 1u), {10.0, 1u}, {25.0, 2u}, {80.0, 2u}}) {
         drawn wall;
         wall.add({3, -0.5, 0}, 50, 50);
@@ -138,9 +140,9 @@ TEST(merge_occluded, wants_planes_at_a_small_angle) {
     }
 }
 
-/// Where two walls meet stands a strip so slim that noise may have put it off either of them: it
-/// goes with the one that it is closer to, and joins them to nothing.
-TEST(merge_occluded, joins_no_two_planes_by_what_may_be_of_both) {
+/// Where two walls meet there is a strip that is narrower than the noise and coplanar with either
+/// wall. It is merged with the nearer wall, and the walls stay apart.
+TEST(merge_occluded, does_not_join_two_planes_by_a_strip_coplanar_with_both) {
     for (const auto& [x, closer] : {std::pair(3.0, 0u), {3.007, 1u}}) {
         drawn corner;
         corner.add({3, -0.5, 0}, 50, 50);
@@ -158,7 +160,7 @@ TEST(merge_occluded, joins_no_two_planes_by_what_may_be_of_both) {
     }
 }
 
-/// Nor by two such strips that may be of one plane with each other.
+/// Nor by two such strips that are coplanar with each other.
 TEST(merge_occluded, joins_no_two_planes_by_a_chain) {
     drawn corner;
     corner.add({3, -0.5, 0}, 50, 50);
@@ -170,34 +172,33 @@ TEST(merge_occluded, joins_no_two_planes_by_a_chain) {
     EXPECT_EQ(merged.gaps.size(), 5u);
     EXPECT_EQ(merged.segments.size(), 2u);
     EXPECT_NE(merged.segments.labels()[0], merged.segments.labels()[2500]);
-    const auto again =
-        merge_occluded(corner.points, merged.segments, lines_of_sight(corner.points));
+    const auto again = merge_occluded(corner.points, merged.segments, visibility(corner.points));
     EXPECT_EQ(again.segments, merged.segments);
 }
 
-/// Four tiles tell together what each does not know alone: that the fifth lies in their plane. So
-/// it takes a second round.
-TEST(merge_occluded, goes_on_in_rounds) {
+/// The fifth tile is coplanar with the union of the other four, but not with any of them alone. So
+/// it is merged in the second iteration.
+TEST(merge_occluded, iterates_until_nothing_changes) {
     drawn tiles;
     for (const double y : {0.0, 0.2})
         for (const double z : {0.0, 0.2}) tiles.add({3, y, z}, 10, 10);
     tiles.add({3, 0.58, 0.1}, 10, 10);
-    const occlusion_merging near{.max_offset = 0.025};
+    const merge_occluded_options near{.max_offset = 0.025};
     const auto merged = tiles.merged(near);
     EXPECT_EQ(merged.segments.size(), 1u);
     EXPECT_EQ(merged.gaps.back().lines.size(), 6u);
     EXPECT_TRUE(merged.gaps.back().merged);
     for (const gnomon::boundary_pair& line : merged.gaps.back().lines)
         EXPECT_GE(line.distance, 0.15);
-    const auto again = merge_occluded(tiles.points, merged.segments, lines_of_sight(tiles.points),
+    const auto again = merge_occluded(tiles.points, merged.segments, visibility(tiles.points),
                                       conservative{}, near);
     EXPECT_EQ(again.segments, merged.segments);
 }
 
-/// Beside each other behind a column, but not in one plane: no gap is looked into.
-TEST(merge_occluded, merges_only_what_lies_in_one_plane) {
+/// Segments behind a column that are adjacent but not coplanar: no gap is considered.
+TEST(merge_occluded, merges_only_coplanar_segments) {
     for (const double step : {0.1, 0.5}) {
-        gnomon::scene world;
+        sim::scene world;
         looks::add_wall(world, -2.0, 0.0);
         looks::add_wall(world, 0.0, 2.0, 3.0 + step);
         looks::add_column(world);
@@ -206,18 +207,18 @@ TEST(merge_occluded, merges_only_what_lies_in_one_plane) {
             return object < 2 ? object : unlabeled;
         });
         ASSERT_EQ(parts.size(), 2u);
-        const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan), liberal{});
+        const auto merged = merge_occluded(seen.scan, parts, visibility(seen.scan), liberal{});
         EXPECT_EQ(merged.segments.size(), 2u);
         EXPECT_TRUE(merged.gaps.empty());
     }
 }
 
-/// A wall that two columns have torn into three.
+/// A wall that two columns occlude in part, so that three segments of it are visible.
 looks::look two_columns(const looks::eye& e = {.sigma = 0.01}) {
-    gnomon::scene world;
+    sim::scene world;
     looks::add_wall(world, -3.0, 3.0);
-    world.add_object("column", gnomon::box{0.1, 0.3, 3.0}, gnomon::at(1.55, -0.5, 0.0));
-    world.add_object("column", gnomon::box{0.1, 0.3, 3.0}, gnomon::at(1.55, 0.5, 0.0));
+    world.add_object("column", sim::box{0.1, 0.3, 3.0}, sim::at(1.55, -0.5, 0.0));
+    world.add_object("column", sim::box{0.1, 0.3, 3.0}, sim::at(1.55, 0.5, 0.0));
     return looks::look_at(world, e);
 }
 
@@ -229,18 +230,18 @@ segments five_parts(const looks::look& seen) {
     });
 }
 
-TEST(merge_occluded, tells_what_it_has_looked_into) {
+TEST(merge_occluded, reports_the_considered_gaps) {
     const auto seen = two_columns();
     const auto parts = five_parts(seen);
     ASSERT_EQ(parts.size(), 5u);
-    const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan));
+    const auto merged = merge_occluded(seen.scan, parts, visibility(seen.scan));
     EXPECT_EQ(merged.segments.size(), 3u);
     std::size_t closed = 0;
     for (const gnomon::considered_gap& gap : merged.gaps) {
         EXPECT_EQ(gap.lines.size(), 6u);
         if (gap.merged) {
-            EXPECT_GT(gap.seen[gnomon::sighting::closer], 0u);
-            EXPECT_EQ(gap.seen[gnomon::sighting::farther], 0u);
+            EXPECT_GT(gap.seen[gnomon::observation::occluded], 0u);
+            EXPECT_EQ(gap.seen[gnomon::observation::free_space], 0u);
         }
         closed += gap.merged ? 1 : 0;
         for (const gnomon::boundary_pair& line : gap.lines) {
@@ -255,7 +256,7 @@ TEST(merge_occluded, tells_what_it_has_looked_into) {
     EXPECT_GE(closed, 2u);
 }
 
-TEST(merge_occluded, again_changes_nothing) {
+TEST(merge_occluded, is_idempotent) {
     for (std::uint64_t form = 0; form < 3; ++form) {
         const auto seen = form == 0   ? two_columns()
                           : form == 1 ? looks::look_at(looks::opened(0.6), {.sigma = 0.015})
@@ -263,9 +264,9 @@ TEST(merge_occluded, again_changes_nothing) {
         const auto parts = form == 0   ? five_parts(seen)
                            : form == 1 ? looks::halves(seen)
                                        : seats_of(seen);
-        const lines_of_sight sights(seen.scan);
-        const auto once = merge_occluded(seen.scan, parts, sights);
-        const auto twice = merge_occluded(seen.scan, once.segments, sights);
+        const visibility visible(seen.scan);
+        const auto once = merge_occluded(seen.scan, parts, visible);
+        const auto twice = merge_occluded(seen.scan, once.segments, visible);
         EXPECT_EQ(twice.segments, once.segments);
         for (const auto& gap : twice.gaps) EXPECT_FALSE(gap.merged);
     }
@@ -275,7 +276,7 @@ TEST(merge_occluded, again_changes_nothing) {
 TEST(merge_occluded, keeps_the_points_of_segments_together_largest_first) {
     const auto seen = two_columns();
     const auto parts = five_parts(seen);
-    const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan)).segments;
+    const auto merged = merge_occluded(seen.scan, parts, visibility(seen.scan)).segments;
     for (std::size_t s = 0; s < parts.size(); ++s) {
         for (const auto i : parts[s])
             EXPECT_EQ(merged.labels()[i], merged.labels()[parts[s].front()]);
@@ -284,7 +285,7 @@ TEST(merge_occluded, keeps_the_points_of_segments_together_largest_first) {
         EXPECT_GE(merged[s - 1].size(), merged[s].size());
 
     const auto some = looks::halves(seen);
-    const auto of_some = merge_occluded(seen.scan, some, lines_of_sight(seen.scan)).segments;
+    const auto of_some = merge_occluded(seen.scan, some, visibility(seen.scan)).segments;
     for (std::size_t i = 0; i < seen.scan.size(); ++i)
         EXPECT_EQ(of_some.labels()[i] == unlabeled, some.labels()[i] == unlabeled);
 }
@@ -293,9 +294,9 @@ TEST(merge_occluded, keeps_the_points_of_segments_together_largest_first) {
 TEST(merge_occluded, passes_over_empty_segments) {
     const auto seen = two_columns();
     auto labels = five_parts(seen).labels();
-    const auto expected = merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan));
+    const auto expected = merge_occluded(seen.scan, segments(labels), visibility(seen.scan));
     for (auto& l : labels) l = 3 * l + 2;
-    const auto merged = merge_occluded(seen.scan, segments(labels), lines_of_sight(seen.scan));
+    const auto merged = merge_occluded(seen.scan, segments(labels), visibility(seen.scan));
     EXPECT_EQ(merged.segments, expected.segments);
 }
 
@@ -304,7 +305,7 @@ TEST(merge_occluded, depends_on_no_order_of_points_or_segments) {
         for (const bool moves : {false, true}) {
             const auto seen = two_columns({.step = {0, moves ? 0.005 : 0.0, 0}, .sigma = 0.01});
             const auto parts = five_parts(seen);
-            const auto merged = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan));
+            const auto merged = merge_occluded(seen.scan, parts, visibility(seen.scan));
             std::vector<std::size_t> order;
             const auto points = clouds::permuted(seen.scan.points, seed, order);
             std::vector<std::int32_t> labels, expected;
@@ -316,7 +317,7 @@ TEST(merge_occluded, depends_on_no_order_of_points_or_segments) {
             }
             const auto shuffled =
                 gnomon::with_viewpoints(points, gnomon::viewpoint_table(viewpoints));
-            const auto again = merge_occluded(shuffled, segments(labels), lines_of_sight(shuffled));
+            const auto again = merge_occluded(shuffled, segments(labels), visibility(shuffled));
             EXPECT_EQ(laws::rand_index(again.segments.labels(), expected), 1.0);
         }
     }
@@ -327,22 +328,22 @@ TEST(merge_occluded, stays_under_rigid_motion) {
     const auto bench = seats(true);
     for (const auto& [seen, parts] :
          {std::pair(hidden, five_parts(hidden)), std::pair(bench, seats_of(bench))}) {
-        const auto expected = merge_occluded(seen.scan, parts, lines_of_sight(seen.scan)).segments;
+        const auto expected = merge_occluded(seen.scan, parts, visibility(seen.scan)).segments;
         for (std::uint64_t seed = 1; seed <= 4; ++seed) {
             const auto r = clouds::random_rotation(seed);
             const Eigen::Vector3d t =
                 seed % 2 ? Eigen::Vector3d(1, 2, 3) : Eigen::Vector3d(6e5, 4.8e6, 100);
             const auto points = clouds::moved(seen.scan.points, r, t);
             const auto moved = gnomon::with_viewpoint(points, t);
-            const auto merged = merge_occluded(moved, parts, lines_of_sight(moved)).segments;
+            const auto merged = merge_occluded(moved, parts, visibility(moved)).segments;
             EXPECT_EQ(merged, expected) << seed;
         }
     }
 }
 
-/// F12: a wall behind a column, scanned line by line from view points 2 cm apart, is mended as from
-/// one; whether there is one for each scan line or one for each point.
-TEST(merge_occluded, reasons_with_view_points_that_move) {
+/// A wall behind a column, scanned line by line from view points 2 cm apart, is merged as if seen
+/// from one view point, with a view point per scan line and with one per point.
+TEST(merge_occluded, handles_view_points_that_move) {
     for (const Eigen::Vector3d& step :
          {Eigen::Vector3d(0, 0, 0), {0, 0.02, 0}, {0, -0.005, 0}, {0.01, 0, 0}, {0, 0, 0.002}}) {
         SCOPED_TRACE(step.norm());
@@ -358,16 +359,16 @@ TEST(merge_occluded, reasons_with_view_points_that_move) {
             of_points.push_back(closer.scan.viewpoints[i]);
         const auto per_point =
             gnomon::with_viewpoints(closer.scan.points, gnomon::viewpoint_table(of_points));
-        EXPECT_EQ(merge_occluded(per_point, looks::halves(closer), lines_of_sight(per_point))
-                      .segments.size(),
-                  1u);
+        EXPECT_EQ(
+            merge_occluded(per_point, looks::halves(closer), visibility(per_point)).segments.size(),
+            1u);
     }
 }
 
 /// Two scans, registered: what one does not see behind its column the other sees as wall or hole.
-TEST(merge_occluded, reasons_with_several_scans) {
+TEST(merge_occluded, handles_several_scans) {
     for (const bool door : {false, true}) {
-        gnomon::scene world = door ? looks::opened(0.56) : looks::torn(0.0);
+        sim::scene world = door ? looks::opened(0.56) : looks::torn(0.0);
         looks::add_column(world);
         looks::look both;
         std::vector<gnomon::point_index> scan_of_point;
@@ -385,12 +386,12 @@ TEST(merge_occluded, reasons_with_several_scans) {
     }
 }
 
-TEST(merge_occluded, refuses_what_makes_no_sense) {
+TEST(merge_occluded, rejects_invalid_input) {
     const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
     const auto parts = looks::halves(seen);
-    const lines_of_sight sights(seen.scan);
-    const auto merge = [&](const occlusion_merging& options) {
-        return merge_occluded(seen.scan, parts, sights, conservative{}, options);
+    const visibility visible(seen.scan);
+    const auto merge = [&](const merge_occluded_options& options) {
+        return merge_occluded(seen.scan, parts, visible, conservative{}, options);
     };
     const double nan = clouds::nan;
     EXPECT_THROW(merge({.max_variation = nan}), std::invalid_argument);
@@ -408,21 +409,21 @@ TEST(merge_occluded, refuses_what_makes_no_sense) {
     EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
     EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));
     const segments of_others(std::vector<std::int32_t>(seen.scan.size() + 1, 0));
-    EXPECT_THROW((void)merge_occluded(seen.scan, of_others, sights), std::invalid_argument);
-    EXPECT_THROW((void)merge_occluded(seen.scan, segments(), sights), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, of_others, visible), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, segments(), visible), std::invalid_argument);
     const std::vector<element> of_fewer(seen.scan.size() - 1);
-    EXPECT_THROW((void)merge_occluded(seen.scan, of_fewer, parts, sights), std::invalid_argument);
+    EXPECT_THROW((void)merge_occluded(seen.scan, of_fewer, parts, visible), std::invalid_argument);
 }
 
 TEST(merge_occluded, merges_none_of_no_segments) {
     const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
     const segments none(std::vector<std::int32_t>(seen.scan.size(), unlabeled));
-    const auto merged = merge_occluded(seen.scan, none, lines_of_sight(seen.scan));
+    const auto merged = merge_occluded(seen.scan, none, visibility(seen.scan));
     EXPECT_TRUE(merged.segments.empty());
     EXPECT_EQ(merged.segments.labels(), none.labels());
     EXPECT_TRUE(merged.gaps.empty());
     const clouds::cloud nothing;
-    EXPECT_TRUE(merge_occluded(nothing, segments(), lines_of_sight(nothing)).segments.empty());
+    EXPECT_TRUE(merge_occluded(nothing, segments(), visibility(nothing)).segments.empty());
 }
 
 /// Every label is kept together, be the points coincident, in a line, in the view point, NaN or
@@ -439,8 +440,8 @@ TEST(merge_occluded, survives_any_cloud) {
                  {origin, points.empty() || !gnomon::is_finite(points[0]) ? origin : points[0]}) {
                 const auto viewed = gnomon::with_viewpoint(points, viewpoint);
                 for (const double pixel : {0.0, 90.0}) {
-                    const lines_of_sight sights(viewed, {.pixel = gnomon::degrees(pixel)});
-                    const auto merged = merge_occluded(viewed, parts, sights, liberal{});
+                    const visibility visible(viewed, {.pixel = gnomon::degrees(pixel)});
+                    const auto merged = merge_occluded(viewed, parts, visible, liberal{});
                     ASSERT_EQ(merged.segments.labels().size(), points.size());
                     for (std::size_t s = 0; s < parts.size(); ++s) {
                         for (const auto i : parts[s])
@@ -454,9 +455,9 @@ TEST(merge_occluded, survives_any_cloud) {
 }
 
 /// From within a box, of which all sides are seen, nothing is merged across its edges.
-TEST(merge_occluded, may_look_from_within_an_object) {
-    gnomon::scene world;
-    world.add_object("room", gnomon::box{4.0, 3.0, 2.5});
+TEST(merge_occluded, accepts_a_view_point_within_an_object) {
+    sim::scene world;
+    world.add_object("room", sim::box{4.0, 3.0, 2.5});
     const auto seen =
         looks::look_at(world, {.right = -180.0, .left = 179.0, .low = -89.0, .high = 89.0});
     const auto parts = seen.parts([](const Eigen::Vector3d& p, std::int32_t) {
@@ -471,7 +472,7 @@ TEST(merge_occluded, may_look_from_within_an_object) {
 
 /// A wall in tiles of 4 x 4 points, 5,000 of them: each is compared with about 20 others, not with
 /// all.
-TEST(merge_occluded, of_thousands_of_segments_looks_into_few_gaps) {
+TEST(merge_occluded, considers_few_gaps_of_thousands_of_segments) {
     clouds::cloud points;
     std::vector<std::int32_t> labels;
     for (int i = 0; i < 4 * 100; ++i) {
@@ -480,32 +481,32 @@ TEST(merge_occluded, of_thousands_of_segments_looks_into_few_gaps) {
             labels.push_back(i / 4 * 50 + j / 4);
         }
     }
-    const auto never = [](gnomon::sighting) { return false; };
-    // With so little noise that the plane of a tile tells of all that are near.
-    const auto apart = merge_occluded(points, segments(labels), lines_of_sight(points), never,
+    const auto never = [](gnomon::observation) { return false; };
+    // With little noise a tile determines its plane well enough to be compared with all near tiles.
+    const auto apart = merge_occluded(points, segments(labels), visibility(points), never,
                                       {.max_gap = 0.0, .sigma = 0.001});
     EXPECT_EQ(apart.segments.size(), 5000u);
     EXPECT_GE(apart.gaps.size(), 5000u * 10);
     EXPECT_LE(apart.gaps.size(), 5000u * 20);
-    // With more, only of those beside it. From afar: noise along a ray that meets the wall at a
-    // slant is less across it, and so the plane of a tile tells of more.
+    // With more noise, it is compared with adjacent tiles only. The sensor is far away: the noise
+    // across the wall is less at oblique incidence, which would let a tile reach farther.
     const auto from_afar = gnomon::with_viewpoint(points, {-30.0, 0.0, 0.0});
-    EXPECT_EQ(
-        merge_occluded(from_afar, segments(labels), lines_of_sight(from_afar), never).gaps.size(),
-        100u * 49 + 99 * 50);
-    const auto merged = merge_occluded(points, segments(labels), lines_of_sight(points));
+    EXPECT_EQ(merge_occluded(from_afar, segments(labels), visibility(from_afar), never).gaps.size(),
+              100u * 49 + 99 * 50);
+    const auto merged = merge_occluded(points, segments(labels), visibility(points));
     EXPECT_EQ(merged.segments.size(), 1u) << "the gaps between them are narrow";
 }
 
-/// A16: the candidates matter little from 20 on.
+/// docs/thesis-notes.md, A16: from 20 candidates on the result hardly changes.
 TEST(merge_occluded, depends_little_on_the_number_of_candidates) {
     const auto seen = two_columns();
     const auto parts = five_parts(seen);
-    const lines_of_sight sights(seen.scan);
-    const auto all = merge_occluded(seen.scan, parts, sights).segments;
+    const visibility visible(seen.scan);
+    const auto all = merge_occluded(seen.scan, parts, visible).segments;
     for (const std::size_t candidates : {4u, 20u, 1000u})
-        EXPECT_EQ(merge_occluded(seen.scan, parts, sights, {}, {.candidates = candidates}).segments,
-                  all);
+        EXPECT_EQ(
+            merge_occluded(seen.scan, parts, visible, {}, {.candidates = candidates}).segments,
+            all);
 }
 
 }  // namespace

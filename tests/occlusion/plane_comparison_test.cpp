@@ -28,19 +28,19 @@ int found_in_one_plane(const patch& wide, const patch& slim) {
     return found;
 }
 
-TEST(plane_comparison, knows_another_part_of_a_surface) {
+TEST(plane_comparison, finds_parts_of_one_surface_coplanar) {
     EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.6, -0.8}, {0.4, 0, 0}, {0, 0.3, 0}}), 97);
     // No wider than noise.
     EXPECT_GE(found_in_one_plane(seat, {{1.5, 0.4, -0.8}, {0.4, 0, 0}, {0, 0.02, 0}}), 97);
 }
 
-TEST(plane_comparison, tells_an_offset_from_noise) {
+TEST(plane_comparison, distinguishes_an_offset_from_noise) {
     EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.83}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
     EXPECT_EQ(found_in_one_plane(seat, {{1.5, 0.6, -0.77}, {0.4, 0, 0}, {0, 0.3, 0}}), 0);
 }
 
 /// The legs of a chair a centimeter behind its back: by less than the noise of a range.
-TEST(plane_comparison, tells_parallel_planes_a_centimeter_apart) {
+TEST(plane_comparison, separates_parallel_planes_a_centimeter_apart) {
     const patch back{{2.0, 0, 0}, {0, 0.4, 0}, {0, 0, 0.4}, 25};
     const Eigen::Vector3d width(0, 0.04, 0), height(0, 0, 0.4);
     EXPECT_GE(found_in_one_plane(back, {{2.0, -0.2, -0.5}, width, height, 12}), 90);
@@ -48,7 +48,7 @@ TEST(plane_comparison, tells_parallel_planes_a_centimeter_apart) {
 }
 
 /// The front of a seat, no higher than noise: the direction of its least spread is that of nothing.
-TEST(plane_comparison, tells_an_edge_from_the_surface_it_bounds) {
+TEST(plane_comparison, separates_an_edge_from_the_surface_it_bounds) {
     const patch front{{1.3, 0.0, -0.82}, {0, 0.4, 0}, {0, 0, 0.04}};
     EXPECT_LE(found_in_one_plane(seat, front), 3);
 }
@@ -65,7 +65,7 @@ TEST(plane_comparison, takes_an_angle_up_to_the_largest) {
 }
 
 /// What noise cannot have made of one plane is of two; of what is uncertain neither is said.
-TEST(plane_comparison, knows_what_is_certainly_of_two) {
+TEST(plane_comparison, finds_planes_that_certainly_differ) {
     const auto are_of_two = [](const patch& wide, const patch& slim) {
         int found = 0;
         for (std::uint64_t seed = 1; seed <= 100; ++seed) {
@@ -86,14 +86,14 @@ TEST(plane_comparison, knows_what_is_certainly_of_two) {
 }
 
 /// Where noise would hide an offset, nothing is told.
-TEST(plane_comparison, does_not_reach_farther_than_it_knows) {
+TEST(plane_comparison, is_undecided_where_noise_would_hide_an_offset) {
     const patch tile{{3.0, 0.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6};
     EXPECT_GE(found_in_one_plane(tile, {{3.0, 0.12, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 97);
     EXPECT_EQ(found_in_one_plane(tile, {{3.0, 1.0, 0.0}, {0, 0.1, 0}, {0, 0, 0.1}, 6}), 0);
 }
 
 /// What is hardly wider than noise may be off by that, but never by more than the largest offset.
-TEST(plane_comparison, allows_no_speck_more_than_the_largest_offset) {
+TEST(plane_comparison, limits_the_offset_of_small_segments) {
     int near = 0;
     for (std::uint64_t seed = 1; seed <= 100; ++seed) {
         const patch wall{{3, 0, 0}, {0, 1, 0}, {0, 0, 1}, 40};
@@ -115,9 +115,9 @@ TEST(plane_comparison, of_no_points_is_nothing) {
     EXPECT_EQ(sample_of({{clouds::nan, 0, 0}}).count, 0u);
 }
 
-/// Noise lies along the rays: at a grazing angle it moves nothing off its plane, be it ever so
-/// slim.
-TEST(plane_comparison, tolerates_less_at_a_slant) {
+/// Noise lies along the rays: at grazing incidence it hardly displaces points from their plane,
+/// even those of a narrow segment.
+TEST(plane_comparison, tolerates_less_at_oblique_incidence) {
     const patch board{{4.0, 0.0, -0.4}, {1.0, 0, 0}, {0, 0.4, 0}};
     const patch beside{{4.0, 0.3, -0.4}, {0.3, 0, 0}, {0, 0.1, 0}};
     const patch above{{4.0, 0.3, -0.385}, {0.3, 0, 0}, {0, 0.1, 0}};

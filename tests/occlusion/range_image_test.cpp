@@ -17,7 +17,7 @@
 
 namespace {
 
-using gnomon::range_image, gnomon::range_image_format, gnomon::point_index;
+using gnomon::range_image, gnomon::range_image_options, gnomon::point_index;
 using pixel = range_image::pixel;
 
 using looks::origin;
@@ -148,7 +148,7 @@ TEST(range_image, of_few_points_in_many_pixels_holds_them) {
 }
 
 /// So near that the square of their distance underflows: they are in the view point.
-TEST(range_image, does_not_see_what_is_next_to_the_view_point) {
+TEST(range_image, omits_points_next_to_the_view_point) {
     clouds::cloud points = clouds::in_cube(100, 1);
     for (const double tiny : {2.71e-162, 1e-160, 1e-200, 5e-324})
         points.emplace_back(tiny, 0.0, 0.0);
@@ -156,7 +156,7 @@ TEST(range_image, does_not_see_what_is_next_to_the_view_point) {
     EXPECT_EQ(image.range(image.pixel_of(Eigen::Vector3d(1, 0, 0))), range_image::nothing);
 }
 
-TEST(range_image, does_not_see_what_is_in_the_view_point_or_nowhere) {
+TEST(range_image, omits_points_at_the_view_point_and_non_finite_points) {
     const clouds::cloud points{origin, {clouds::nan, 1, 1}, {1, clouds::infinity, 0}};
     for (const auto& cloud : {points, clouds::cloud{}}) {
         const range_image image(cloud, origin, {.width = 8, .height = 4});
@@ -170,8 +170,9 @@ TEST(range_image, does_not_see_what_is_in_the_view_point_or_nowhere) {
     }
 }
 
-/// A scanner that turns about its axis of sight, x, sees what is up and down, but nothing within 20
-/// degrees of some axis (A2): so none of its points crowds about the pole.
+/// A scanner that rolls about its viewing direction, x, has points above and below, but none within
+/// 20 degrees of some other axis. The image takes that axis as its pole, so that no points lie near
+/// the pole (docs/thesis-notes.md, A2).
 TEST(range_image, turns_its_poles_to_where_least_is_seen) {
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         const Eigen::Matrix3d r = seed == 1 ? Eigen::Matrix3d(Eigen::Matrix3d::Identity())
@@ -228,9 +229,9 @@ TEST(range_image, takes_any_pole) {
     }
 }
 
-TEST(range_image, refuses_what_is_no_format_or_view_point) {
+TEST(range_image, rejects_invalid_formats_and_view_points) {
     const auto points = all_around(10, 1);
-    const auto make = [&](const range_image_format& format, const Eigen::Vector3d& viewpoint) {
+    const auto make = [&](const range_image_options& format, const Eigen::Vector3d& viewpoint) {
         return range_image(points, viewpoint, format);
     };
     EXPECT_THROW(make({.width = 0}, origin), std::invalid_argument);
@@ -248,8 +249,8 @@ TEST(range_image, refuses_what_is_no_format_or_view_point) {
     EXPECT_NO_THROW(make({}, origin));
 }
 
-/// What the quick look denies, no pixel up to two beside the place shows.
-TEST(range_image, a_quick_look_overlooks_nothing) {
+/// Where `may_show` is false, no pixel within two rows of the position has a point.
+TEST(range_image, may_show_is_conservative) {
     gnomon::random_stream random(5);
     const auto any = [&](double low, double high) {
         return Eigen::Vector3d(random.uniform(-3, 3), random.uniform(-3, 3),
@@ -274,8 +275,8 @@ TEST(range_image, a_quick_look_overlooks_nothing) {
     EXPECT_GT(denied, 1000u);
 }
 
-/// Whoever looks at some points of a cloud asks the whole of it what a pixel shows.
-TEST(range_image, of_some_points_tells_their_indices_in_the_cloud) {
+/// An image of a subset of a cloud stores indices into the whole cloud.
+TEST(range_image, of_a_subset_stores_indices_into_the_cloud) {
     const clouds::cloud points = all_around(500, 5);
     std::vector<point_index> some;
     clouds::cloud alone;
@@ -283,7 +284,7 @@ TEST(range_image, of_some_points_tells_their_indices_in_the_cloud) {
         some.push_back(static_cast<point_index>(i));
         alone.push_back(points[i]);
     }
-    const range_image_format format{.width = 36, .height = 18};
+    const range_image_options format{.width = 36, .height = 18};
     const range_image image(points, some, origin, format), other(alone, origin, format);
     for (std::size_t e = 0; e < 18; ++e) {
         for (std::size_t a = 0; a < 36; ++a) {

@@ -4,8 +4,8 @@
 #pragma once
 
 #include <cstdint>
-#include <numeric>
-#include <vector>
+
+#include <Eigen/Core>
 
 #include "laws/clouds.hpp"
 #include <gnomon/core/random.hpp>
@@ -35,9 +35,9 @@ struct patch {
 };
 
 inline gnomon::detail::plane_sample sample_of(const clouds::cloud& points) {
-    std::vector<gnomon::point_index> all(points.size());
-    std::iota(all.begin(), all.end(), gnomon::point_index{0});
-    return gnomon::detail::plane_sample_of(points, all, {}, sigma);
+    const Eigen::Vector3d viewpoint(0.0, 0.0, 0.0);
+    return gnomon::detail::plane_sample_of(points, gnomon::detail::moments_about_first(points),
+                                           viewpoint, sigma);
 }
 
 /// A seat 1.5 m away and 80 cm below the eye.

@@ -15,7 +15,7 @@ namespace {
 using seen::patch, seen::sample_of, seen::seat, seen::sigma;
 
 /// At the far edge something stands up from the surface: its points do not count.
-TEST(plane_sample, leaves_out_what_adjoins) {
+TEST(plane_sample, omits_points_near_the_other_segment) {
     auto points = seat.points(1);
     const auto clean = sample_of(points);
     for (int i = 0; i < 10; ++i) points.push_back({1.7, 0.04 * (i - 4.5), -0.7});
@@ -42,7 +42,7 @@ TEST(plane_knowledge, is_of_direction_and_width) {
 }
 
 /// What adjoins a wall at a right angle is not on its plane.
-TEST(points_on_plane, leaves_out_what_adjoins) {
+TEST(points_on_plane, omits_points_near_the_other_segment) {
     clouds::cloud points = patch{{3, 0, 0}, {0, 0.5, 0}, {0, 0, 0.5}}.points(1);
     for (int i = 0; i < 10; ++i) points.push_back({2.7 + 0.02 * i, 0.25, 0.05 * i});
     points.push_back({clouds::nan, 0.0, 0.0});

@@ -8,11 +8,12 @@
 
 #include "laws/clouds.hpp"
 #include <gnomon/core/angle.hpp>
-#include <gnomon/occlusion/segment_distances.hpp>
+#include <gnomon/occlusion/detail/segment_distances.hpp>
 
 namespace {
 
-using gnomon::angular_distance, gnomon::centroid_distance, gnomon::orthogonal_distance;
+using gnomon::detail::angular_distance, gnomon::detail::centroid_distance;
+using gnomon::detail::orthogonal_distance;
 
 /// A rectangle of 5 x 4 points, 10 cm apart, turned about the y-axis.
 clouds::cloud rectangle(const Eigen::Vector3d& center, double turned) {

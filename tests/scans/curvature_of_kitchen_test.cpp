@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-/// Fig. 3.14: surface types of the dense scan of the kitchen, k = 50. Everything in that kitchen is
-/// flat. What a type says is asked of points whose neighbors all are of one surface; the others see
-/// an edge, and a plane is not what they should find.
+/// Fig. 3.14: surface types of the dense scan of the kitchen, k = 50. All surfaces of that kitchen
+/// are planes. Types are counted at points whose neighbors all belong to one surface; neighborhoods
+/// across an edge are not planar.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -20,11 +20,13 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using gnomon::besl_jain, gnomon::surface_type;
 
-const gnomon::scene furnished = gnomon::scenes::kitchen();
+const sim::scene furnished = sim::scenes::kitchen();
 
 /// How often each type was given.
 class shares {
@@ -82,8 +84,8 @@ struct labeled_scan {
 class prepared_scan {
   public:
     prepared_scan(double sigma, std::size_t k)
-        : truth_(gnomon::simulate(furnished, gnomon::rotational{.mount = furnished.sensor}, {},
-                                  {.sigma = sigma})),
+        : truth_(sim::simulate(furnished, sim::rotational{.mount = furnished.sensor}, {},
+                               {.sigma = sigma})),
           graph_(gnomon::knn{.k = k}(truth_.scan)),
           surface_(gnomon::estimate_normals(truth_.scan, graph_, gnomon::plane_pca{})) {
         gnomon::orient_normals(truth_.scan, surface_);
@@ -95,8 +97,8 @@ class prepared_scan {
         for (std::size_t i = 0; i < c.size(); ++i) {
             const surface_type t = type(c[i]);
             result.all.count(t);
-            const auto ring = graph_[i];
-            if (std::all_of(ring.begin(), ring.end(), [&](gnomon::point_index j) {
+            const auto neighbors = graph_[i];
+            if (std::all_of(neighbors.begin(), neighbors.end(), [&](gnomon::point_index j) {
                     return truth_.surfaces[j] == truth_.surfaces[i];
                 })) {
                 result.within.count(t);
@@ -106,7 +108,7 @@ class prepared_scan {
     }
 
   private:
-    gnomon::true_scan truth_;
+    sim::true_scan truth_;
     gnomon::adjacency graph_;
     std::vector<gnomon::surfel<gnomon::plane_fit>> surface_;
 };
@@ -144,7 +146,7 @@ TEST(curvature_of_kitchen, with_noise_planes_are_everything_else) {
         fitted.all.print("all");
         literal.all.print("thesis, all");
         for (const labeled_scan& l : {fitted, literal}) {
-            EXPECT_LT(l.all[surface_type::flat], 0.01);  // the specification asks for 30 %
+            EXPECT_LT(l.all[surface_type::flat], 0.01);  // although all surfaces are planes
             EXPECT_LT(l.all.largest(), 0.55);
         }
         EXPECT_GT(fitted.all.entropy(), 1.9);  // of 2 bits

@@ -10,6 +10,7 @@
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
 #include "normals/dense_oracles.hpp"
+#include "oracles/nanoflann_index.hpp"
 #include "shared_file.hpp"
 #include <gnomon/io/read.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
@@ -18,15 +19,17 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::knn, gnomon::knn_backend, gnomon::plane_pca, gnomon::threads;
+using gnomon::knn, gnomon::plane_pca, gnomon::threads;
 
-/// Quantised scans are full of ties: of 8 neighbors as of 50, the canonical ones are found.
+/// Quantized scans have many ties: with 8 and with 50 neighbors the canonical ones are found.
 void expect_both_ways_agree(const gnomon::scan& scan) {
     for (const std::size_t k : {8u, 50u}) {
         const auto found = knn{.k = k}(scan, threads{});
-        const auto expected = knn{.k = k, .backend = knn_backend::nanoflann}(scan, threads{});
+        const auto expected = oracles::knn_graph(scan, k);
         ASSERT_EQ(found, expected);
         const auto swept = gnomon::estimate_normals(scan, knn{.k = k}, plane_pca{}, threads{});
         const auto stored = gnomon::estimate_normals(scan, expected, plane_pca{}, threads{});
@@ -43,16 +46,16 @@ void expect_both_ways_agree(const gnomon::scan& scan) {
 }
 
 TEST(neighbors_of_scans, of_a_simulated_kitchen) {
-    const gnomon::scene kitchen = gnomon::scenes::kitchen();
-    expect_both_ways_agree(gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor},
-                                            gnomon::densities::high())
-                               .scan);
+    const sim::scene kitchen = sim::scenes::kitchen();
+    expect_both_ways_agree(
+        sim::simulate(kitchen, sim::rotational{.mount = kitchen.sensor}, sim::densities::high())
+            .scan);
 }
 
 TEST(neighbors_of_scans, of_a_million_points_with_gaps) {
     auto points = clouds::in_cube(1'000'000, 1);
     for (std::size_t i = 0; i < points.size(); i += 13) points[i][i % 3] = clouds::nan;
-    const auto expected = knn{.k = 20, .backend = knn_backend::nanoflann}(points, threads{});
+    const auto expected = oracles::knn_graph(points, 20);
     ASSERT_EQ(knn{.k = 20}(points, threads{}), expected);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-// What the normals of small plates are worth (Klasing 2010, Fig. 3.9, at scale): for ten thousand
-// plates of 30 x 30 cm in front of the scanner, turned in every way, do the covariances tell the
-// truth about the errors?
+// Consistency of the covariances of normals (Klasing 2010, Fig. 3.9, with more plates): the errors
+// of ten thousand plates of 30 x 30 cm in front of the scanner, with random orientations.
 #include <cmath>
 #include <cstdint>
 #include <cstdio>
@@ -13,9 +12,11 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-/// What became of all trials of one method.
+/// The results of all trials of one method.
 struct study {
     const char* name;
     int trials = 0;
@@ -56,15 +57,15 @@ struct scanned_plate {
     double cosine = 0.0;  ///< of the incidence
 
     scanned_plate(std::uint64_t seed, double sigma) {
-        const gnomon::scene world = gnomon::scenes::plate(seed);
-        const gnomon::scanner finder{.field_of_view = gnomon::degrees(180),
-                                     .resolution = gnomon::degrees(1),
-                                     .frequency = 60.0,
-                                     .min_range = 0.0};
-        const gnomon::vertical sweep{
+        const sim::scene world = sim::scenes::plate(seed);
+        const sim::scanner finder{.field_of_view = gnomon::degrees(180),
+                                  .resolution = gnomon::degrees(1),
+                                  .frequency = 60.0,
+                                  .min_range = 0.0};
+        const sim::vertical sweep{
             .mount = world.sensor, .duration = 1.0, .sweep = gnomon::degrees(60)};
         const auto truth =
-            gnomon::simulate(world, sweep, finder, gnomon::beam{.sigma = sigma, .seed = seed});
+            sim::simulate(world, sweep, finder, sim::beam{.sigma = sigma, .seed = seed});
         Eigen::Vector3d rays = Eigen::Vector3d::Zero();
         for (std::size_t i = 0; i < truth.normals.size(); ++i) {
             points.push_back(truth.scan.points[i] - truth.scan.viewpoints[i]);
@@ -79,7 +80,7 @@ auto believe(const auto& estimate, const scanned_plate& plate) {
     return estimate(plate.points[0], std::span(plate.points).subspan(1), Eigen::Vector3d::Zero());
 }
 
-TEST(plates, covariances_are_honest) {
+TEST(plates, covariances_are_consistent) {
     constexpr double sigma = 0.005;
     constexpr int plates = 10'000;
     study ekf{"plane_ekf"}, ukf{"plane_ukf"}, eif{"plane_eif"}, pca{"plane_pca with covariance"};
@@ -124,7 +125,7 @@ TEST(plates, the_weak_direction_is_the_direction_of_the_errors) {
         const scanned_plate plate(seed, sigma);
         if (plate.points.size() < 10 || plate.cosine < 0.2) continue;
         const auto belief = believe(gnomon::plane_ekf{.sigma = sigma}, plate);
-        const auto axes = gnomon::symmetric_eigen(belief.covariance).vectors;
+        const auto axes = gnomon::detail::symmetric_eigen(belief.covariance).vectors;
         along_weak += std::pow(plate.normal.dot(axes.col(0)), 2);
         along_strong += std::pow(plate.normal.dot(axes.col(1)), 2);
     }

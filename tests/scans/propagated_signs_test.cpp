@@ -19,7 +19,7 @@ namespace {
 using orientations::area_under_curve, orientations::outwards, orientations::part_right,
     orientations::unoriented, solids::solid;
 
-TEST(propagated_signs, closed_surfaces_look_outwards) {
+TEST(propagated_signs, closed_surfaces_are_oriented_outwards) {
     solid sphere;
     sphere.add_sphere({3, -2, 1}, 1000);
     solid coarse_sphere;
@@ -61,7 +61,7 @@ TEST(propagated_signs, crosses_sharp_edges) {
     }
 }
 
-TEST(propagated_signs, separate_objects_each_look_outwards) {
+TEST(propagated_signs, separate_objects_are_each_oriented_outwards) {
     solid two;
     two.add_sphere({5, 0, 0}, 500);
     two.add_sphere({0, 0, 0}, 900);
@@ -72,10 +72,10 @@ TEST(propagated_signs, separate_objects_each_look_outwards) {
     EXPECT_EQ(part_right(o, outwards(surface, two)), 1.0);
 }
 
-/// A board of 2 cm. At 5 mm between the points, rings of 12 stay on their own side; at 10 mm many
-/// reach through the board, and what reaches must not persuade. (At 18 mm all do, and nothing that
-/// looks at links alone can tell the two sides.)
-TEST(propagated_signs, tells_the_two_sides_of_a_thin_board) {
+/// A board of 2 cm. At 5 mm between the points, neighborhoods of 12 stay on their own side; at 10
+/// mm many reach through the board, and these links must not decide. (At 18 mm all do, and links
+/// alone cannot distinguish the two sides.)
+TEST(propagated_signs, separates_the_two_sides_of_a_thin_board) {
     for (const double spacing : {0.005, 0.010}) {
         solid board;
         board.add_box({0.3, 0.3, 0.01}, 1.0 / (spacing * spacing));
@@ -92,7 +92,7 @@ TEST(propagated_signs, tells_the_two_sides_of_a_thin_board) {
     }
 }
 
-TEST(propagated_signs, survives_noise_and_knows_where_it_fails) {
+TEST(propagated_signs, confidence_is_low_where_noise_causes_errors) {
     solid box;
     box.add_box({0.5, 0.3, 0.2}, 3000, 0.005);
     solid rough_box;
@@ -119,7 +119,7 @@ TEST(propagated_signs, survives_noise_and_knows_where_it_fails) {
 /// Held against Eq. (3.20), the truth, where the surface is not grazed: there noise turns a normal
 /// past the view point. View points decide for whole components only, of which there are few.
 TEST(propagated_signs, agrees_with_the_view_point_of_the_kitchen) {
-    const gnomon::scene world = gnomon::scenes::kitchen();
+    const gnomon::simulation::scene world = gnomon::simulation::scenes::kitchen();
     const struct {
         double sigma;
         double min_link;
@@ -127,7 +127,8 @@ TEST(propagated_signs, agrees_with_the_view_point_of_the_kitchen) {
     } cases[] = {{0.0, 0.0, 0.9999}, {0.005, 0.0, 0.999}, {0.015, 0.0, 0.98}, {0.015, 0.8, 0.984}};
     for (const auto& [sigma, min_link, agreement] : cases) {
         const auto scan =
-            gnomon::simulate(world, gnomon::rotational{.mount = world.sensor}, {}, {.sigma = sigma})
+            gnomon::simulation::simulate(
+                world, gnomon::simulation::rotational{.mount = world.sensor}, {}, {.sigma = sigma})
                 .scan;
         const auto graph = gnomon::knn{.k = 12}(scan);
         auto surface = unoriented(scan.points, 30);

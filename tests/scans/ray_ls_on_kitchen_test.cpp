@@ -6,30 +6,32 @@
 
 #include <gtest/gtest.h>
 
-#include "scans/sampled_rings.hpp"
+#include "scans/sampled_neighborhoods.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
+
+namespace sim = gnomon::simulation;
 
 namespace {
 
 /// Gains in mean gamma at every eighth point, from the k nearest neighbors, for three k at once.
-void expect_ahead(const auto& trajectory, const gnomon::scene& world, double sigma) {
+void expect_ahead(const auto& trajectory, const sim::scene& world, double sigma) {
     const auto truth =
-        gnomon::simulate(world, trajectory, gnomon::densities::high(), {.sigma = sigma, .seed = 1});
-    const auto rings = sampled::rings_of(truth.scan, gnomon::knn{.k = 50}, 8);
+        sim::simulate(world, trajectory, sim::densities::high(), {.sigma = sigma, .seed = 1});
+    const auto neighborhoods = sampled::neighborhoods_of(truth.scan, gnomon::knn{.k = 50}, 8);
     for (const std::size_t k : {15u, 30u, 50u}) {
-        EXPECT_GT(sampled::mean_gamma(gnomon::ray_ls{}, truth, rings, k),
-                  sampled::mean_gamma(gnomon::plane_pca{}, truth, rings, k))
+        EXPECT_GT(sampled::mean_gamma(gnomon::ray_ls{}, truth, neighborhoods, k),
+                  sampled::mean_gamma(gnomon::plane_pca{}, truth, neighborhoods, k))
             << "k = " << k << " sigma = " << sigma;
     }
 }
 
 TEST(ray_ls_on_kitchen, is_ahead_of_plane_pca_on_dense_scans_with_noise) {
-    const gnomon::scene world = gnomon::scenes::kitchen();
+    const sim::scene world = sim::scenes::kitchen();
     for (const double sigma : {0.015, 0.030}) {
-        expect_ahead(gnomon::horizontal{.mount = world.sensor}, world, sigma);
-        expect_ahead(gnomon::vertical{.mount = world.sensor}, world, sigma);
-        expect_ahead(gnomon::rotational{.mount = world.sensor}, world, sigma);
+        expect_ahead(sim::horizontal{.mount = world.sensor}, world, sigma);
+        expect_ahead(sim::vertical{.mount = world.sensor}, world, sigma);
+        expect_ahead(sim::rotational{.mount = world.sensor}, world, sigma);
     }
 }
 

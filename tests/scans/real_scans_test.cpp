@@ -14,11 +14,11 @@
 #include "shared_file.hpp"
 #include <gnomon/io/read.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
-#include <gnomon/normals/anisotropy.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/plane_pca.hpp>
-#include <gnomon/segmentation/surface_segmentation.hpp>
+#include <gnomon/normals/repair_anisotropic.hpp>
+#include <gnomon/segmentation/segment_surfaces.hpp>
 
 namespace {
 
@@ -31,7 +31,7 @@ gnomon::scan read_scan(const std::string& name) { return gnomon::io::read(shared
 /// The chain with the thesis's parameters.
 gnomon::segments segment(const clouds::cloud& points, const knn& neighbors = {}) {
     auto surface = gnomon::estimate_normals(points, neighbors, plane_pca{}, threads{});
-    gnomon::repair_anisotropic(points, surface, neighbors, plane_pca{}, {}, threads{});
+    gnomon::repair_anisotropic(points, neighbors, surface, plane_pca{}, {}, threads{});
     return gnomon::segment_surfaces(points, surface, {}, threads{});
 }
 
@@ -90,7 +90,7 @@ TEST_F(real_scans, all_kinds_of_scanners_run_to_the_end) {
         SCOPED_TRACE(name);
         const auto scan = read_scan(name);
         auto surface = gnomon::estimate_normals(scan, knn{}, plane_pca{}, threads{});
-        gnomon::repair_anisotropic(scan, surface, knn{}, plane_pca{}, {}, threads{});
+        gnomon::repair_anisotropic(scan, knn{}, surface, plane_pca{}, {}, threads{});
         gnomon::orient_normals(scan, surface);
         const auto parts = gnomon::segment_surfaces(scan, surface, {}, threads{});
         std::size_t valid = 0;

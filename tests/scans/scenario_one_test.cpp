@@ -12,7 +12,7 @@
 #include <boost/hana/for_each.hpp>
 #include <gtest/gtest.h>
 
-#include "scans/sampled_rings.hpp"
+#include "scans/sampled_neighborhoods.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/normals/registry.hpp>
 #include <gnomon/simulation.hpp>
@@ -24,15 +24,15 @@ constexpr int seeds = 5;
 /// Mean gamma by method: of the seven of the thesis.
 using ranking = std::map<std::string, double>;
 
-/// Over all seeds, with every fifth point's ring as the policy finds it.
+/// Over all seeds, with every fifth point's neighbors as the policy finds it.
 ranking rank(const auto& policy, double sigma) {
     ranking gammas;
     for (int seed = 1; seed <= seeds; ++seed) {
-        const auto truth = gnomon::simulate(
-            gnomon::box_and_cylinder{.sigma = sigma, .seed = static_cast<std::uint64_t>(seed)});
-        const auto rings = sampled::rings_of(truth.scan, policy, 5);
+        const auto truth = gnomon::simulation::simulate(gnomon::simulation::box_and_cylinder{
+            .sigma = sigma, .seed = static_cast<std::uint64_t>(seed)});
+        const auto neighborhoods = sampled::neighborhoods_of(truth.scan, policy, 5);
         boost::hana::for_each(gnomon::thesis_estimators, [&](const auto& e) {
-            gammas[e.name] += sampled::mean_gamma(e.policy, truth, rings) / seeds;
+            gammas[e.name] += sampled::mean_gamma(e.policy, truth, neighborhoods) / seeds;
         });
     }
     return gammas;

@@ -14,18 +14,20 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/plane_pca.hpp>
-#include <gnomon/segmentation/point_segmentation.hpp>
-#include <gnomon/segmentation/surface_segmentation.hpp>
+#include <gnomon/segmentation/euclidean_clusters.hpp>
+#include <gnomon/segmentation/segment_surfaces.hpp>
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-const gnomon::scene kitchen = gnomon::scenes::kitchen();
+const sim::scene kitchen = sim::scenes::kitchen();
 
 /// The points that were seen through the back of chair 2: between its slats, or all that would be
 /// seen if it were not there.
-std::vector<gnomon::point_index> seen_through_back(const gnomon::true_scan& truth,
+std::vector<gnomon::point_index> seen_through_back(const sim::true_scan& truth,
                                                    const std::string& surface) {
     std::vector<gnomon::point_index> through;
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
@@ -43,19 +45,19 @@ std::vector<gnomon::point_index> seen_through_back(const gnomon::true_scan& trut
 }
 
 /// How many pieces of a surface are seen through the back of chair 2, from `sensor`.
-std::size_t fragments_behind_lattice(const gnomon::pose& sensor, const std::string& surface) {
-    const auto truth = gnomon::simulate(kitchen, gnomon::rotational{.mount = sensor});
+std::size_t fragments_behind_lattice(const sim::pose& sensor, const std::string& surface) {
+    const auto truth = sim::simulate(kitchen, sim::rotational{.mount = sensor});
     const auto through = seen_through_back(truth, surface);
-    return gnomon::segment_points(gnomon::subset_view(truth.scan, through),
-                                  {.radius = 0.05, .min_points = 10})
+    return gnomon::euclidean_clusters(gnomon::subset_view(truth.scan, through),
+                                      {.radius = 0.05, .min_points = 10})
         .size();
 }
 
 /// Fig. 4.8: the five slats leave four gaps. From where the sensor stands they show the floor, from
 /// the height of the back the wall and what stands there, in pieces.
-TEST(simulated_kitchen, lattice_shatters_what_is_behind_it) {
+TEST(simulated_kitchen, lattice_splits_the_surface_behind_it) {
     const std::size_t floor = fragments_behind_lattice(kitchen.sensor, "room/floor/plane");
-    const gnomon::pose level = gnomon::at(0.3, 0.25, 0.75);
+    const sim::pose level = sim::at(0.3, 0.25, 0.75);
     const std::size_t wall = fragments_behind_lattice(level, "room/wall +x/plane");
     std::printf("behind the lattice: %zu pieces of floor, %zu pieces of wall\n", floor, wall);
     EXPECT_GE(floor, 4u);
@@ -65,9 +67,8 @@ TEST(simulated_kitchen, lattice_shatters_what_is_behind_it) {
 /// Fig. 2.16: the surface variation of 30 neighbors stands out at edges, at each density.
 TEST(simulated_kitchen, surface_variation_shows_the_edges) {
     for (const auto& finder :
-         {gnomon::densities::low(), gnomon::densities::medium(), gnomon::densities::high()}) {
-        const auto truth =
-            gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor}, finder);
+         {sim::densities::low(), sim::densities::medium(), sim::densities::high()}) {
+        const auto truth = sim::simulate(kitchen, sim::rotational{.mount = kitchen.sensor}, finder);
         const auto graph = gnomon::knn{.k = 30}(truth.scan);
         const auto surface = gnomon::estimate_normals(truth.scan, graph, gnomon::plane_pca{});
         double sum[2] = {0.0, 0.0};
@@ -89,8 +90,8 @@ TEST(simulated_kitchen, surface_variation_shows_the_edges) {
 /// The whole chain on a scan whose truth is known: each of the large surfaces is one segment that
 /// holds most of its points.
 TEST(simulated_kitchen, large_surfaces_are_found) {
-    const auto truth = gnomon::simulate(kitchen, gnomon::rotational{.mount = kitchen.sensor}, {},
-                                        {.sigma = 0.015});
+    const auto truth =
+        sim::simulate(kitchen, sim::rotational{.mount = kitchen.sensor}, {}, {.sigma = 0.015});
     const auto surface =
         gnomon::estimate_normals(truth.scan, gnomon::knn{.k = 50}, gnomon::plane_pca{});
     const double gamma = gnomon::mean_gamma(surface, truth.normals);

@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/random.hpp>
-#include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/noisy_plane.hpp>
 
 namespace {
@@ -22,7 +22,9 @@ constexpr double sigma_of_ranges = 0.015;
 noisy_plane plane_of(const auto& points) {
     std::vector<gnomon::point_index> all(points.size());
     std::iota(all.begin(), all.end(), gnomon::point_index{0});
-    return noisy_plane(gnomon::subset_view(points, all), sigma_of_ranges);
+    std::vector<gnomon::detail::observed_point> observed(points.size());
+    return gnomon::detail::noisy_plane_of(gnomon::spatial_index(points), all, sigma_of_ranges,
+                                          observed);
 }
 
 /// Points of the plane z = 0, 40 cm wide, 2 m in front of and below a sensor at `eye`, with noise
@@ -38,8 +40,8 @@ std::vector<Eigen::Vector3d> seat_with_front(const Eigen::Vector3d& eye, std::ui
     return points;
 }
 
-/// Law: seen at a slant, a plane is found in spite of a quarter of other points, where that of
-/// least squares is far off.
+/// Law: at oblique incidence a plane is found although a quarter of the points are outliers; the
+/// least squares plane has a large error there.
 TEST(noisy_plane, is_that_of_most_points) {
     for (std::uint64_t seed = 1; seed <= 20; ++seed) {
         const Eigen::Vector3d eye(-2.0, 0.2, 0.7);
@@ -57,7 +59,7 @@ TEST(noisy_plane, is_that_of_most_points) {
     }
 }
 
-TEST(noisy_plane, noise_across_it_is_less_at_a_slant) {
+TEST(noisy_plane, noise_across_it_is_smaller_at_oblique_incidence) {
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < 100; ++i) points.emplace_back(0.1 * (i % 10), 0.1 * (i / 10), 0.0);
     const noisy_plane of = plane_of(points);
@@ -88,7 +90,7 @@ TEST(noisy_plane, is_the_same_at_utm_coordinates) {
         EXPECT_NEAR(there.distance(p), here.distance(p - far), 1e-7);
 }
 
-TEST(noisy_plane, what_is_thick_or_not_there_is_not_flat) {
+TEST(noisy_plane, thick_and_empty_point_sets_are_not_flat) {
     gnomon::random_stream random(1);
     std::vector<Eigen::Vector3d> points;
     for (int i = 0; i < 500; ++i)
@@ -101,8 +103,9 @@ TEST(noisy_plane, what_is_thick_or_not_there_is_not_flat) {
     EXPECT_FALSE(noisy_plane().is_flat());
 }
 
-/// Of a line, a place or nothing finite there is no plane; nor of what is slimmer than noise.
-TEST(noisy_plane, what_has_no_width_is_not_flat) {
+/// Collinear, coincident and non-finite points have no plane; nor has a strip that is narrower than
+/// the noise.
+TEST(noisy_plane, degenerate_point_sets_are_not_flat) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     const std::vector<Eigen::Vector3d> holes(10, {nan, nan, nan}), one_place(10, {1, 2, 3});
     EXPECT_FALSE(plane_of(holes).is_flat());

@@ -70,7 +70,7 @@ TEST(preprocess, sets_a_tilted_room_upright_and_removes_floor_and_ceiling) {
             ASSERT_TRUE(ceiling);
             EXPECT_NEAR(*ceiling, 2.5, 0.01);
 
-            const auto kept = gnomon::between_bands(points, *floor, ceiling);
+            const auto kept = gnomon::crop_height(points, *floor, ceiling);
             std::vector<bool> is_kept(points.size(), false);
             for (const auto i : kept) is_kept[i] = true;
             double bands = 0, removed = 0, others = 0, lost = 0;
@@ -91,7 +91,7 @@ TEST(preprocess, sets_a_tilted_room_upright_and_removes_floor_and_ceiling) {
 }
 
 /// A carpet of clutter, five centimetres high on one side of the room, does not tilt the floor.
-TEST(preprocess, floor_is_not_lifted_by_what_lies_on_it) {
+TEST(preprocess, floor_is_not_biased_by_objects_on_it) {
     gnomon::random_stream random(5);
     clouds::cloud points;
     for (int i = 0; i < 6000; ++i) {
@@ -106,8 +106,8 @@ TEST(preprocess, floor_is_not_lifted_by_what_lies_on_it) {
     EXPECT_NEAR(floor->offset, 0.0, 0.002);
 }
 
-/// Neither UTM coordinates nor strays far below and above change what is found.
-TEST(preprocess, finds_floor_and_ceiling_at_utm_coordinates_and_among_strays) {
+/// UTM coordinates and outliers far below and above do not change floor and ceiling.
+TEST(preprocess, finds_floor_and_ceiling_at_utm_coordinates_and_among_outliers) {
     const room truth = furnished_room(3);
     const Eigen::Matrix3d r = tilted(gnomon::degrees(1.5), 0.7);
     auto points = clouds::moved(truth.points, r, {6e5, 4.8e6, 100});
@@ -157,8 +157,8 @@ TEST(preprocess, guesses_a_floor_that_is_not_at_zero) {
     EXPECT_NEAR(floor->offset, -1.2, 0.002);
 }
 
-/// In a small cloud a stray is no thousandth of the points.
-TEST(preprocess, guesses_the_floor_of_a_small_cloud_with_strays) {
+/// In a small cloud a single outlier is more than 0.1 % of the points.
+TEST(preprocess, guesses_the_floor_of_a_small_cloud_with_outliers) {
     auto points = clouds::sheet(60, 2);
     for (auto& p : points) p.z() *= 0.1;
     for (const double z : {-1e9, 1e9, -1e140}) points.push_back({0.0, 0.0, z});
@@ -167,7 +167,7 @@ TEST(preprocess, guesses_the_floor_of_a_small_cloud_with_strays) {
     EXPECT_NEAR(guess->offset, 0.0, 0.05);
 }
 
-TEST(preprocess, says_nothing_where_there_is_nothing) {
+TEST(preprocess, finds_nothing_in_empty_input) {
     EXPECT_FALSE(gnomon::guess_floor(clouds::cloud{}));
     EXPECT_FALSE(gnomon::find_floor(clouds::cloud(50, {0, 0, 0})));
     EXPECT_FALSE(gnomon::find_floor(clouds::cloud(50, {0, 0, 7})));
@@ -178,7 +178,7 @@ TEST(preprocess, says_nothing_where_there_is_nothing) {
         const auto floor = gnomon::find_floor(points, guess.value_or(gnomon::plane{}));
         EXPECT_TRUE(!floor || (floor->normal.allFinite() && std::isfinite(floor->offset)));
         (void)gnomon::find_ceiling(points, floor.value_or(gnomon::plane{}));
-        (void)gnomon::between_bands(points, floor.value_or(gnomon::plane{}), 2.5);
+        (void)gnomon::crop_height(points, floor.value_or(gnomon::plane{}), 2.5);
     }
 }
 
@@ -190,7 +190,7 @@ TEST(preprocess, refuses_bands_without_width) {
         EXPECT_THROW((void)gnomon::guess_floor(points, bad), std::invalid_argument);
         EXPECT_THROW((void)gnomon::find_floor(points, {bad, 0.0}), std::invalid_argument);
         EXPECT_THROW((void)gnomon::find_ceiling(points, {bad, 0.0}), std::invalid_argument);
-        EXPECT_THROW((void)gnomon::between_bands(points, {bad, 0.0}, {}), std::invalid_argument);
+        EXPECT_THROW((void)gnomon::crop_height(points, {bad, 0.0}, {}), std::invalid_argument);
     }
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = clouds::nan}),
                  std::invalid_argument);

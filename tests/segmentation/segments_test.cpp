@@ -23,7 +23,7 @@ TEST(segments, are_labels_and_groups_at_once) {
     EXPECT_EQ(s.labels()[2], gnomon::unlabeled);
 }
 
-TEST(segments, may_be_none) {
+TEST(segments, can_be_empty) {
     EXPECT_TRUE(gnomon::segments().empty());
     EXPECT_TRUE(gnomon::segments(std::vector<std::int32_t>{}).empty());
     EXPECT_TRUE(gnomon::segments(std::vector<std::int32_t>{-1, -1}).empty());
@@ -34,7 +34,7 @@ TEST(segments, refuse_labels_that_mean_nothing) {
 }
 
 TEST(segments, come_largest_first_and_by_their_smallest_point) {
-    gnomon::union_find sets(8);  // {0} {1,4} {2,5,7} {3,6}
+    gnomon::detail::union_find sets(8);  // {0} {1,4} {2,5,7} {3,6}
     sets.unite(1, 4);
     sets.unite(7, 5);
     sets.unite(2, 7);
@@ -49,6 +49,42 @@ TEST(segments, come_largest_first_and_by_their_smallest_point) {
     EXPECT_EQ(gnomon::detail::segments_of(sets, 1, everyone).size(), 4u);
     EXPECT_EQ(gnomon::detail::segments_of(sets, 0, [](std::size_t i) { return i != 0; }).size(),
               3u);
+}
+
+/// Law: assign(labels) gives what the constructor gives for these labels, whatever the segments
+/// were.
+TEST(segments, assigned_are_as_constructed) {
+    const std::vector<std::vector<std::int32_t>> labelings{
+        {0, 1, -1, 1, 2, 0, 0}, {}, {-1, -1}, {3, -1, 3}, {0, 0, 0, 0, 0, 0, 0, 0, 0, 1}, {5}};
+    gnomon::segments reused;
+    for (const auto& labels : labelings) {
+        reused.assign(labels);
+        EXPECT_EQ(reused, gnomon::segments(labels));
+    }
+    const auto before = reused;
+    const std::vector<std::int32_t> wrong{0, -2};
+    EXPECT_THROW(reused.assign(wrong), std::invalid_argument);
+    EXPECT_EQ(reused, before);
+}
+
+TEST(segments, assigning_reuses_the_memory) {
+    const std::vector<std::int32_t> labels{0, 1, 1, -1, 0};
+    gnomon::segments reused(labels);
+    const auto* const place = reused.labels().data();
+    const auto* const members = reused[0].data();
+    const std::vector<std::int32_t> others{1, 1, 0, 0, -1};
+    reused.assign(others);
+    EXPECT_EQ(reused.labels().data(), place);
+    EXPECT_EQ(reused[0].data(), members);
+}
+
+/// Numbered by size, equal ones by their smallest point; labels without points are removed.
+TEST(number_by_size, renumbers) {
+    std::vector<std::int32_t> labels{4, 2, -1, 2, 7, 0, 4, 4};
+    const auto before = gnomon::detail::number_by_size(labels);
+    EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, -1, 1, 2, 3, 0, 0}));
+    EXPECT_EQ((std::vector<std::int32_t>{before.begin(), before.end()}),
+              (std::vector<std::int32_t>{4, 2, 7, 0}));
 }
 
 }  // namespace

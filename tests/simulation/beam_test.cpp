@@ -14,23 +14,25 @@
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/beam.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using beams::ahead, beams::deviation, beams::readings, beams::wall;
-using gnomon::beam, gnomon::echo;
+using sim::beam, sim::echo;
 
 TEST(beam, widens_as_a_hyperbola) {
-    const gnomon::beam_footprint line;
+    const sim::beam_footprint line;
     EXPECT_TRUE(line.is_line());
     EXPECT_EQ(line.radius(5.0), 0.0);
-    const gnomon::beam_footprint wide{.waist = 0.003,
-                                      .divergence = gnomon::radians(2 * std::atan(0.002))};
+    const sim::beam_footprint wide{.waist = 0.003,
+                                   .divergence = gnomon::radians(2 * std::atan(0.002))};
     EXPECT_FALSE(wide.is_line());
     EXPECT_EQ(wide.radius(0.0), 0.003);
     EXPECT_NEAR(wide.radius(2.0), 0.005, 1e-15);
 }
 
-TEST(beam, tells_the_truth_by_default) {
+TEST(beam, is_exact_by_default) {
     for (const auto& r : readings(wall{3.3}, {}, 100)) {
         EXPECT_EQ(r.range, 3.3);
         EXPECT_EQ(r.kind, echo::surface);
@@ -59,7 +61,7 @@ TEST(beam, scatters_more_far_away_and_at_grazing_incidence) {
 }
 
 /// Fig. 2.13: the histogram of readings against the mixture, by chi-square with 40 bins and one
-/// more for the maximum range. With twenty tests one falls below p = 0.01 now and then; none may
+/// more for the maximum range. With twenty tests one falls below p = 0.01 occasionally; none may
 /// fall below 0.01 / 20 (76.09 with 40 degrees of freedom), nor the sum of ten below 0.01 (468.7
 /// with 400).
 TEST(beam, readings_follow_the_mixture) {
@@ -107,7 +109,7 @@ TEST(beam, fails_where_nothing_is) {
 /// Noise does not carry a reading beyond what the scanner sees.
 TEST(beam, reports_no_range_that_the_scanner_cannot_see) {
     const wall w{2.0};
-    const gnomon::detail::instrument<wall> read(w, {.sigma = 0.3}, 1.8, 2.1);
+    const sim::detail::instrument<wall> read(w, {.sigma = 0.3}, 1.8, 2.1);
     int failed = 0;
     for (std::uint64_t i = 0; i < 2000; ++i) {
         const auto r = read(ahead, gnomon::random_stream(1, i));
@@ -121,7 +123,7 @@ TEST(beam, reports_no_range_that_the_scanner_cannot_see) {
     EXPECT_NEAR(failed, 2000 * 0.62, 100);  // Phi(-2/3) + 1 - Phi(1/3)
 }
 
-TEST(beam, refuses_what_cannot_be) {
+TEST(beam, rejects_invalid_parameters) {
     for (const beam& bad :
          {beam{.sigma = -1}, beam{.sigma = clouds::nan}, beam{.sigma = 1e308},
           beam{.sigma_per_meter = -1}, beam{.clutter = -0.1}, beam{.clutter = 0.6, .failure = 0.6},

@@ -17,15 +17,17 @@
 
 namespace beams {
 
+namespace sim = gnomon::simulation;
+
 /// A wall across the x axis.
 struct wall {
     double range;
     double cosine = 1.0;  ///< of the incidence, as its normal says
 
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
+    std::optional<sim::ray_hit> operator()(const sim::ray& r) const {
         const double t = (range - r.origin.x()) / r.direction.x();
         if (!(t > 0.0 && t <= r.reach)) return std::nullopt;
-        return gnomon::ray_hit{t, {-cosine, std::sqrt(1 - cosine * cosine), 0}, 0};
+        return sim::ray_hit{t, {-cosine, std::sqrt(1 - cosine * cosine), 0}, 0};
     }
 };
 
@@ -35,20 +37,20 @@ struct step {
     double far;
     double edge = 0.0;
 
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
+    std::optional<sim::ray_hit> operator()(const sim::ray& r) const {
         const double t = (near - r.origin.x()) / r.direction.x();
-        if (r.origin.y() + t * r.direction.y() > edge) return gnomon::ray_hit{t, {-1, 0, 0}, 0};
-        return gnomon::ray_hit{(far - r.origin.x()) / r.direction.x(), {-1, 0, 0}, 1};
+        if (r.origin.y() + t * r.direction.y() > edge) return sim::ray_hit{t, {-1, 0, 0}, 0};
+        return sim::ray_hit{(far - r.origin.x()) / r.direction.x(), {-1, 0, 0}, 1};
     }
 };
 
-inline const gnomon::ray ahead{{0, 0, 0}, {1, 0, 0}};
+inline const sim::ray ahead{{0, 0, 0}, {1, 0, 0}};
 
 /// Those of n beams ahead, whose noise differs.
 template <class C>
-auto readings(const C& caster, const gnomon::beam& b, std::size_t n, double max_range = 10.0) {
-    const gnomon::detail::instrument<C> read(caster, b, 0.0, max_range);
-    std::vector<typename gnomon::detail::instrument<C>::reading> all;
+auto readings(const C& caster, const sim::beam& b, std::size_t n, double max_range = 10.0) {
+    const sim::detail::instrument<C> read(caster, b, 0.0, max_range);
+    std::vector<typename sim::detail::instrument<C>::reading> all;
     for (std::size_t i = 0; i < n; ++i)
         all.push_back(read(ahead, gnomon::random_stream(b.seed, i)));
     return all;

@@ -3,16 +3,18 @@
 
 #include <gnomon/simulation/bounds.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 TEST(bounds, begin_empty_and_grow) {
-    gnomon::bounds b;
+    sim::bounds b;
     EXPECT_GT(b.low.x(), b.high.x());
-    b.extend(gnomon::bounds{});
+    b.extend(sim::bounds{});
     EXPECT_GT(b.low.x(), b.high.x());
     b.extend(Eigen::Vector3d(1, 2, 3));
     EXPECT_EQ(b.low, b.high);
-    b.extend(gnomon::bounds{{-1, 2, 4}, {0, 3, 5}});
+    b.extend(sim::bounds{{-1, 2, 4}, {0, 3, 5}});
     EXPECT_EQ(b.low, Eigen::Vector3d(-1, 2, 3));
     EXPECT_EQ(b.high, Eigen::Vector3d(1, 3, 5));
     EXPECT_EQ(b.middle(), Eigen::Vector3d(0, 2.5, 4));

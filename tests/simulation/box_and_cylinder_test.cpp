@@ -9,13 +9,15 @@
 #include "laws/clouds.hpp"
 #include <gnomon/simulation/box_and_cylinder.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::box_and_cylinder;
+using sim::box_and_cylinder;
 
 TEST(box_and_cylinder, returns_14200_points_within_one_percent_at_every_scale) {
     for (const double scale : {0.5, 0.85, 1.0, 1.15, 1.5}) {
-        const auto n = gnomon::simulate(box_and_cylinder{.scale = scale}).scan.size();
+        const auto n = sim::simulate(box_and_cylinder{.scale = scale}).scan.size();
         EXPECT_NEAR(static_cast<double>(n), 14'200.0, 142.0) << scale;
     }
 }
@@ -25,7 +27,7 @@ TEST(box_and_cylinder, returns_few_points_within_three_percent) {
     for (const double scale : {0.1, 0.3, 0.7, 1.0, 1.5}) {
         for (const std::size_t points : {1000u, 1500u, 3000u}) {
             const auto n =
-                gnomon::simulate(box_and_cylinder{.scale = scale, .points = points}).scan.size();
+                sim::simulate(box_and_cylinder{.scale = scale, .points = points}).scan.size();
             const auto wanted = static_cast<double>(points);
             EXPECT_NEAR(static_cast<double>(n), wanted, 0.03 * wanted) << scale;
         }
@@ -34,7 +36,7 @@ TEST(box_and_cylinder, returns_few_points_within_three_percent) {
 
 /// Without noise every point lies on its surface, and the sensor sees its outer side.
 TEST(box_and_cylinder, ground_truth_is_true) {
-    const auto truth = gnomon::simulate(box_and_cylinder{.sigma = 0.0});
+    const auto truth = sim::simulate(box_and_cylinder{.sigma = 0.0});
     const Eigen::Vector3d sensor = truth.scan.viewpoints[0];
     EXPECT_EQ(sensor, Eigen::Vector3d(0, 0, 0.8));
     const Eigen::Vector3d box(2.2, -0.55, 0.3);
@@ -58,8 +60,8 @@ TEST(box_and_cylinder, ground_truth_is_true) {
 
 /// Noise lies along the ray and has the given deviation (within four standard errors).
 TEST(box_and_cylinder, noise_is_along_the_ray) {
-    const auto ideal = gnomon::simulate(box_and_cylinder{.sigma = 0.0});
-    const auto noisy = gnomon::simulate(box_and_cylinder{.sigma = 0.02, .seed = 5});
+    const auto ideal = sim::simulate(box_and_cylinder{.sigma = 0.0});
+    const auto noisy = sim::simulate(box_and_cylinder{.sigma = 0.02, .seed = 5});
     ASSERT_EQ(ideal.scan.size(), noisy.scan.size());
     double sum = 0.0;
     for (std::size_t i = 0; i < ideal.scan.size(); ++i) {
@@ -74,9 +76,9 @@ TEST(box_and_cylinder, noise_is_along_the_ray) {
 }
 
 TEST(box_and_cylinder, is_the_same_for_the_same_seed_only) {
-    const auto a = gnomon::simulate(box_and_cylinder{.seed = 1});
-    EXPECT_EQ(a.scan.points, gnomon::simulate(box_and_cylinder{.seed = 1}).scan.points);
-    EXPECT_NE(a.scan.points, gnomon::simulate(box_and_cylinder{.seed = 2}).scan.points);
+    const auto a = sim::simulate(box_and_cylinder{.seed = 1});
+    EXPECT_EQ(a.scan.points, sim::simulate(box_and_cylinder{.seed = 1}).scan.points);
+    EXPECT_NE(a.scan.points, sim::simulate(box_and_cylinder{.seed = 2}).scan.points);
 }
 
 TEST(box_and_cylinder, refuses_impossible_scenes) {
@@ -84,7 +86,7 @@ TEST(box_and_cylinder, refuses_impossible_scenes) {
          {box_and_cylinder{.sigma = -1}, box_and_cylinder{.sigma = clouds::nan},
           box_and_cylinder{.scale = 0.01}, box_and_cylinder{.scale = clouds::infinity},
           box_and_cylinder{.points = 0}, box_and_cylinder{.scale = 0.1, .points = 10'000'000}}) {
-        EXPECT_THROW((void)gnomon::simulate(bad), std::invalid_argument);
+        EXPECT_THROW((void)sim::simulate(bad), std::invalid_argument);
     }
 }
 

@@ -11,10 +11,12 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-static_assert(gnomon::shape<gnomon::box>);
-const gnomon::box chest{0.4, 0.3, 1.2};
+static_assert(sim::shape<sim::box>);
+const sim::box chest{0.4, 0.3, 1.2};
 
 TEST(box, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(chest, 1), 1000u); }
 
@@ -43,8 +45,8 @@ TEST(box, numbers_its_sides) {
     }
 }
 
-TEST(box, may_be_flat) {
-    const gnomon::box plate{1.0, 1.0, 0.0};
+TEST(box, can_be_flat) {
+    const sim::box plate{1.0, 1.0, 0.0};
     const auto hit = plate.first_hit({{0.1, 0.2, 2.0}, {0, 0, -1}});
     ASSERT_TRUE(hit);
     EXPECT_EQ(hit->range, 2.0);
@@ -55,13 +57,13 @@ TEST(box, may_be_flat) {
 TEST(box, leaves_no_seam_to_a_box_that_touches_it) {
     for (const double yaw : {0.0, 17.3}) {
         for (const double offset : {0.0, 1.7, 5e6}) {
-            gnomon::scene row;
+            sim::scene row;
             const auto part = row.add_part(row.add_object("row"), "row");
-            const gnomon::pose base =
-                gnomon::at(offset, 1.1 * offset, 0.3) * gnomon::yaw(gnomon::degrees(yaw));
+            const sim::pose base =
+                sim::at(offset, 1.1 * offset, 0.3) * sim::yaw(gnomon::degrees(yaw));
             for (int i = 0; i < 10; ++i)
-                row.add(part, gnomon::box{0.1, 0.5, 0.5}, base * gnomon::at(0.1 * i, 0, 0));
-            const gnomon::bvh_caster caster(row);
+                row.add(part, sim::box{0.1, 0.5, 0.5}, base * sim::at(0.1 * i, 0, 0));
+            const sim::bvh_caster caster(row);
             gnomon::random_stream random(3);
             for (int i = 0; i < 2000; ++i) {
                 const double seam = 0.05 + 0.1 * static_cast<double>(random.bits() % 9);

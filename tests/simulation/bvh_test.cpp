@@ -9,11 +9,13 @@
 #include "laws/shape_laws.hpp"
 #include <gnomon/simulation/detail/bvh.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-std::vector<gnomon::bounds> random_boxes(std::size_t n, double size) {
+std::vector<sim::bounds> random_boxes(std::size_t n, double size) {
     gnomon::random_stream random(n);
-    std::vector<gnomon::bounds> boxes;
+    std::vector<sim::bounds> boxes;
     for (std::size_t i = 0; i < n; ++i) {
         const Eigen::Vector3d low(random.uniform(), random.uniform(), random.uniform());
         boxes.push_back({low, low + size * Eigen::Vector3d(random.uniform(), random.uniform(), 0)});
@@ -22,7 +24,7 @@ std::vector<gnomon::bounds> random_boxes(std::size_t n, double size) {
 }
 
 /// Oracle: the slab test, written differently.
-bool meets(const gnomon::ray& r, const gnomon::bounds& b) {
+bool meets(const sim::ray& r, const sim::bounds& b) {
     double enter = 0.0;
     double leave = r.reach;
     for (int a = 0; a < 3; ++a) {
@@ -36,12 +38,12 @@ bool meets(const gnomon::ray& r, const gnomon::bounds& b) {
 
 TEST(bvh, visits_all_that_a_ray_meets_and_not_much_more) {
     const auto boxes = random_boxes(20'000, 0.02);
-    const gnomon::detail::bvh tree(boxes);
+    const sim::detail::bvh tree(boxes);
     gnomon::random_stream random(5);
     std::size_t visits = 0;
     for (int k = 0; k < 200; ++k) {
-        gnomon::ray r{{random.uniform(), random.uniform(), random.uniform()},
-                      laws::random_direction(random)};
+        sim::ray r{{random.uniform(), random.uniform(), random.uniform()},
+                   laws::random_direction(random)};
         if (k % 2) r.reach = random.uniform(0.0, 0.5);
         std::vector<bool> visited(boxes.size(), false);
         tree.walk(r, [&](std::uint32_t i) {

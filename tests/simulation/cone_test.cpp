@@ -7,10 +7,12 @@
 #include "laws/shape_laws.hpp"
 #include <gnomon/simulation/cone.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-static_assert(gnomon::shape<gnomon::cone>);
-const gnomon::cone marker{0.3, 0.8};
+static_assert(sim::shape<sim::cone>);
+const sim::cone marker{0.3, 0.8};
 
 TEST(cone, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(marker, 1), 1000u); }
 
@@ -23,7 +25,7 @@ TEST(cone, agrees_with_its_equation) {
 }
 
 TEST(cone, of_no_height_is_a_disc) {
-    const gnomon::cone disc{0.3, 0.0};
+    const sim::cone disc{0.3, 0.0};
     for (const double side : {-1.0, 1.0}) {
         const auto hit = disc.first_hit({{0.1, 0.2, 2.0 * side}, {0, 0, -side}});
         ASSERT_TRUE(hit);

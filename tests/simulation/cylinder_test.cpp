@@ -9,10 +9,12 @@
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/cylinder.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-static_assert(gnomon::shape<gnomon::cylinder>);
-const gnomon::cylinder bin{0.3, 0.9};
+static_assert(sim::shape<sim::cylinder>);
+const sim::cylinder bin{0.3, 0.9};
 
 TEST(cylinder, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(bin, 1), 1000u); }
 
@@ -32,8 +34,8 @@ TEST(cylinder, numbers_mantle_bottom_and_top) {
 }
 
 /// A ray that leaves the surface does not meet it in the same place, whatever rounding says.
-TEST(cylinder, does_not_shadow_what_stands_on_it) {
-    const gnomon::cylinder c{0.5, 0.3};
+TEST(cylinder, does_not_occlude_objects_on_it) {
+    const sim::cylinder c{0.5, 0.3};
     gnomon::random_stream random(4);
     for (const auto& [on, out] :
          {std::pair{Eigen::Vector3d(0.1, 0.2, 0.3), Eigen::Vector3d(0, 0, 1)},

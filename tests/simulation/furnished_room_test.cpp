@@ -7,9 +7,11 @@
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/simulate.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::scenes::furnished_room;
+using sim::scenes::furnished_room;
 
 TEST(furnished_room, differs_from_seed_to_seed_only) {
     const auto a = furnished_room({.seed = 1});
@@ -33,13 +35,13 @@ TEST(furnished_room, keeps_its_pieces_apart) {
             }
             EXPECT_LT(room[i].extent.high.z(), room[1].extent.high.z());
         }
-        const auto truth = gnomon::simulate(world, gnomon::rotational{.mount = world.sensor});
+        const auto truth = sim::simulate(world, sim::rotational{.mount = world.sensor});
         EXPECT_EQ(truth.scan.size(), 115'200u);
         for (const double range : truth.ranges) EXPECT_GT(range, 0.2);
     }
 }
 
-TEST(furnished_room, may_be_empty_or_full) {
+TEST(furnished_room, can_be_empty_or_full) {
     EXPECT_EQ(furnished_room({.pieces = 0}).objects().size(), 2u);
     EXPECT_LT(furnished_room({.pieces = 1000}).objects().size(), 100u);
     EXPECT_THROW((void)furnished_room({.pieces = -1}), std::invalid_argument);

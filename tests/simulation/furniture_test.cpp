@@ -10,14 +10,16 @@
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/simulate.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 TEST(furniture, has_six_chairs_and_six_tables_of_different_names) {
     std::set<std::string> names;
     int chairs = 0;
-    for (const auto& model : gnomon::furniture_models()) {
+    for (const auto& model : sim::furniture_models()) {
         names.insert(model.name);
-        chairs += std::holds_alternative<gnomon::chair>(model.piece);
+        chairs += std::holds_alternative<sim::chair>(model.piece);
     }
     EXPECT_EQ(names.size(), 12u);
     EXPECT_EQ(chairs, 6);
@@ -25,13 +27,13 @@ TEST(furniture, has_six_chairs_and_six_tables_of_different_names) {
 
 /// Real chairs have seats 0.43 to 0.47 m high, real tables are 0.45 to 0.75 m high.
 TEST(furniture, has_the_measures_of_the_real) {
-    for (const auto& model : gnomon::furniture_models()) {
-        gnomon::scene world;
-        gnomon::add(world, model);
-        const auto hit = gnomon::bvh_caster(world)({{0, 0, 3}, {0, 0, -1}});
+    for (const auto& model : sim::furniture_models()) {
+        sim::scene world;
+        sim::add(world, model);
+        const auto hit = sim::bvh_caster(world)({{0, 0, 3}, {0, 0, -1}});
         ASSERT_TRUE(hit) << model.name;
         const double height = 3.0 - hit->range;
-        const bool is_chair = std::holds_alternative<gnomon::chair>(model.piece);
+        const bool is_chair = std::holds_alternative<sim::chair>(model.piece);
         EXPECT_NE(world.surface_name(hit->surface).find(is_chair ? "/seat/" : "/top/"),
                   std::string::npos)
             << model.name;
@@ -42,20 +44,19 @@ TEST(furniture, has_the_measures_of_the_real) {
 
 /// Pieces stand on the floor, and each of their parts is seen from somewhere.
 TEST(furniture, stands_on_the_floor_and_shows_its_parts) {
-    for (const auto& model : gnomon::furniture_models()) {
+    for (const auto& model : sim::furniture_models()) {
         SCOPED_TRACE(model.name);
-        gnomon::scene world;
-        gnomon::add(world, model);
+        sim::scene world;
+        sim::add(world, model);
         double lowest = 1.0;
         for (const auto& s : world.shapes()) lowest = std::min(lowest, s.extent.low.z());
         EXPECT_NEAR(lowest, 0.0, 1e-9);
 
         std::set<std::int32_t> seen;
         for (int side = 0; side < 8; ++side) {
-            const gnomon::pose mount = gnomon::yaw(gnomon::degrees(45.0 * side)) *
-                                       gnomon::at(-2.5, 0, 1.2) *
-                                       gnomon::pitch(gnomon::degrees(20));
-            const auto truth = gnomon::simulate(world, gnomon::vertical{.mount = mount});
+            const sim::pose mount = sim::yaw(gnomon::degrees(45.0 * side)) * sim::at(-2.5, 0, 1.2) *
+                                    sim::pitch(gnomon::degrees(20));
+            const auto truth = sim::simulate(world, sim::vertical{.mount = mount});
             seen.insert(truth.parts.begin(), truth.parts.end());
         }
         EXPECT_EQ(seen.size(), world.parts().size());

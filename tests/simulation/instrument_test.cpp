@@ -14,12 +14,14 @@
 #include <gnomon/simulation/detail/instrument.hpp>
 #include <gnomon/simulation/ray.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using beams::ahead, beams::readings, beams::step, beams::wall;
-using gnomon::beam;
-using gnomon::echo;
-using gnomon::echo_rule;
+using sim::beam;
+using sim::echo;
+using sim::echo_rule;
 
 beam wide(echo_rule rule, int sub_rays = 37) {
     return {.footprint = {.divergence = gnomon::radians(2 * std::atan(0.003)),
@@ -28,7 +30,7 @@ beam wide(echo_rule rule, int sub_rays = 37) {
 }
 
 /// What is left of a wide beam on one wall is the wall.
-TEST(instrument, a_footprint_on_one_surface_changes_next_to_nothing) {
+TEST(instrument, a_footprint_on_one_surface_hardly_changes_the_range) {
     for (const auto rule : {echo_rule::first, echo_rule::strongest, echo_rule::averaged}) {
         const auto r = readings(wall{3.0}, wide(rule), 1).front();
         EXPECT_EQ(r.kind, echo::surface);
@@ -36,7 +38,8 @@ TEST(instrument, a_footprint_on_one_surface_changes_next_to_nothing) {
     }
 }
 
-/// Echoes farther apart than the pulse is long: one of them is told. Nearer: one between.
+/// Echoes that are farther apart than the pulse length: one of them is reported. Closer echoes: a
+/// range between them is.
 TEST(instrument, reports_an_echo_by_its_rule) {
     const step far_apart{.near = 3.0, .far = 5.0, .edge = 0.001};
     EXPECT_NEAR(readings(far_apart, wide(echo_rule::first), 1).front().range, 3.0, 1e-3);
@@ -81,7 +84,7 @@ double worst_mixed_range(double depth, int sub_rays, std::size_t n) {
 TEST(instrument, mixed_ranges_follow_the_closed_form) {
     EXPECT_LT(worst_mixed_range(0.4, 37, 2000), 1e-3);   // on average
     EXPECT_LT(worst_mixed_range(0.01, 37, 1), 1e-3);     // each single one
-    EXPECT_LT(worst_mixed_range(0.4, 10'000, 1), 1e-3);  // with so many sub-rays, too
+    EXPECT_LT(worst_mixed_range(0.4, 10'000, 1), 1e-3);  // with 10,000 sub-rays, too
 }
 
 TEST(instrument, sub_rays_converge) {
@@ -122,15 +125,15 @@ struct slope {
     Eigen::Vector3d normal;  ///< towards the ray's origin
     double distance;
 
-    std::optional<gnomon::ray_hit> operator()(const gnomon::ray& r) const {
+    std::optional<sim::ray_hit> operator()(const sim::ray& r) const {
         const double t = -(normal.dot(r.origin) + distance) / normal.dot(r.direction);
         if (!(t > 0.0 && t <= r.reach)) return std::nullopt;
-        return gnomon::ray_hit{t, normal, 0};
+        return sim::ray_hit{t, normal, 0};
     }
 };
 
 /// The truth of a wide beam is that of its axis, not of the rim that comes first.
-TEST(instrument, tells_the_truth_along_the_axis) {
+TEST(instrument, true_range_is_along_the_axis) {
     for (const double degrees : {90.0, 30.0, 8.0}) {
         const double a = degrees * std::numbers::pi / 180.0;
         const slope floor{{-std::sin(a), 0, std::cos(a)}, 7.3 * std::sin(a)};
@@ -145,9 +148,9 @@ TEST(instrument, tells_the_truth_along_the_axis) {
     }
 }
 
-/// Beside an edge: the truth is that of the wall which most power came from, though the axis may
-/// pass by it.
-TEST(instrument, tells_the_truth_of_the_strongest_surface) {
+/// Near an edge the true range is that of the surface that reflects most power, even where the beam
+/// axis misses it.
+TEST(instrument, true_range_is_that_of_the_strongest_surface) {
     const step mostly_near{.near = 3.0, .far = 3.4, .edge = -0.006};
     const step mostly_far{.near = 3.0, .far = 3.4, .edge = 0.006};
     const auto near = readings(mostly_near, wide(echo_rule::first), 1).front();
@@ -158,7 +161,7 @@ TEST(instrument, tells_the_truth_of_the_strongest_surface) {
     EXPECT_EQ(far.kind, echo::mixed);
     EXPECT_EQ(far.hit->surface, 1);
     EXPECT_EQ(far.hit->range, 3.4);
-    // The axis passes 1 mm beside the near wall, but the near echo is told.
+    // The axis misses the near wall by 1 mm, but the near echo is reported.
     const step beside{.near = 3.0, .far = 5.0, .edge = 0.001};
     for (const auto& r : readings(beside, wide(echo_rule::first), 20)) {
         EXPECT_EQ(r.kind, echo::surface);
@@ -167,18 +170,18 @@ TEST(instrument, tells_the_truth_of_the_strongest_surface) {
     }
 }
 
-/// Where sub-rays are at a range, as the caster is asked: w(r) = sqrt(waist^2 + (r slope)^2), of
-/// which 1 - 1/e^2 of the energy lies within.
-TEST(instrument, footprint_is_as_wide_as_it_says) {
+/// The sub-rays at range r, as the caster receives them: 1 - 1/e^2 of the energy lies within the
+/// beam radius w(r) = sqrt(waist^2 + (r slope)^2).
+TEST(instrument, footprint_has_the_beam_radius) {
     const beam b{.footprint = {.waist = 0.010,
                                .divergence = gnomon::radians(2 * std::atan(0.010)),
                                .sub_rays = 1000}};
     for (const double range : {0.2, 1.0, 5.0}) {
         std::vector<double> off_axis;
-        const auto screen = [&](const gnomon::ray& r) -> std::optional<gnomon::ray_hit> {
+        const auto screen = [&](const sim::ray& r) -> std::optional<sim::ray_hit> {
             const Eigen::Vector3d p = r.point_at(range / r.direction.x());
             off_axis.push_back(std::hypot(p.y(), p.z()));
-            return gnomon::ray_hit{range / r.direction.x(), {-1, 0, 0}, 0};
+            return sim::ray_hit{range / r.direction.x(), {-1, 0, 0}, 0};
         };
         (void)readings(screen, b, 1);
         std::sort(off_axis.begin(), off_axis.end());

@@ -15,15 +15,17 @@
 
 namespace meshes {
 
+namespace sim = gnomon::simulation;
+
 /// Surfaces numbered as those of the box.
-inline gnomon::triangle_mesh of_box(const gnomon::box& b) {
-    return gnomon::triangle_mesh(b.triangles(), {"+x", "-x", "+y", "-y", "+z", "-z"});
+inline sim::triangle_mesh of_box(const sim::box& b) {
+    return sim::triangle_mesh(b.triangles(), {"+x", "-x", "+y", "-y", "+z", "-z"});
 }
 
-/// Of so many sides; surfaces numbered as those of the cylinder.
-inline gnomon::triangle_mesh of_cylinder(const gnomon::cylinder& c, std::uint32_t sides) {
+/// A prism with `sides` sides; surfaces have the numbers of those of the cylinder.
+inline sim::triangle_mesh of_cylinder(const sim::cylinder& c, std::uint32_t sides) {
     std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {0, 0, c.height}};
-    std::vector<gnomon::triangle> triangles;
+    std::vector<sim::triangle> triangles;
     std::vector<std::int32_t> surfaces;
     for (std::uint32_t i = 0; i < sides; ++i) {
         const double a = 2 * std::numbers::pi * i / sides;
@@ -37,7 +39,7 @@ inline gnomon::triangle_mesh of_cylinder(const gnomon::cylinder& c, std::uint32_
         triangles.push_back({1, low + 1, next + 1});
         surfaces.insert(surfaces.end(), {0, 0, 1, 2});
     }
-    return gnomon::triangle_mesh({vertices, triangles, surfaces}, {"mantle", "bottom", "top"});
+    return sim::triangle_mesh({vertices, triangles, surfaces}, {"mantle", "bottom", "top"});
 }
 
 }  // namespace meshes

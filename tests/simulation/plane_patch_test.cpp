@@ -8,10 +8,12 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-static_assert(gnomon::shape<gnomon::plane_patch>);
-const gnomon::plane_patch sheet{0.4, 0.3};
+static_assert(sim::shape<sim::plane_patch>);
+const sim::plane_patch sheet{0.4, 0.3};
 
 TEST(plane_patch, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(sheet, 1), 100u); }
 
@@ -30,17 +32,17 @@ TEST(plane_patch, is_seen_from_both_sides_and_not_from_the_edge) {
 
 /// A room of six walls is closed at its edges and in its corners, wherever it stands.
 TEST(plane_patch, leaves_no_gap_to_a_wall_that_touches_it) {
-    using gnomon::at;
     using gnomon::degrees;
-    const gnomon::pose facing_y = gnomon::roll(degrees(90));
-    const gnomon::pose facing_x = gnomon::yaw(degrees(90)) * facing_y;
+    using sim::at;
+    const sim::pose facing_y = sim::roll(degrees(90));
+    const sim::pose facing_x = sim::yaw(degrees(90)) * facing_y;
     for (const double yaw : {0.0, 17.3, 45.0}) {
         for (const double offset : {0.0, 0.1, 123.456, 1e3, 5e6}) {
-            const gnomon::pose base = at(offset, 1.1 * offset, 0.3) * gnomon::yaw(degrees(yaw));
-            gnomon::scene room;
+            const sim::pose base = at(offset, 1.1 * offset, 0.3) * sim::yaw(degrees(yaw));
+            sim::scene room;
             const auto part = room.add_part(room.add_object("room"), "walls");
-            const auto add = [&](double width, const gnomon::pose& place) {
-                room.add(part, gnomon::plane_patch{4, width}, base * place);
+            const auto add = [&](double width, const sim::pose& place) {
+                room.add(part, sim::plane_patch{4, width}, base * place);
             };
             add(4, at(0, 0, -1));
             add(4, at(0, 0, 1));
@@ -48,7 +50,7 @@ TEST(plane_patch, leaves_no_gap_to_a_wall_that_touches_it) {
             add(2, at(0, 2, 0) * facing_y);
             add(2, at(-2, 0, 0) * facing_x);
             add(2, at(2, 0, 0) * facing_x);
-            const gnomon::bvh_caster caster(room);
+            const sim::bvh_caster caster(room);
             gnomon::random_stream random(1);
             for (int i = 0; i < 5000; ++i) {
                 const double s = i % 10 ? random.uniform(-1.0, 1.0) : 1.0;

@@ -3,10 +3,12 @@
 
 #include <gnomon/simulation/ray.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 TEST(ray, points_lie_along_it) {
-    const gnomon::ray r{{1, 2, 3}, {0, 0, 1}};
+    const sim::ray r{{1, 2, 3}, {0, 0, 1}};
     EXPECT_EQ(r.point_at(2.0), Eigen::Vector3d(1, 2, 5));
 }
 

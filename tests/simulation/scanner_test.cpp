@@ -9,24 +9,26 @@
 #include "laws/clouds.hpp"
 #include <gnomon/simulation/scanner.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using gnomon::degrees;
 
 /// n = t_s f_s alpha_FoV / alpha_r, Fig. 2.16.
 TEST(scanner, counts_as_the_thesis_does) {
-    for (const auto& [finder, count] : {std::pair{gnomon::densities::low(), 7'200u},
-                                        {gnomon::densities::medium(), 28'800u},
-                                        {gnomon::densities::high(), 115'200u}}) {
+    for (const auto& [finder, count] : {std::pair{sim::densities::low(), 7'200u},
+                                        {sim::densities::medium(), 28'800u},
+                                        {sim::densities::high(), 115'200u}}) {
         EXPECT_EQ(finder.lines(4.0) * finder.beams(), count);
     }
     // Tab. 4.1, where times are rounded to a tenth of a second.
-    EXPECT_EQ(gnomon::scanner().lines(6.9) * gnomon::scanner().beams(), 198'720u);
-    EXPECT_EQ(gnomon::scanner().lines(5.5) * gnomon::scanner().beams(), 158'400u);
+    EXPECT_EQ(sim::scanner().lines(6.9) * sim::scanner().beams(), 198'720u);
+    EXPECT_EQ(sim::scanner().lines(5.5) * sim::scanner().beams(), 158'400u);
 }
 
 TEST(scanner, cuts_its_field_of_view_into_equal_parts) {
-    const gnomon::scanner finder{.field_of_view = degrees(90), .resolution = degrees(1)};
+    const sim::scanner finder{.field_of_view = degrees(90), .resolution = degrees(1)};
     ASSERT_EQ(finder.beams(), 90u);
     const auto first = finder.direction(0);
     const auto last = finder.direction(89);
@@ -42,14 +44,13 @@ TEST(scanner, cuts_its_field_of_view_into_equal_parts) {
 }
 
 /// Also where the resolution is no part of the field of view, as that of the URG-04LX.
-TEST(scanner, looks_as_far_to_the_left_as_to_the_right) {
+TEST(scanner, has_a_symmetric_field_of_view) {
     for (const auto& finder :
-         {gnomon::scanner(),
-          gnomon::scanner{.field_of_view = degrees(10), .resolution = degrees(9)},
-          gnomon::scanner{.field_of_view = degrees(10), .resolution = degrees(4)},
-          gnomon::densities::low(), gnomon::densities::medium(), gnomon::scanners::sick_lms_200(),
-          gnomon::scanners::sick_lms_400(), gnomon::scanners::hokuyo_urg_04lx(),
-          gnomon::scanners::hokuyo_utm_30lx()}) {
+         {sim::scanner(), sim::scanner{.field_of_view = degrees(10), .resolution = degrees(9)},
+          sim::scanner{.field_of_view = degrees(10), .resolution = degrees(4)},
+          sim::densities::low(), sim::densities::medium(), sim::scanners::sick_lms_200(),
+          sim::scanners::sick_lms_400(), sim::scanners::hokuyo_urg_04lx(),
+          sim::scanners::hokuyo_utm_30lx()}) {
         const std::size_t n = finder.beams();
         for (std::size_t j = 0; j < n; ++j) {
             const auto left = finder.direction(n - 1 - j);
@@ -60,26 +61,26 @@ TEST(scanner, looks_as_far_to_the_left_as_to_the_right) {
 
 TEST(scanner, presets_are_valid) {
     for (const auto& finder :
-         {gnomon::scanner(), gnomon::scanners::sick_lms_200(), gnomon::scanners::sick_lms_400(),
-          gnomon::scanners::hokuyo_urg_04lx(), gnomon::scanners::hokuyo_utm_30lx()}) {
+         {sim::scanner(), sim::scanners::sick_lms_200(), sim::scanners::sick_lms_400(),
+          sim::scanners::hokuyo_urg_04lx(), sim::scanners::hokuyo_utm_30lx()}) {
         EXPECT_NO_THROW(finder.require_valid());
     }
-    EXPECT_EQ(gnomon::scanners::sick_lms_200().beams(), 360u);
-    EXPECT_EQ(gnomon::scanners::sick_lms_400().beams(), 280u);
-    EXPECT_EQ(gnomon::scanners::hokuyo_urg_04lx().beams(), 682u);
-    EXPECT_EQ(gnomon::scanners::hokuyo_utm_30lx().beams(), 1080u);
+    EXPECT_EQ(sim::scanners::sick_lms_200().beams(), 360u);
+    EXPECT_EQ(sim::scanners::sick_lms_400().beams(), 280u);
+    EXPECT_EQ(sim::scanners::hokuyo_urg_04lx().beams(), 682u);
+    EXPECT_EQ(sim::scanners::hokuyo_utm_30lx().beams(), 1080u);
 }
 
-TEST(scanner, refuses_what_cannot_be) {
-    for (const gnomon::scanner& bad :
-         {gnomon::scanner{.field_of_view = degrees(361)}, gnomon::scanner{.resolution = degrees(0)},
-          gnomon::scanner{.resolution = degrees(200)},
-          gnomon::scanner{.field_of_view = degrees(clouds::nan)},
-          gnomon::scanner{.resolution = degrees(clouds::nan)},
-          gnomon::scanner{.resolution = degrees(1e-300)},
-          gnomon::scanner{.resolution = degrees(1e-18)}, gnomon::scanner{.frequency = 0},
-          gnomon::scanner{.frequency = clouds::infinity}, gnomon::scanner{.min_range = -1},
-          gnomon::scanner{.min_range = 40}, gnomon::scanner{.max_range = clouds::infinity}}) {
+TEST(scanner, rejects_invalid_parameters) {
+    for (const sim::scanner& bad :
+         {sim::scanner{.field_of_view = degrees(361)}, sim::scanner{.resolution = degrees(0)},
+          sim::scanner{.resolution = degrees(200)},
+          sim::scanner{.field_of_view = degrees(clouds::nan)},
+          sim::scanner{.resolution = degrees(clouds::nan)},
+          sim::scanner{.resolution = degrees(1e-300)}, sim::scanner{.resolution = degrees(1e-18)},
+          sim::scanner{.frequency = 0}, sim::scanner{.frequency = clouds::infinity},
+          sim::scanner{.min_range = -1}, sim::scanner{.min_range = 40},
+          sim::scanner{.max_range = clouds::infinity}}) {
         EXPECT_THROW(bad.require_valid(), std::invalid_argument);
     }
 }

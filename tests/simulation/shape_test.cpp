@@ -11,42 +11,44 @@
 #include <gnomon/simulation/shape.hpp>
 #include <gnomon/simulation/sphere.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-/// A shape of somebody else's: a disc in z = 0.
+/// A user-defined shape: a disc in z = 0.
 struct disc {
     double radius;
 
-    [[nodiscard]] gnomon::bounds extent() const {
+    [[nodiscard]] sim::bounds extent() const {
         return {{-radius, -radius, 0.0}, {radius, radius, 0.0}};
     }
     [[nodiscard]] static std::array<std::string, 1> surface_names() { return {"disc"}; }
-    [[nodiscard]] std::optional<gnomon::ray_hit> first_hit(const gnomon::ray& r) const {
+    [[nodiscard]] std::optional<sim::ray_hit> first_hit(const sim::ray& r) const {
         const double t = -r.origin.z() / r.direction.z();
         if (!(t > 0.0 && t <= r.reach)) return std::nullopt;
         if (!(r.point_at(t).norm() <= radius)) return std::nullopt;
-        return gnomon::ray_hit{t, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
+        return sim::ray_hit{t, {0.0, 0.0, r.direction.z() > 0.0 ? -1.0 : 1.0}, 0};
     }
 };
 
-static_assert(gnomon::shape<disc>);
-static_assert(!gnomon::shape<double>);
-static_assert(!gnomon::shape<gnomon::ray>);
+static_assert(sim::shape<disc>);
+static_assert(!sim::shape<double>);
+static_assert(!sim::shape<sim::ray>);
 
-TEST(shape, may_be_the_users_own) {
+TEST(shape, can_be_user_defined) {
     EXPECT_GT(laws::obeys_shape_laws(disc{0.4}, 1), 100u);
-    gnomon::scene world;
+    sim::scene world;
     const auto surface = world.add_object("table", disc{0.4});
     EXPECT_EQ(world.surface_name(surface), "table/body/disc");
 }
 
 /// The laws have teeth: a ball that is blind from within breaks them.
 struct blind_ball {
-    gnomon::sphere ball;
+    sim::sphere ball;
 
-    [[nodiscard]] gnomon::bounds extent() const { return ball.extent(); }
+    [[nodiscard]] sim::bounds extent() const { return ball.extent(); }
     [[nodiscard]] static std::array<std::string, 1> surface_names() { return {"ball"}; }
-    [[nodiscard]] std::optional<gnomon::ray_hit> first_hit(const gnomon::ray& r) const {
+    [[nodiscard]] std::optional<sim::ray_hit> first_hit(const sim::ray& r) const {
         if (r.origin.norm() < ball.radius) return std::nullopt;
         return ball.first_hit(r);
     }

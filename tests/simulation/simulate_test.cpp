@@ -15,23 +15,25 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
 using gnomon::degrees;
-using gnomon::echo;
+using sim::echo;
 
-const gnomon::scene kitchen = gnomon::scenes::kitchen();
-const gnomon::rotational around{.mount = kitchen.sensor};
+const sim::scene kitchen = sim::scenes::kitchen();
+const sim::rotational around{.mount = kitchen.sensor};
 
 /// A room is closed: every beam returns.
 TEST(simulate, returns_a_point_for_every_beam) {
-    EXPECT_EQ(gnomon::simulate(kitchen, around, gnomon::densities::low()).scan.size(), 7'200u);
-    EXPECT_EQ(gnomon::simulate(kitchen, around, gnomon::densities::medium()).scan.size(), 28'800u);
-    EXPECT_EQ(gnomon::simulate(kitchen, around, gnomon::densities::high()).scan.size(), 115'200u);
+    EXPECT_EQ(sim::simulate(kitchen, around, sim::densities::low()).scan.size(), 7'200u);
+    EXPECT_EQ(sim::simulate(kitchen, around, sim::densities::medium()).scan.size(), 28'800u);
+    EXPECT_EQ(sim::simulate(kitchen, around, sim::densities::high()).scan.size(), 115'200u);
 }
 
-TEST(simulate, tells_the_truth_about_each_point) {
-    const auto truth = gnomon::simulate(kitchen, around, gnomon::densities::low());
+TEST(simulate, returns_the_truth_about_each_point) {
+    const auto truth = sim::simulate(kitchen, around, sim::densities::low());
     const Eigen::Vector3d v = kitchen.sensor.position;
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
         const Eigen::Vector3d p = truth.scan.points[i];
@@ -50,13 +52,13 @@ TEST(simulate, tells_the_truth_about_each_point) {
 }
 
 /// Also of a wide beam that meets the floor at a grazing angle.
-TEST(simulate, tells_the_truth_of_wide_beams) {
-    gnomon::scene world;
-    world.add_object("floor", gnomon::plane_patch{60, 60});
-    const gnomon::vertical scan{.mount = gnomon::at(0, 0, 1)};
-    gnomon::scanner finder = gnomon::densities::low();
+TEST(simulate, returns_the_truth_for_wide_beams) {
+    sim::scene world;
+    world.add_object("floor", sim::plane_patch{60, 60});
+    const sim::vertical scan{.mount = sim::at(0, 0, 1)};
+    sim::scanner finder = sim::densities::low();
     finder.max_range = 15.0;  // farther away the floor is more than one echo
-    const auto truth = gnomon::simulate(
+    const auto truth = sim::simulate(
         world, scan, finder, {.footprint = {.waist = 0.002, .divergence = gnomon::radians(0.004)}});
     ASSERT_GT(truth.scan.size(), 1000u);
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
@@ -69,7 +71,7 @@ TEST(simulate, tells_the_truth_of_wide_beams) {
 
 TEST(simulate, scatters_along_the_rays_only) {
     for (const double sigma : {0.015, 0.030}) {
-        const auto noisy = gnomon::simulate(kitchen, around, {}, {.sigma = sigma, .seed = 7});
+        const auto noisy = sim::simulate(kitchen, around, {}, {.sigma = sigma, .seed = 7});
         ASSERT_EQ(noisy.scan.size(), 115'200u);
         double sum = 0.0;
         for (std::size_t i = 0; i < noisy.scan.size(); ++i) {
@@ -83,7 +85,7 @@ TEST(simulate, scatters_along_the_rays_only) {
     }
 }
 
-bool same_bytes(const gnomon::true_scan& a, const gnomon::true_scan& b) {
+bool same_bytes(const sim::true_scan& a, const sim::true_scan& b) {
     const auto same = [](const auto& x, const auto& y) {
         return x.size() == y.size() &&
                std::memcmp(x.data(), y.data(), x.size() * sizeof(x[0])) == 0;
@@ -92,46 +94,44 @@ bool same_bytes(const gnomon::true_scan& a, const gnomon::true_scan& b) {
            same(a.surfaces, b.surfaces) && same(a.ranges, b.ranges) && same(a.echoes, b.echoes);
 }
 
-const gnomon::beam all_at_once{.sigma = 0.01,
-                               .sigma_per_meter = 0.001,
-                               .grazing = 1.0,
-                               .clutter = 0.01,
-                               .failure = 0.02,
-                               .footprint = {.divergence = gnomon::radians(0.004), .sub_rays = 7},
-                               .keep_failed = true,
-                               .seed = 3};
+const sim::beam all_at_once{.sigma = 0.01,
+                            .sigma_per_meter = 0.001,
+                            .grazing = 1.0,
+                            .clutter = 0.01,
+                            .failure = 0.02,
+                            .footprint = {.divergence = gnomon::radians(0.004), .sub_rays = 7},
+                            .keep_failed = true,
+                            .seed = 3};
 
 TEST(simulate, gives_the_same_bytes_on_any_number_of_threads) {
-    const auto one = gnomon::simulate(kitchen, around, gnomon::densities::medium(), all_at_once);
+    const auto one = sim::simulate(kitchen, around, sim::densities::medium(), all_at_once);
     for (const unsigned n : {1u, 2u, 4u}) {
-        EXPECT_TRUE(same_bytes(one, gnomon::simulate(kitchen, around, gnomon::densities::medium(),
-                                                     all_at_once, gnomon::threads{n})));
+        EXPECT_TRUE(same_bytes(one, sim::simulate(kitchen, around, sim::densities::medium(),
+                                                  all_at_once, gnomon::threads{n})));
     }
-    gnomon::beam other = all_at_once;
+    sim::beam other = all_at_once;
     other.seed = 4;
-    EXPECT_FALSE(
-        same_bytes(one, gnomon::simulate(kitchen, around, gnomon::densities::medium(), other)));
+    EXPECT_FALSE(same_bytes(one, sim::simulate(kitchen, around, sim::densities::medium(), other)));
 }
 
 /// Sigma and width of nothing leave the ideal scan, bit for bit.
 TEST(simulate, ideal_limit_is_bit_for_bit) {
-    const auto ideal = gnomon::simulate(kitchen, around, gnomon::densities::low());
-    const gnomon::beam nothing{.sigma = 0.0,
-                               .grazing = 1.0,
-                               .footprint = {.sub_rays = 37, .rule = gnomon::echo_rule::averaged},
-                               .seed = 99};
-    EXPECT_TRUE(
-        same_bytes(ideal, gnomon::simulate(kitchen, around, gnomon::densities::low(), nothing)));
+    const auto ideal = sim::simulate(kitchen, around, sim::densities::low());
+    const sim::beam nothing{.sigma = 0.0,
+                            .grazing = 1.0,
+                            .footprint = {.sub_rays = 37, .rule = sim::echo_rule::averaged},
+                            .seed = 99};
+    EXPECT_TRUE(same_bytes(ideal, sim::simulate(kitchen, around, sim::densities::low(), nothing)));
 }
 
-TEST(simulate, counts_what_went_wrong) {
-    const auto truth = gnomon::simulate(kitchen, around, {}, all_at_once, gnomon::threads{});
+TEST(simulate, counts_failed_readings) {
+    const auto truth = sim::simulate(kitchen, around, {}, all_at_once, gnomon::threads{});
     ASSERT_EQ(truth.scan.size(), 115'200u);
     std::vector<double> count(4, 0.0);
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
         ++count[static_cast<std::size_t>(truth.echoes[i])];
         const bool real = truth.echoes[i] == echo::surface || truth.echoes[i] == echo::mixed;
-        EXPECT_EQ(truth.surfaces[i] == gnomon::nothing, !real);
+        EXPECT_EQ(truth.surfaces[i] == sim::nothing, !real);
         EXPECT_EQ(std::isnan(truth.ranges[i]), !real);
         EXPECT_EQ(truth.normals[i].isZero(0.0), !real);
         if (truth.echoes[i] == echo::none) {
@@ -146,33 +146,31 @@ TEST(simulate, counts_what_went_wrong) {
 
 /// A drive past a wall: every scan line has a view point of its own.
 TEST(simulate, moves_the_view_point_with_the_sensor) {
-    gnomon::scene world;
-    world.add_object("wall", gnomon::box{0.1, 20, 4}, gnomon::at(3, 0, 0));
-    const gnomon::along drive(
-        2.0, [](double t) { return gnomon::at(0, t - 1, 0) * gnomon::roll(degrees(90)); });
-    const auto truth = gnomon::simulate(world, drive, gnomon::densities::low());
+    sim::scene world;
+    world.add_object("wall", sim::box{0.1, 20, 4}, sim::at(3, 0, 0));
+    const sim::along drive(2.0,
+                           [](double t) { return sim::at(0, t - 1, 0) * sim::roll(degrees(90)); });
+    const auto truth = sim::simulate(world, drive, sim::densities::low());
     ASSERT_GT(truth.scan.size(), 500u);
     EXPECT_EQ(truth.scan.viewpoints.positions().size(), 20u);
     for (std::size_t i = 0; i < truth.scan.size(); ++i) {
         EXPECT_NEAR(truth.scan.viewpoints[i].y(), truth.scan.points[i].y(), 1e-12);
     }
     // Standing still is the limit of moving slowly.
-    const gnomon::fixed still{.mount = gnomon::at(0, 0, 0) * gnomon::roll(degrees(90)),
-                              .duration = 2.0};
-    const gnomon::along crawl(2.0,
-                              [&](double t) { return gnomon::at(0, 1e-15 * t, 0) * still(t); });
-    const auto a = gnomon::simulate(world, still, gnomon::densities::low());
-    const auto b = gnomon::simulate(world, crawl, gnomon::densities::low());
+    const sim::fixed still{.mount = sim::at(0, 0, 0) * sim::roll(degrees(90)), .duration = 2.0};
+    const sim::along crawl(2.0, [&](double t) { return sim::at(0, 1e-15 * t, 0) * still(t); });
+    const auto a = sim::simulate(world, still, sim::densities::low());
+    const auto b = sim::simulate(world, crawl, sim::densities::low());
     ASSERT_EQ(a.scan.size(), b.scan.size());
     for (std::size_t i = 0; i < a.scan.size(); ++i)
         EXPECT_LT((a.scan.points[i] - b.scan.points[i]).norm(), 1e-13);
 }
 
 TEST(simulate, sees_no_farther_and_no_nearer_than_the_scanner) {
-    gnomon::scanner finder = gnomon::densities::low();
+    sim::scanner finder = sim::densities::low();
     finder.min_range = 1.0;
     finder.max_range = 2.0;
-    const auto truth = gnomon::simulate(kitchen, around, finder);
+    const auto truth = sim::simulate(kitchen, around, finder);
     EXPECT_GT(truth.scan.size(), 100u);
     for (const double range : truth.ranges) {
         EXPECT_GE(range, 1.0);
@@ -181,16 +179,15 @@ TEST(simulate, sees_no_farther_and_no_nearer_than_the_scanner) {
 }
 
 TEST(simulate, of_nothing_is_nothing) {
-    const auto truth = gnomon::simulate(gnomon::scene(), around, gnomon::densities::low());
+    const auto truth = sim::simulate(sim::scene(), around, sim::densities::low());
     EXPECT_EQ(truth.scan.size(), 0u);
     EXPECT_TRUE(truth.scan.viewpoints.covers(0));
-    EXPECT_EQ(gnomon::simulate(kitchen, gnomon::fixed{.duration = 0.0}).scan.size(), 0u);
+    EXPECT_EQ(sim::simulate(kitchen, sim::fixed{.duration = 0.0}).scan.size(), 0u);
 }
 
-TEST(simulate, refuses_what_cannot_be) {
-    const auto scanning = [](double duration, const gnomon::scanner& finder,
-                             const gnomon::beam& b) {
-        return gnomon::simulate(kitchen, gnomon::fixed{.duration = duration}, finder, b);
+TEST(simulate, rejects_invalid_input) {
+    const auto scanning = [](double duration, const sim::scanner& finder, const sim::beam& b) {
+        return sim::simulate(kitchen, sim::fixed{.duration = duration}, finder, b);
     };
     EXPECT_THROW((void)scanning(-1, {}, {}), std::invalid_argument);
     EXPECT_THROW((void)scanning(clouds::nan, {}, {}), std::invalid_argument);
@@ -204,45 +201,45 @@ TEST(simulate, refuses_what_cannot_be) {
 
 /// A sensor that is no rigid motion would give NaN, or ranges of another unit.
 TEST(simulate, refuses_poses_that_are_none) {
-    gnomon::pose doubled;
+    sim::pose doubled;
     doubled.rotation *= 2.0;
-    gnomon::pose mirrored;
+    sim::pose mirrored;
     mirrored.rotation(1, 1) = -1.0;
-    const gnomon::scanner finder = gnomon::densities::low();
-    for (const gnomon::pose& bad : {doubled, mirrored, gnomon::at(clouds::nan, 0, 0)}) {
-        EXPECT_THROW((void)gnomon::simulate(kitchen, gnomon::fixed{.mount = bad}, finder),
+    const sim::scanner finder = sim::densities::low();
+    for (const sim::pose& bad : {doubled, mirrored, sim::at(clouds::nan, 0, 0)}) {
+        EXPECT_THROW((void)sim::simulate(kitchen, sim::fixed{.mount = bad}, finder),
                      std::invalid_argument);
     }
     EXPECT_THROW(
-        (void)gnomon::simulate(kitchen, gnomon::horizontal{.sweep = degrees(clouds::nan)}, finder),
+        (void)sim::simulate(kitchen, sim::horizontal{.sweep = degrees(clouds::nan)}, finder),
         std::invalid_argument);
 }
 
 TEST(simulate, refuses_the_caster_of_another_scene) {
-    const gnomon::bvh_caster caster(kitchen);
-    EXPECT_THROW((void)gnomon::simulate(gnomon::scene(), caster, around, gnomon::densities::low()),
+    const sim::bvh_caster caster(kitchen);
+    EXPECT_THROW((void)sim::simulate(sim::scene(), caster, around, sim::densities::low()),
                  std::invalid_argument);
 }
 
 /// What meets nothing costs nothing: a sky full of rays, and a few that hit.
-TEST(simulate, keeps_what_became_a_point_only) {
-    const gnomon::scene world = gnomon::scenes::plate(5);
-    const gnomon::bvh_caster caster(world);
-    const gnomon::scanner finder = gnomon::densities::low();
-    const gnomon::horizontal scan;
+TEST(simulate, stores_only_readings_with_a_point) {
+    const sim::scene world = sim::scenes::plate(5);
+    const sim::bvh_caster caster(world);
+    const sim::scanner finder = sim::densities::low();
+    const sim::horizontal scan;
     const auto ray_of = [&](std::size_t i) {
         const auto sensor = scan((static_cast<double>(i / 180) + 0.5) / 10.0);
-        return gnomon::ray{sensor.position, sensor.direction_out(finder.direction(i % 180))};
+        return sim::ray{sensor.position, sensor.direction_out(finder.direction(i % 180))};
     };
-    const gnomon::detail::instrument<gnomon::bvh_caster> read(caster, {}, 0.1, 30.0);
+    const sim::detail::instrument<sim::bvh_caster> read(caster, {}, 0.1, 30.0);
     std::size_t kept = 0;
     std::size_t room = 0;
     for (const auto& chunk :
-         gnomon::detail::read_rays(read, {}, 7'200, ray_of, gnomon::sequential{})) {
+         sim::detail::read_rays(read, {}, 7'200, ray_of, gnomon::sequential{})) {
         kept += chunk.size();
         room += chunk.capacity();
     }
-    EXPECT_EQ(kept, gnomon::simulate(world, scan, finder).scan.size());
+    EXPECT_EQ(kept, sim::simulate(world, scan, finder).scan.size());
     EXPECT_GT(kept, 20u);
     EXPECT_LE(room, 2 * kept);
 }

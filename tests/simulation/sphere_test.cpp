@@ -7,10 +7,12 @@
 #include "laws/shape_laws.hpp"
 #include <gnomon/simulation/sphere.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-static_assert(gnomon::shape<gnomon::sphere>);
-const gnomon::sphere ball{0.7};
+static_assert(sim::shape<sim::sphere>);
+const sim::sphere ball{0.7};
 
 TEST(sphere, obeys_the_laws) { EXPECT_GT(laws::obeys_shape_laws(ball, 1), 1000u); }
 
@@ -24,7 +26,7 @@ TEST(sphere, agrees_with_its_equation) {
 }
 
 TEST(sphere, has_normals_through_its_center) {
-    for (const gnomon::ray& r : laws::rays_at(ball.extent(), 500, 3)) {
+    for (const sim::ray& r : laws::rays_at(ball.extent(), 500, 3)) {
         const auto hit = ball.first_hit(r);
         if (!hit) continue;
         const Eigen::Vector3d p = r.point_at(hit->range);

@@ -11,11 +11,13 @@
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::profile_point;
-using gnomon::surface_of_revolution;
-static_assert(gnomon::shape<surface_of_revolution>);
+using sim::profile_point;
+using sim::surface_of_revolution;
+static_assert(sim::shape<surface_of_revolution>);
 
 const std::vector<profile_point> vase_profile{{0.10, 0.00}, {0.18, 0.15}, {0.20, 0.35},
                                               {0.09, 0.50}, {0.07, 0.60}, {0.11, 0.68}};
@@ -33,7 +35,7 @@ TEST(surface_of_revolution, obeys_the_laws) {
     }
 }
 
-TEST(surface_of_revolution, goes_through_its_points_and_keeps_their_rise_and_fall) {
+TEST(surface_of_revolution, interpolates_its_points_monotonically) {
     for (const bool smooth : {true, false}) {
         const surface_of_revolution vase(vase_profile, {.smooth = smooth});
         for (std::size_t i = 0; i + 1 < vase_profile.size(); ++i) {
@@ -51,7 +53,7 @@ TEST(surface_of_revolution, goes_through_its_points_and_keeps_their_rise_and_fal
 }
 
 /// The smooth profile has no kink, the straight one has.
-TEST(surface_of_revolution, is_smooth_if_asked) {
+TEST(surface_of_revolution, can_be_smooth) {
     for (const bool smooth : {true, false}) {
         const surface_of_revolution vase(vase_profile, {.smooth = smooth});
         double sharpest = 0.0;
@@ -65,10 +67,10 @@ TEST(surface_of_revolution, is_smooth_if_asked) {
 }
 
 TEST(surface_of_revolution, of_two_points_is_a_cone) {
-    const gnomon::cone cone{0.3, 0.8};
+    const sim::cone cone{0.3, 0.8};
     const surface_of_revolution same({{0.3, 0.0}, {0.0, 0.8}}, {.smooth = false});
     std::size_t hits = 0;
-    for (const gnomon::ray& r : laws::rays_at(cone.extent(), 2000, 5)) {
+    for (const sim::ray& r : laws::rays_at(cone.extent(), 2000, 5)) {
         const auto expected = cone.first_hit(r);
         const auto found = same.first_hit(r);
         ASSERT_EQ(expected.has_value(), found.has_value());
@@ -81,10 +83,10 @@ TEST(surface_of_revolution, of_two_points_is_a_cone) {
 }
 
 /// Rays from anywhere see the radius that level rays see.
-TEST(surface_of_revolution, is_round) {
+TEST(surface_of_revolution, is_rotationally_symmetric) {
     const surface_of_revolution vase(vase_profile);
     std::size_t hits = 0;
-    for (const gnomon::ray& r : laws::rays_at(vase.extent(), 2000, 5)) {
+    for (const sim::ray& r : laws::rays_at(vase.extent(), 2000, 5)) {
         const auto hit = vase.first_hit(r);
         if (!hit || hit->surface != 0 || hit->range > 5.0) continue;
         const Eigen::Vector3d p = r.point_at(hit->range);
@@ -95,7 +97,7 @@ TEST(surface_of_revolution, is_round) {
 }
 
 /// The same vase wherever its profile begins, but for the rounding of the heights.
-TEST(surface_of_revolution, may_begin_at_any_height) {
+TEST(surface_of_revolution, can_begin_at_any_height) {
     for (const double begin : {1.0, 1e3, 5e6}) {
         std::vector<profile_point> profile = vase_profile;
         for (profile_point& p : profile) p.height += begin;
@@ -134,7 +136,7 @@ TEST(surface_of_revolution, leaves_no_gap_between_arcs) {
     }
 }
 
-TEST(surface_of_revolution, refuses_what_is_no_profile) {
+TEST(surface_of_revolution, rejects_invalid_profiles) {
     const double nan = std::nan("");
     for (const std::vector<profile_point>& bad : {std::vector<profile_point>{},
                                                   {{1, 0}},

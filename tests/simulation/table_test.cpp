@@ -8,10 +8,12 @@
 #include "simulation/furnished.hpp"
 #include <gnomon/simulation/table.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::table;
-using gnomon::table_base;
+using sim::table;
+using sim::table_base;
 
 TEST(table, names_its_parts) {
     using names = std::set<std::string>;
@@ -36,9 +38,9 @@ TEST(table, scales_all_its_measures) {
 }
 
 TEST(table, refuses_measures_that_do_not_fit) {
-    gnomon::scene world;
-    EXPECT_THROW(gnomon::add(world, "table", table{.length = -1.0}), std::invalid_argument);
-    EXPECT_THROW(gnomon::add(world, "table", table{.height = 0.01}), std::invalid_argument);
+    sim::scene world;
+    EXPECT_THROW(sim::add(world, "table", table{.length = -1.0}), std::invalid_argument);
+    EXPECT_THROW(sim::add(world, "table", table{.height = 0.01}), std::invalid_argument);
 }
 
 }  // namespace

@@ -16,10 +16,12 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
 
+namespace sim = gnomon::simulation;
+
 namespace {
 
-using gnomon::triangle_mesh;
-static_assert(gnomon::shape<triangle_mesh>);
+using sim::triangle_mesh;
+static_assert(sim::shape<triangle_mesh>);
 
 TEST(triangle_mesh, obeys_the_laws) {
     EXPECT_GT(laws::obeys_shape_laws(meshes::of_box({0.4, 0.3, 1.2}), 1), 1000u);
@@ -27,10 +29,10 @@ TEST(triangle_mesh, obeys_the_laws) {
 }
 
 TEST(triangle_mesh, of_a_box_is_the_box) {
-    const gnomon::box box{0.4, 0.3, 1.2};
+    const sim::box box{0.4, 0.3, 1.2};
     const auto mesh = meshes::of_box(box);
     std::size_t hits = 0;
-    for (const gnomon::ray& r : laws::rays_at(box.extent(), 5000, 3)) {
+    for (const sim::ray& r : laws::rays_at(box.extent(), 5000, 3)) {
         const auto expected = box.first_hit(r);
         const auto found = mesh.first_hit(r);
         ASSERT_EQ(expected.has_value(), found.has_value());
@@ -44,13 +46,13 @@ TEST(triangle_mesh, of_a_box_is_the_box) {
 }
 
 /// Facets of n sides stand r (1 - cos(pi / n)) behind the mantle at most.
-TEST(triangle_mesh, of_a_cylinder_comes_near_the_cylinder) {
-    const gnomon::cylinder round{0.3, 0.9};
+TEST(triangle_mesh, of_a_cylinder_converges_to_the_cylinder) {
+    const sim::cylinder round{0.3, 0.9};
     constexpr int sides = 1000;
     const auto mesh = meshes::of_cylinder(round, sides);
     const double sagitta = round.radius * (1 - std::cos(std::numbers::pi / sides));
     std::size_t hits = 0;
-    for (const gnomon::ray& r : laws::rays_at(round.extent(), 5000, 4)) {
+    for (const sim::ray& r : laws::rays_at(round.extent(), 5000, 4)) {
         const auto expected = round.first_hit(r);
         const auto found = mesh.first_hit(r);
         if (!expected || std::abs(expected->normal.dot(r.direction)) < 0.2) continue;
@@ -69,7 +71,7 @@ TEST(triangle_mesh, of_a_cylinder_comes_near_the_cylinder) {
 /// Every ray through a shared edge or a shared vertex is stopped.
 TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
     std::vector<Eigen::Vector3d> vertices;
-    std::vector<gnomon::triangle> triangles;
+    std::vector<sim::triangle> triangles;
     constexpr std::uint32_t n = 20;
     gnomon::random_stream random(7);
     for (std::uint32_t i = 0; i <= n; ++i) {
@@ -100,7 +102,7 @@ TEST(triangle_mesh, lets_no_ray_through_between_triangles) {
 TEST(triangle_mesh, passes_over_degenerate_triangles) {
     const std::vector<Eigen::Vector3d> vertices{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {0, 1, 0}};
     const triangle_mesh needles({vertices, {{0, 1, 2}, {1, 1, 3}, {2, 2, 2}}, {}});
-    for (const gnomon::ray& r : laws::rays_at(needles.extent(), 1000, 5)) {
+    for (const sim::ray& r : laws::rays_at(needles.extent(), 1000, 5)) {
         EXPECT_FALSE(needles.first_hit(r));
     }
     EXPECT_FALSE(needles.first_hit({{1, 0, 3}, {0, 0, -1}}));
@@ -108,8 +110,9 @@ TEST(triangle_mesh, passes_over_degenerate_triangles) {
     EXPECT_TRUE(one_good.first_hit({{0.2, 0.2, 3}, {0, 0, -1}}));
 }
 
-/// Vertices on a line, but for rounding: whoever met such a triangle would say any range.
-TEST(triangle_mesh, passes_over_triangles_as_thin_as_rounding) {
+/// Vertices that are collinear up to rounding: the range of a hit on such a triangle would be
+/// arbitrary.
+TEST(triangle_mesh, skips_nearly_collinear_triangles) {
     gnomon::random_stream random(7);
     const auto anywhere = [&](double size) {
         return Eigen::Vector3d(size * random.gaussian(), size * random.gaussian(),
@@ -131,12 +134,11 @@ TEST(triangle_mesh, passes_over_triangles_as_thin_as_rounding) {
 
 /// A closed mesh from within, at its edges: also where the compiler fuses products with sums.
 TEST(triangle_mesh, is_watertight_from_within) {
-    const gnomon::box room{4, 4, 2};
-    const gnomon::polyhedron faces = room.triangles();
-    for (const auto& place :
-         {gnomon::pose{}, gnomon::at(3.3, 6.6, -3.3) * gnomon::yaw(gnomon::degrees(31)) *
-                              gnomon::pitch(gnomon::degrees(15))}) {
-        gnomon::polyhedron placed = faces;
+    const sim::box room{4, 4, 2};
+    const sim::polyhedron faces = room.triangles();
+    for (const auto& place : {sim::pose{}, sim::at(3.3, 6.6, -3.3) * sim::yaw(gnomon::degrees(31)) *
+                                               sim::pitch(gnomon::degrees(15))}) {
+        sim::polyhedron placed = faces;
         for (Eigen::Vector3d& v : placed.vertices) v = place.point_out(v);
         const triangle_mesh mesh(placed, {"+x", "-x", "+y", "-y", "+z", "-z"});
         gnomon::random_stream random(5);
@@ -154,11 +156,11 @@ TEST(triangle_mesh, is_watertight_from_within) {
     }
 }
 
-TEST(triangle_mesh, refuses_what_is_no_mesh) {
+TEST(triangle_mesh, rejects_invalid_meshes) {
     const std::vector<Eigen::Vector3d> v{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}};
     std::vector<Eigen::Vector3d> broken = v;
     broken[1].y() = clouds::nan;
-    const std::vector<gnomon::triangle> one{{0, 1, 2}};
+    const std::vector<sim::triangle> one{{0, 1, 2}};
     using names = std::vector<std::string>;
     EXPECT_NO_THROW(triangle_mesh({v, one, {1}}, {"a", "b"}));
     EXPECT_THROW(triangle_mesh({v, {}, {}}), std::invalid_argument);

@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include "rings.hpp"
+#include "neighborhoods.hpp"
 #include <CGAL/Eigen_svd.h>
 #include <CGAL/Monge_via_jet_fitting.h>
 #include <CGAL/Simple_cartesian.h>
@@ -33,11 +33,12 @@ inline std::vector<gnomon::normal_fit> jets(const std::vector<Eigen::Vector3d>& 
                                             const nearest_of_tests& nearest, std::size_t k) {
     CGAL::Monge_via_jet_fitting<cgal_kernel, cgal_kernel, CGAL::Eigen_svd> fit;
     std::vector<gnomon::normal_fit> result(nearest.tests());
-    std::vector<cgal_kernel::Point_3> ring;
+    std::vector<cgal_kernel::Point_3> neighbors;
     for (std::size_t i = 0; i < result.size(); ++i) {
-        ring.assign(1, to_cgal(points[i]));
-        for (const auto j : nearest.ring(i, k)) ring.push_back(to_cgal(points[j]));
-        result[i].normal = from_cgal(fit(ring.begin(), ring.end(), 2, 1).normal_direction());
+        neighbors.assign(1, to_cgal(points[i]));
+        for (const auto j : nearest.neighbors(i, k)) neighbors.push_back(to_cgal(points[j]));
+        result[i].normal =
+            from_cgal(fit(neighbors.begin(), neighbors.end(), 2, 1).normal_direction());
     }
     return result;
 }
@@ -55,8 +56,9 @@ inline double largest_deviation_of_jets(const std::vector<Eigen::Vector3d>& poin
     const auto ours = jets(points, nearest_of_tests(points, points.size(), k), k);
     double largest = 0.0;
     for (std::size_t i = 0; i < points.size(); ++i) {
-        largest = std::max(largest,
-                           gnomon::unoriented_angle(ours[i].normal, from_cgal(theirs[i].second)));
+        const gnomon::angle a =
+            gnomon::unoriented_angle(ours[i].normal, from_cgal(theirs[i].second));
+        largest = std::max(largest, a.radians());
     }
     return largest;
 }

@@ -23,19 +23,21 @@
 
 namespace known_normals {
 
+namespace sim = gnomon::simulation;
+
 /// All triangles of the file, brought to about the size of the other shapes, since some estimators
 /// have parameters in metres: by a power of two, which rounds nothing. Nothing if the file, or
 /// Assimp, is missing.
 inline std::optional<surface> mesh_surface([[maybe_unused]] const std::string& path) {
 #ifdef GNOMON_BENCHMARKS_ASSIMP
     std::vector<Vector3d> corners;  // three for each triangle
-    gnomon::bounds extent;
+    sim::bounds extent;
     try {
-        const gnomon::scene file = gnomon::read_scene(path, gnomon::mesh_groups::parts);
+        const sim::scene file = sim::read_scene(path, sim::mesh_groups::parts);
         extent = file.extent();
-        for (const gnomon::placed_shape& s : file.shapes()) {
-            const gnomon::polyhedron faces = s.shape->triangles().value();
-            for (const gnomon::triangle& t : faces.triangles)
+        for (const sim::placed_shape& s : file.shapes()) {
+            const sim::polyhedron faces = s.shape->triangles().value();
+            for (const sim::triangle& t : faces.triangles)
                 for (const auto vertex : t) corners.push_back(faces.vertices[vertex]);
         }
     } catch (const gnomon::error&) {

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include "rings.hpp"
+#include "neighborhoods.hpp"
 #include <gnomon/normals/estimator.hpp>
 #include <pcl/features/normal_3d.h>
 #include <pcl/point_cloud.h>
@@ -22,20 +22,20 @@ namespace known_normals {
 inline std::vector<gnomon::normal_fit> pcl_planes(const std::vector<Eigen::Vector3d>& points,
                                                   const nearest_of_tests& nearest, std::size_t k) {
     std::vector<gnomon::normal_fit> result(nearest.tests());
-    pcl::PointCloud<pcl::PointXYZ> ring;
+    pcl::PointCloud<pcl::PointXYZ> neighbors;
     pcl::Indices all(k + 1);
     std::iota(all.begin(), all.end(), 0);
-    const auto add = [&ring](const Eigen::Vector3d& p) {
+    const auto add = [&neighbors](const Eigen::Vector3d& p) {
         const Eigen::Vector3f f = p.cast<float>();
-        ring.push_back({f.x(), f.y(), f.z()});
+        neighbors.push_back({f.x(), f.y(), f.z()});
     };
     for (std::size_t i = 0; i < result.size(); ++i) {
-        ring.clear();
+        neighbors.clear();
         add(points[i]);
-        for (const auto j : nearest.ring(i, k)) add(points[j]);
+        for (const auto j : nearest.neighbors(i, k)) add(points[j]);
         Eigen::Vector4f plane;
         float curvature = 0.0F;
-        if (!pcl::computePointNormal(ring, all, plane, curvature)) continue;
+        if (!pcl::computePointNormal(neighbors, all, plane, curvature)) continue;
         result[i].normal = plane.head<3>().cast<double>().normalized();
     }
     return result;

@@ -84,24 +84,24 @@ inline solid cylinder(const Vector3d& a, const Vector3d& b, double radius) {
 }
 
 /// @param axis  of unit length
-/// @param ring  from the center to the middle of the tube
-inline solid torus(const Vector3d& center, const Vector3d& axis, double ring, double tube) {
+/// @param neighbors  from the center to the middle of the tube
+inline solid torus(const Vector3d& center, const Vector3d& axis, double neighbors, double tube) {
     const Vector3d x = axis.unitOrthogonal();
     const Vector3d y = axis.cross(x);
-    return {{{4.0 * std::numbers::pi * std::numbers::pi * ring * tube,
+    return {{{4.0 * std::numbers::pi * std::numbers::pi * neighbors * tube,
               [=](dice& d) {
                   double g = 0.0;
                   do {
                       g = d.uniform(0.0, 2.0 * std::numbers::pi);
-                  } while (d.uniform() * (ring + tube) > ring + tube * std::cos(g));
+                  } while (d.uniform() * (neighbors + tube) > neighbors + tube * std::cos(g));
                   const double turn = d.uniform(0.0, 2.0 * std::numbers::pi);
                   const Vector3d out = std::cos(turn) * x + std::sin(turn) * y;
                   const Vector3d n = std::cos(g) * out + std::sin(g) * axis;
-                  return surface_point{center + ring * out + tube * n, n};
+                  return surface_point{center + neighbors * out + tube * n, n};
               }}},
             [=](const Vector3d& p) {
                 const double h = axis.dot(p - center);
-                const double rho = (p - center - h * axis).norm() - ring;
+                const double rho = (p - center - h * axis).norm() - neighbors;
                 return rho * rho + h * h < tube * tube;
             }};
 }

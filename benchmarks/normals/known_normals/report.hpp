@@ -16,7 +16,7 @@
 
 namespace known_normals {
 
-/// What a method makes of a cloud.
+/// The result of a method on a cloud.
 struct measurement {
     std::string method;
     std::size_t k;   ///< 0 where the method chooses
@@ -79,7 +79,7 @@ inline void print_heading(const char* first, const std::vector<const char*>& mor
     std::printf("\n");
 }
 
-/// The table of some clouds, best method first, and what `ours` is worth beside its rivals.
+/// The table of some clouds, best method first, and the comparison of `ours` with its rivals.
 inline void print_methods(const char* title, const std::vector<const cloud_report*>& clouds,
                           const std::string& ours, const std::vector<std::string>& rivals) {
     const auto best = best_of(averages_of(clouds));

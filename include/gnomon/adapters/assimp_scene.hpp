@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Scenes out of mesh files (OBJ, STL, DAE, glTF and what else Assimp reads). Link with
+/// Reads scenes from mesh files (OBJ, STL, DAE, glTF and the other formats of Assimp). Link with
 /// gnomon::assimp.
 #pragma once
 
@@ -19,12 +19,13 @@
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// What the named groups of a mesh file are.
+/// The meaning of the named groups of a mesh file.
 enum class mesh_groups : char {
-    objects,  ///< of a room: each is an object of one part, "body"
-    parts     ///< of one object, which is called as the file, without folder and extension
+    objects,  ///< each group is an object with one part, "body"
+    parts     ///< each group is a part of one object, named after the file without folder and
+              ///< extension
 };
 
 namespace detail {
@@ -38,7 +39,8 @@ class assimp_reader {
         file_ = path.substr(name, path.find_last_of('.') - name);
     }
 
-    /// The meshes of a node and of the nodes below it. `outer` moves the node's parent.
+    /// Adds the meshes of a node and of its descendants. `outer` is the transformation of the
+    /// node's parent.
     void add(const aiScene& file, const aiNode& node, const aiMatrix4x4& outer) {
         const aiMatrix4x4 place = outer * node.mTransformation;
         polyhedron faces;  // of all materials
@@ -85,12 +87,12 @@ class assimp_reader {
 
 }  // namespace detail
 
-/// The scene in a mesh file, in the file's axes and units (COLLADA, which tells its unit, in
-/// metres), each named group a mesh of one surface, of whatever materials. Coordinates pass through
-/// single precision, as Assimp keeps them: move what stands far from the origin before. The sensor
-/// is left at the origin. Complexity: O(n log n).
-/// @throws gnomon::error  if the file cannot be read, holds no triangle, or is seen to be damaged;
-///                        of a text file cut at the end of a line nobody can tell
+/// Reads a scene from a mesh file, in the file's axes and units (COLLADA, which declares its unit,
+/// in metres). Each named group becomes a mesh with a single surface, regardless of its materials.
+/// Assimp stores coordinates in single precision: translate meshes far from the origin beforehand.
+/// The sensor stays at the origin. Complexity: O(n log n).
+/// @throws gnomon::error  if the file cannot be read, contains no triangle, or is invalid; a text
+///                        file truncated at the end of a line is not recognized as invalid
 [[nodiscard]] inline scene read_scene(const std::string& path,
                                       mesh_groups groups = mesh_groups::objects) {
     Assimp::Importer importer;
@@ -110,4 +112,4 @@ class assimp_reader {
     return world;
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Ray casting by Embree (Wald et al. 2014), 3 or 4: in single precision, at its best on meshes of
+/// Ray casting with Embree 3 or 4 (Wald et al. 2014): in single precision, fastest on meshes of
 /// many triangles. Link with gnomon::embree.
 #pragma once
 
@@ -29,16 +29,17 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Models `ray_caster`, in single precision: places, ranges and reaches are right to some 1e-6 of
-/// the size of the scene, about whose middle Embree counts. One shape far away costs all of them
-/// their precision, and beyond 1e15 m Embree sees nothing. Flat shapes are triangles to Embree;
-/// curved ones are asked themselves, for rays that passed through single precision.
+/// Models `ray_caster`, in single precision: positions and ranges have a relative error of about
+/// 1e-6 of the size of the scene; Embree's coordinates are relative to its center. One distant
+/// shape reduces the precision of all, and rays from beyond 1e15 m have no hit. Shapes with planar
+/// faces become triangles; the others are intersected by their own first_hit(), with rays rounded
+/// to single precision.
 class embree_caster {
   public:
     /// Keeps the shapes of `world`, not the scene.
-    /// @throws gnomon::error  if Embree refuses, e.g. for want of memory
+    /// @throws gnomon::error  if Embree fails, e.g. for lack of memory
     explicit embree_caster(const scene& world)
         : device_(rtcNewDevice(nullptr)), content_(std::make_unique<content>(world)) {
         check();
@@ -56,7 +57,7 @@ class embree_caster {
         check();
     }
 
-    /// The nearest hit within the ray's reach, as far as single precision can tell. O(log n).
+    /// The nearest hit within the ray's reach, in single precision. O(log n).
     [[nodiscard]] std::optional<ray_hit> operator()(const ray& r) const {
         const Eigen::Vector3d from = r.origin - content_->center;
         const double squared_length = r.direction.dot(r.direction);
@@ -74,7 +75,7 @@ class embree_caster {
         query.ray.dir_y = static_cast<float>(r.direction.y());
         query.ray.dir_z = static_cast<float>(r.direction.z());
         query.ray.tnear = 0.0f;
-        // A hit at the reach must not be lost to rounding; it is told at the reach.
+        // Rounding must not lose a hit at the reach; its range is clamped to the reach.
         query.ray.tfar = static_cast<float>(r.reach + 1e-6 * (r.reach + content_->size));
         query.ray.mask = ~0u;
         query.hit.geomID = RTC_INVALID_GEOMETRY_ID;
@@ -105,13 +106,13 @@ class embree_caster {
         void operator()(RTCGeometry geometry) const { rtcReleaseGeometry(geometry); }
     };
 
-    /// What Embree's callbacks are given, so it must not move.
+    /// The data of Embree's callbacks; its address must not change.
     struct content {
         std::vector<placed_shape> shapes;
         Eigen::Vector3d center;  ///< of the scene: single precision is best about the origin
         double size = 0.0;       ///< of the scene, from end to end [m]
-        /// Of each shape and triangle; empty for curved shapes, whose callback puts the number of
-        /// the surface where Embree has that of the primitive.
+        /// The surface of each triangle of each shape; empty for curved shapes, whose callback
+        /// stores the surface number as Embree's primitive number.
         std::vector<std::vector<std::int32_t>> surface_of_primitive;
 
         explicit content(const scene& world)
@@ -123,7 +124,7 @@ class embree_caster {
         }
     };
 
-    /// A shape as its callbacks know it.
+    /// The user data of a curved shape's callbacks.
     struct curved {
         const content* all;
         std::size_t index;
@@ -138,7 +139,7 @@ class embree_caster {
 
     using geometry_pointer = std::unique_ptr<RTCGeometryTy, release>;
 
-    /// The scene holds what is attached.
+    /// Attaches a geometry to the scene, which shares its ownership.
     void attach(const geometry_pointer& geometry, std::size_t i) {
         rtcCommitGeometry(geometry.get());
         rtcAttachGeometryByID(scene_.get(), geometry.get(), static_cast<unsigned>(i));
@@ -215,4 +216,4 @@ class embree_caster {
     std::unique_ptr<RTCSceneTy, release> scene_;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// An angle that knows its unit: `degrees(5)` and `radians(0.087)` make one, a bare
-/// number does not, so that a threshold is never read in the wrong unit.
+/// An angle with an explicit unit: `degrees(5)` and `radians(0.087)` construct one. A number
+/// without a unit is refused, so that no threshold is read in the wrong unit.
 #pragma once
 
 #include <algorithm>
 #include <compare>
 #include <numbers>
+#include <type_traits>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
@@ -18,6 +19,18 @@ class angle {
   public:
     constexpr angle() = default;
 
+    // A number has no unit. Compilers print the remedy: g++ the name of the template parameter,
+    // clang the reason.
+#ifdef __clang__
+    template <class Number>
+        requires std::is_arithmetic_v<Number>
+    [[clang::unavailable("write degrees(5) or radians(0.087)")]] angle(Number);
+#else
+    template <class write_degrees_or_radians>
+        requires std::is_arithmetic_v<write_degrees_or_radians>
+    angle(write_degrees_or_radians) = delete;
+#endif
+
     /// [rad]
     [[nodiscard]] constexpr double radians() const { return radians_; }
     /// [deg]
@@ -25,6 +38,9 @@ class angle {
 
     friend constexpr auto operator<=>(const angle&, const angle&) = default;
     friend constexpr angle radians(double value);
+
+    [[nodiscard]] friend double cos(angle a) { return std::cos(a.radians_); }
+    [[nodiscard]] friend double sin(angle a) { return std::sin(a.radians_); }
 
   private:
     double radians_ = 0.0;
@@ -42,12 +58,10 @@ class angle {
     return radians(value * std::numbers::pi / 180.0);
 }
 
-[[nodiscard]] inline double cos(angle a) { return std::cos(a.radians()); }
-[[nodiscard]] inline double sin(angle a) { return std::sin(a.radians()); }
-
 namespace detail {
 
-/// The cosine that directions at most `a` apart reach, rounding allowed for.
+/// The smallest cosine between two directions whose angle is at most `a`, less a margin for
+/// rounding.
 /// @throws std::invalid_argument  unless `a` lies between 0 and 90 degrees
 [[nodiscard]] inline double min_cosine(angle a) {
     require(a >= degrees(0) && a <= degrees(90), "an angle must lie between 0 and 90 degrees");

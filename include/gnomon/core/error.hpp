@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How gnomon fails. Bad *data* is answered with a `trust` beside the number, a broken file with
-/// `gnomon::error`, an impossible argument (k = 0, a negative radius) with `std::invalid_argument`.
-/// Nothing is ever printed.
+/// Error reporting. Bad data gives results whose `trust` is not usable; a broken file throws
+/// `gnomon::error`; an invalid argument (k = 0, a negative radius) throws `std::invalid_argument`.
+/// The library prints nothing.
 #pragma once
 
 #include <stdexcept>
@@ -11,7 +11,8 @@
 
 namespace gnomon {
 
-/// The outside world failed us: a file that is missing, truncated or not what it claims to be.
+/// A file that cannot be read or written, or whose contents are damaged. The message names the file
+/// and the position in it.
 class error : public std::runtime_error {
   public:
     /// @param file      the file's name as the caller gave it
@@ -22,7 +23,9 @@ class error : public std::runtime_error {
           file_(std::move(file)),
           position_(std::move(position)) {}
 
+    /// The file's name as the caller gave it.
     [[nodiscard]] const std::string& file() const noexcept { return file_; }
+    /// The position in the file: "line 12", "byte 381", or "" for the file as a whole.
     [[nodiscard]] const std::string& position() const noexcept { return position_; }
 
   private:
@@ -32,7 +35,7 @@ class error : public std::runtime_error {
 
 namespace detail {
 
-/// Checks an argument at a public door, in constant time.
+/// Checks an argument of a public function. O(1).
 /// @throws std::invalid_argument  with `message` unless `condition` holds
 constexpr void require(bool condition, const char* message) {
     if (!condition) throw std::invalid_argument(message);

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Sums over a neighborhood, taken about the query point: one pass of nine sums, from which every
-/// linear fit follows. Differences to the query point lose nothing far from the origin, where raw
-/// moments do: at UTM coordinates even raw double moments turn normals by degrees.
+/// Zeroth, first and second moments of a neighborhood about its query point, from which every
+/// linear fit follows. They are accumulated in one pass over the neighbors, as ten numbers.
+///
+/// Moments about the query point keep their digits far from the origin. Moments about the origin do
+/// not: at UTM coordinates (1e6 m) they turn normals by degrees, even in double precision.
 #pragma once
 
 #include <cstddef>
@@ -16,16 +18,23 @@ namespace gnomon {
 
 namespace detail {
 
-/// sum += w d and the lower half of outer += w d d^T.
+/// sum += w d, and outer += w d d^T in its lower triangle. Without loops, which g++ -O2 keeps:
+/// performance only.
 inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eigen::Vector3d& d,
                         double w) {
-    for (int j = 0; j < 3; ++j) {
-        sum[j] += w * d[j];
-        for (int i = j; i < 3; ++i) outer(i, j) += w * d[i] * d[j];
-    }
+    sum[0] += w * d[0];
+    sum[1] += w * d[1];
+    sum[2] += w * d[2];
+    outer(0, 0) += w * d[0] * d[0];
+    outer(1, 0) += w * d[1] * d[0];
+    outer(2, 0) += w * d[2] * d[0];
+    outer(1, 1) += w * d[1] * d[1];
+    outer(2, 1) += w * d[2] * d[1];
+    outer(2, 2) += w * d[2] * d[2];
 }
 
-/// w outer, whole. By columns: by rows, g++ 12 at -O3 makes nonsense of it in some places.
+/// w outer as a full matrix, of which `outer` holds the lower triangle. Written column by column:
+/// g++ 12 at -O3 miscompiles the loop over rows at some call sites.
 [[nodiscard]] inline Eigen::Matrix3d scaled_whole(const Eigen::Matrix3d& outer, double w) {
     Eigen::Matrix3d c;
     for (int j = 0; j < 3; ++j) {
@@ -34,9 +43,9 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
     return c;
 }
 
-/// w outer - (w sum) (w sum)^T, whole.
-[[nodiscard]] inline Eigen::Matrix3d covariance(const Eigen::Vector3d& sum,
-                                                const Eigen::Matrix3d& outer, double w) {
+/// w outer - (w sum) (w sum)^T as a full matrix, of which `outer` holds the lower triangle.
+[[nodiscard]] inline Eigen::Matrix3d covariance_of(const Eigen::Vector3d& sum,
+                                                   const Eigen::Matrix3d& outer, double w) {
     Eigen::Matrix3d c;
     for (int j = 0; j < 3; ++j) {
         for (int i = j; i < 3; ++i) {
@@ -48,39 +57,53 @@ inline void add_moments(Eigen::Vector3d& sum, Eigen::Matrix3d& outer, const Eige
 
 }  // namespace detail
 
-/// Number, sum and sum of outer products of the offsets d_j = q_j - p of some neighbors q_j from
-/// a point p. Plain loops: as expressions the compiler takes ten times as long to read them.
+/// Number, sum and sum of outer products of the offsets d_j = q_j - p of neighbors q_j from a query
+/// point p [m].
+///
+/// A `moment_estimator` computes its normal from this struct alone, so that a search can accumulate
+/// neighbors without listing them. Plain loops take a tenth of the compile time of Eigen
+/// expressions.
 struct moments {
-    std::size_t count = 0;
+    std::size_t count = 0;               ///< number k of neighbors
     Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of d_j [m]
     Eigen::Matrix3d outer =
-        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of d_j d_j^T [m^2], its lower half
+        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of d_j d_j^T [m^2]; lower triangle only
 
-    /// Takes in the neighbor at `offset` [m] from the point.
+    /// The moments of `neighbors` [m] about the point p [m]. O(k) for k neighbors.
+    [[nodiscard]] static moments about(const Eigen::Vector3d& p,
+                                       std::span<const Eigen::Vector3d> neighbors) {
+        moments m;
+        for (const Eigen::Vector3d& q : neighbors) m.add(detail::difference(q, p));
+        return m;
+    }
+
+    /// Adds the neighbor at `offset` [m] from the query point.
     void add(const Eigen::Vector3d& offset) {
         ++count;
         detail::add_moments(sum, outer, offset, 1.0);
     }
 
-    /// Takes out one that was taken in; what rounding leaves of it is little, if others stay.
+    /// Removes a neighbor that was added before. Leaves a rounding error relative to the largest
+    /// sums so far. Precondition: count > 0.
     void remove(const Eigen::Vector3d& offset) {
         --count;
         detail::add_moments(sum, outer, offset, -1.0);
     }
 
-    /// The covariance [m^2] of the neighbors and the point itself, the rows of Q+ in Eq. (3.2):
-    /// 1/(k+1) times the scatter about their centroid. The point's own offset is zero.
+    /// The covariance [m^2] of the neighbors and the query point, the rows of Q+ in Klasing 2010,
+    /// Eq. (3.2): 1/(k+1) times the scatter about their centroid. The query point's own offset is
+    /// zero.
     [[nodiscard]] Eigen::Matrix3d covariance_with_point() const { return about_mean(count + 1); }
 
-    /// The mean [m] of the offsets, that of the point itself, zero, among them.
+    /// The centroid [m] of the neighbors and the query point, relative to the query point.
     [[nodiscard]] Eigen::Vector3d mean_with_point() const {
         return detail::scaled(1.0 / static_cast<double>(count + 1), sum);
     }
 
-    /// The covariance [m^2] of the neighbors alone. Precondition: count > 0.
+    /// The covariance [m^2] of the neighbors without the query point. Precondition: count > 0.
     [[nodiscard]] Eigen::Matrix3d covariance_of_neighbors() const { return about_mean(count); }
 
-    /// The mean of the outer products [m^2]: second moments about the point, not about a mean.
+    /// The mean of d_j d_j^T [m^2]: second moments about the query point, not about the centroid.
     /// Precondition: count > 0.
     [[nodiscard]] Eigen::Matrix3d second_moments() const {
         return detail::scaled_whole(outer, 1.0 / static_cast<double>(count));
@@ -88,44 +111,8 @@ struct moments {
 
   private:
     [[nodiscard]] Eigen::Matrix3d about_mean(std::size_t n) const {
-        return detail::covariance(sum, outer, 1.0 / static_cast<double>(n));
+        return detail::covariance_of(sum, outer, 1.0 / static_cast<double>(n));
     }
 };
-
-/// The same with weights.
-struct weighted_moments {
-    double weight = 0.0;                 ///< sum of w_j
-    Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< sum of w_j d_j [m]
-    Eigen::Matrix3d outer =
-        detail::diagonal(0.0, 0.0, 0.0);  ///< sum of w_j d_j d_j^T [m^2], lower half
-
-    /// Takes in what lies at `offset` [m] from the point, with weight `w`.
-    void add(const Eigen::Vector3d& offset, double w) {
-        weight += w;
-        detail::add_moments(sum, outer, offset, w);
-    }
-
-    /// The weighted mean of the offsets [m]. Precondition: weight > 0.
-    [[nodiscard]] Eigen::Vector3d mean() const { return detail::scaled(1.0 / weight, sum); }
-
-    /// The weighted covariance [m^2]. Precondition: weight > 0.
-    [[nodiscard]] Eigen::Matrix3d covariance() const {
-        return detail::covariance(sum, outer, 1.0 / weight);
-    }
-
-    /// The weighted mean of the outer products: second moments about the point, not about a mean.
-    /// Precondition: weight > 0.
-    [[nodiscard]] Eigen::Matrix3d second_moments() const {
-        return detail::scaled_whole(outer, 1.0 / weight);
-    }
-};
-
-/// The moments of neighbors [m] about the point p [m]. O(k).
-[[nodiscard]] inline moments moments_about(const Eigen::Vector3d& p,
-                                           std::span<const Eigen::Vector3d> neighbors) {
-    moments m;
-    for (const Eigen::Vector3d& q : neighbors) m.add(detail::difference(q, p));
-    return m;
-}
 
 }  // namespace gnomon

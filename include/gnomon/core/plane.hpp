@@ -9,12 +9,13 @@
 
 namespace gnomon {
 
-/// The points x with normal . x = offset.
+/// The plane of all points x with normal . x = offset. PCL's coefficients (a, b, c, d) are
+/// (normal, -offset).
 struct plane {
     Eigen::Vector3d normal{0.0, 0.0, 1.0};  ///< unit length
-    double offset = 0.0;                    ///< [m]
+    double offset = 0.0;  ///< signed distance of the plane from the origin along the normal [m]
 
-    /// Distance [m] of x from the plane, positive on the normal's side.
+    /// The distance [m] of the point x [m] from the plane, positive on the side of the normal.
     [[nodiscard]] double signed_distance(const Eigen::Vector3d& x) const {
         return detail::dot(normal, x) - offset;
     }

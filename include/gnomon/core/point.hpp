@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a point is. `point_traits` is the one door through which foreign points enter; it stands
-/// open for Eigen 3-vectors, for anything with members x, y, z (PCL, ROS messages, a struct of
-/// yours) and for arrays of three. Every algorithm then works on `position(p)`, in double.
+/// The concept of a point. `point_traits` adapts a point type; it is specialized for Eigen
+/// 3-vectors, for types with members x, y, z (PCL, ROS messages, user-defined structs) and for
+/// arrays of three numbers. Every algorithm computes with `position(p)`, in double.
 #pragma once
 
 #include <array>
@@ -18,11 +18,11 @@
 
 namespace gnomon {
 
-/// Index of a point in its range. 32 bits keep neighbor graphs small; ranges of 2^32 - 1 points
-/// or more are refused with `std::invalid_argument`.
+/// The index of a point in its range. 32 bits halve the memory of neighbor graphs; ranges of
+/// 2^32 - 1 points or more are refused with `std::invalid_argument`.
 using point_index = std::uint32_t;
 
-/// Specialise this for a point type of your own:
+/// Specialize this for a user-defined point type:
 ///     using scalar = float;                                        // a floating-point type
 ///     static Eigen::Vector3<scalar> coordinates(const my_point&);  // [m]
 template <class P>
@@ -30,8 +30,9 @@ struct point_traits;
 
 namespace detail {
 
-/// One that has its coordinates in memory. An expression, such as what a lambda returns for a + b,
-/// may refer to temporaries that are gone: say `-> Eigen::Vector3d`.
+/// An Eigen 3-vector with its coordinates in memory. Expressions are excluded: the result of a
+/// lambda that returns a + b refers to destroyed temporaries. Declare the lambda with
+/// `-> Eigen::Vector3d`.
 template <class P>
 concept eigen_3vector = std::derived_from<P, Eigen::MatrixBase<P>> && P::SizeAtCompileTime == 3 &&
                         (P::Flags & Eigen::DirectAccessBit) != 0;
@@ -89,18 +90,19 @@ concept point = requires(const P& p) {
 /// The coordinates of `p` in double [m].
 template <point P>
 [[nodiscard]] Eigen::Vector3d position(const P& p) {
-    return point_traits<P>::coordinates(p).template cast<double>();
+    const Eigen::Matrix<typename point_traits<P>::scalar, 3, 1> c = point_traits<P>::coordinates(p);
+    return {static_cast<double>(c[0]), static_cast<double>(c[1]), static_cast<double>(c[2])};
 }
 
-/// Whether one can compute with `p`: no NaN, no infinity, and no coordinate of 1e150 or more,
-/// whose square would overflow.
+/// Whether `p` is finite: no coordinate is NaN, infinite, or 1e150 or more, as its square would
+/// overflow.
 [[nodiscard]] inline bool is_finite(const Eigen::Vector3d& p) {
     constexpr double limit = 1e150;
     return std::abs(p.x()) < limit && std::abs(p.y()) < limit && std::abs(p.z()) < limit;
 }
 
-/// The canonical distance of this library: the sum of squared differences, in double [m^2].
-/// Everything that compares distances compares these values, and breaks ties by the index.
+/// The squared Euclidean distance, in double [m^2]. All searches compare these values and break
+/// ties by the index of the point.
 [[nodiscard]] inline double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     const double dx = p.x() - q.x();
     const double dy = p.y() - q.y();

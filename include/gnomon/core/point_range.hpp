@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Many points, left where they are: a `point_range` is any random-access sized range whose
-/// elements are points, or become points under a projection. We never copy, reorder or resize it;
-/// algorithms read it through `position_view`, by index and in double.
+/// Ranges of points. A `point_range` is a random-access sized range whose elements are points, or
+/// become points under a projection. Algorithms never copy, reorder or resize it; they read it
+/// through `position_view`, by index and in double.
 #pragma once
 
 #include <concepts>
@@ -20,6 +20,8 @@
 
 namespace gnomon {
 
+namespace detail {
+
 /// A range with constant-time access by index and a known size.
 template <class R>
 concept indexed_range = requires(const R& r) {
@@ -27,22 +29,24 @@ concept indexed_range = requires(const R& r) {
     { std::ranges::size(r) } -> std::integral;
 };
 
-/// What a projection makes of an element of the range.
+/// The type that a projection returns for an element of the range.
 template <class R, class Proj>
 using projected_element_t = std::remove_cvref_t<
     std::invoke_result_t<const Proj&, decltype(*std::ranges::begin(std::declval<const R&>()))>>;
 
+}  // namespace detail
+
 /// An indexed range of points, seen through a projection (a callable or a pointer to member).
 template <class R, class Proj = std::identity>
-concept point_range = indexed_range<R> && point<projected_element_t<R, Proj>>;
+concept point_range = detail::indexed_range<R> && point<detail::projected_element_t<R, Proj>>;
 
-/// What algorithms read: the positions of a point range, by index, in double. Does not own.
+/// A view of the positions of a point range, by index, in double. Refers to the range.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 class position_view {
   public:
     /// The scalar in which the coordinates are stored.
-    using scalar = typename point_traits<projected_element_t<R, Proj>>::scalar;
+    using scalar = typename point_traits<detail::projected_element_t<R, Proj>>::scalar;
 
     /// @throws std::invalid_argument  for more points than `point_index` can count
     explicit position_view(const R& points, Proj projection = {})

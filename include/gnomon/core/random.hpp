@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Random numbers that are the same on every platform and any number of threads: each is a pure
-/// function of a seed and a counter (SplitMix64: Steele, Lea and Flood 2014), where the standard
-/// library leaves its distributions to each implementation.
+/// A random number generator with the same numbers on every platform and on any number of threads.
+/// SplitMix64 (Steele, Lea and Flood 2014) makes each number a pure function of a seed and a
+/// counter. The distributions of the standard library differ between implementations.
 #pragma once
 
 #include <cstdint>
@@ -12,29 +12,32 @@
 
 namespace gnomon {
 
-/// The stream of random numbers number `stream` of `seed`: give each ray or point a stream of its
-/// own, and the order in which they are visited no longer matters.
+/// A stream of random numbers, chosen by a seed and a stream number. Where each ray or point has
+/// its own stream, the results do not depend on the order in which threads visit them.
 class random_stream {
   public:
+    /// @param seed    chooses the family of streams
+    /// @param stream  number of the stream in the family
     explicit random_stream(std::uint64_t seed, std::uint64_t stream = 0)
         : state_(mix(seed) ^ mix(~stream)) {}
 
-    /// Uniform in [0, 2^64).
+    /// A number uniform in [0, 2^64).
     std::uint64_t bits() { return mix(state_ += 0x9e3779b97f4a7c15u); }
 
-    /// Uniform in [0, 1).
+    /// A number uniform in [0, 1), a multiple of 2^-53.
     double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
 
-    /// Uniform in [low, high], up to rounding.
+    /// A number uniform in [low, high], up to rounding.
     double uniform(double low, double high) { return low + (high - low) * uniform(); }
 
-    /// Standard normal (Box and Muller 1958).
+    /// A number of the standard normal distribution (Box and Muller 1958). Uses two uniform ones.
     double gaussian() {
         const double radius = std::sqrt(-2.0 * std::log(1.0 - uniform()));
         return radius * std::cos(2.0 * std::numbers::pi * uniform());
     }
 
   private:
+    // The increment and the factors are those of SplitMix64.
     static std::uint64_t mix(std::uint64_t z) {
         z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
         z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;

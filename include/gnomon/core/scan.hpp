@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A range scan as files give it: points, from where they were seen, and whatever other columns the
-/// caller asked for. For users who have no container of their own; every algorithm takes a
-/// `scan` as it takes any other `point_range`.
+/// A range scan: points, their viewpoints, and scalar fields. The readers in gnomon/io return it.
+/// Every algorithm takes a `scan` as it takes any other `point_range`.
 #pragma once
 
 #include <cstddef>
@@ -15,17 +14,17 @@
 
 namespace gnomon {
 
-/// One number per point beside its position: an intensity, a label, a component of a true normal.
+/// One named number per point: an intensity, a label, a component of a true normal.
 struct scalar_field {
-    std::string name;
-    std::vector<double> values;
+    std::string name;            ///< as in the file
+    std::vector<double> values;  ///< in the order of the points
 };
 
-/// Points with view points; models `point_range` and `has_viewpoints`.
+/// Points with viewpoints and scalar fields; models `point_range` and `has_viewpoints`.
 struct scan {
-    std::vector<Eigen::Vector3d> points;  ///< [m]; may contain NaN, as sensors do
-    viewpoint_table viewpoints;
-    std::vector<scalar_field> fields;  ///< each as long as `points`
+    std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return
+    viewpoint_table viewpoints;           ///< empty if unknown: the origin
+    std::vector<scalar_field> fields;     ///< each as long as `points`
 
     [[nodiscard]] auto begin() const { return points.begin(); }
     [[nodiscard]] auto end() const { return points.end(); }

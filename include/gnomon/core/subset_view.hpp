@@ -29,11 +29,11 @@ class subset_view {
     viewpoint_table viewpoints;
 
     /// O(indices).
-    /// @throws std::invalid_argument  for an index of no point, such as those of a larger cloud
+    /// @throws std::invalid_argument  for an index out of range, such as those of a larger cloud
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
         : points_(points, std::move(projection)), indices_(indices) {
         for (const point_index i : indices)
-            detail::require(i < points_.size(), "subset_view: an index of no point");
+            detail::require(i < points_.size(), "subset_view: an index is out of range");
         viewpoints = viewpoints_of(points, indices);
     }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a result is worth. A failure is a value that travels beside the number, so that one bad
-/// point neither stops a scan nor passes for a good one.
+/// The quality flag of an estimate. A failure is a value in the result, so that one bad point
+/// neither stops the processing of a scan nor passes for a good one.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +11,16 @@ namespace gnomon {
 /// Whether an estimate can be used, and if not, why.
 enum class trust : std::uint8_t {
     good,               ///< determined by the data
-    weak,               ///< usable, but known to be shaky; each method documents when it says so
+    weak,               ///< usable, with a large error; each method documents its condition
     too_few_neighbors,  ///< fewer points than the method needs
-    degenerate,         ///< the points do not determine an answer (one place, one line, a ball)
-    not_finite          ///< the point itself, or something computed from it, is NaN or infinite
+    degenerate,         ///< the points do not determine an estimate (one place, a line, a ball)
+    not_finite          ///< the point, or a number computed from it, is NaN or infinite
 };
 
-/// True for `good` and `weak`. The normal of an unusable estimate is the zero vector.
+/// Returns true for `good` and `weak`. The normal of an unusable estimate is the zero vector.
 [[nodiscard]] constexpr bool usable(trust t) { return t == trust::good || t == trust::weak; }
 
-/// The enumerator's name, for tables and messages.
+/// Returns the enumerator's name, for tables and messages.
 [[nodiscard]] constexpr const char* to_string(trust t) {
     switch (t) {
         case trust::good:

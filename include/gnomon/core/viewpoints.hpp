@@ -28,18 +28,18 @@ class viewpoint_table {
 
     /// One view point [m] for the whole cloud.
     explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint)
-        : positions_{viewpoint}, of_(speaks_for::cloud) {}
+        : positions_{viewpoint}, scope_(scope::cloud) {}
 
     /// One view point [m] per point, in the points' order.
     explicit viewpoint_table(std::vector<Eigen::Vector3d> per_point)
-        : positions_(std::move(per_point)), of_(speaks_for::point) {}
+        : positions_(std::move(per_point)), scope_(scope::point) {}
 
     /// One view point [m] per scan, and for each point the number of its scan.
     /// @throws std::invalid_argument  if a number has no scan
     viewpoint_table(std::vector<Eigen::Vector3d> per_scan, std::vector<point_index> scan_of_point)
         : positions_(std::move(per_scan)),
           scan_of_point_(std::move(scan_of_point)),
-          of_(speaks_for::scan) {
+          scope_(scope::scan) {
         for (const point_index s : scan_of_point_)
             detail::require(s < positions_.size(), "viewpoint_table: a point of a missing scan");
     }
@@ -50,23 +50,24 @@ class viewpoint_table {
     /// The distinct positions [m]: none, one, one per scan or one per point.
     [[nodiscard]] const std::vector<Eigen::Vector3d>& positions() const { return positions_; }
 
-    /// Whether the table speaks of each of `points` points: always, unless it lists them.
+    /// Whether the table has a view point for each of `points` points: true unless it lists view
+    /// points or scans for another number of points.
     [[nodiscard]] bool covers(std::size_t points) const {
-        if (of_ == speaks_for::point) return positions_.size() == points;
-        return of_ != speaks_for::scan || scan_of_point_.size() == points;
+        if (scope_ == scope::point) return positions_.size() == points;
+        return scope_ != scope::scan || scan_of_point_.size() == points;
     }
 
     /// The view point of point i [m]; the origin where none is known.
     /// Precondition: covers(n) for the n points of the cloud, and i < n.
     [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const {
-        switch (of_) {
-            case speaks_for::cloud:
+        switch (scope_) {
+            case scope::cloud:
                 return positions_.front();
-            case speaks_for::scan:
+            case scope::scan:
                 return positions_[scan_of_point_[i]];
-            case speaks_for::point:
+            case scope::point:
                 return positions_[i];
-            case speaks_for::nobody:
+            case scope::none:
                 break;
         }
         return Eigen::Vector3d(0.0, 0.0, 0.0);
@@ -75,7 +76,7 @@ class viewpoint_table {
     /// The view points of some of the points, in the order of `indices`.
     /// Precondition: covers(n) and every index is below n.
     [[nodiscard]] viewpoint_table subset(std::span<const point_index> indices) const {
-        if (of_ == speaks_for::nobody || of_ == speaks_for::cloud) return *this;
+        if (scope_ == scope::none || scope_ == scope::cloud) return *this;
         std::vector<Eigen::Vector3d> chosen;
         chosen.reserve(indices.size());
         for (const point_index i : indices) chosen.push_back((*this)[i]);
@@ -83,11 +84,11 @@ class viewpoint_table {
     }
 
   private:
-    enum class speaks_for : char { nobody, cloud, scan, point };
+    enum class scope : char { none, cloud, scan, point };
 
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
-    speaks_for of_ = speaks_for::nobody;
+    scope scope_ = scope::none;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.
@@ -116,21 +117,23 @@ template <indexed_range R>
 
 /// The view points of a range; the empty table (the origin) for a range that knows none.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <indexed_range R>
+template <detail::indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
     return detail::with_table_of(points, [](const viewpoint_table& table) { return table; });
 }
 
 /// Those of some of its points; see `viewpoint_table::subset`.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <indexed_range R>
+template <detail::indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
     return detail::with_table_of(
         points, [indices](const viewpoint_table& table) { return table.subset(indices); });
 }
 
-/// A bare range of points with view points beside it; refers to the range.
-template <indexed_range R>
+namespace detail {
+
+/// A bare range of points and their view points; refers to the range.
+template <detail::indexed_range R>
 struct viewed_points {
     const R* range;
     viewpoint_table viewpoints;
@@ -142,24 +145,27 @@ struct viewed_points {
     }
 };
 
+}  // namespace detail
+
 /// `points`, all seen from `viewpoint` [m].
-template <indexed_range R>
-[[nodiscard]] viewed_points<R> with_viewpoint(const R& points, const Eigen::Vector3d& viewpoint) {
+template <detail::indexed_range R>
+[[nodiscard]] detail::viewed_points<R> with_viewpoint(const R& points,
+                                                      const Eigen::Vector3d& viewpoint) {
     return {&points, viewpoint};
 }
 
 /// `points` with the view points of `table`.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <indexed_range R>
-[[nodiscard]] viewed_points<R> with_viewpoints(const R& points, viewpoint_table table) {
+template <detail::indexed_range R>
+[[nodiscard]] detail::viewed_points<R> with_viewpoints(const R& points, viewpoint_table table) {
     detail::require(table.covers(static_cast<std::size_t>(std::ranges::size(points))),
                     "with_viewpoints: the table is for another number of points");
     return {&points, std::move(table)};
 }
 
-template <indexed_range R>
+template <detail::indexed_range R>
 void with_viewpoint(const R&& points, const Eigen::Vector3d& viewpoint) = delete;
-template <indexed_range R>
+template <detail::indexed_range R>
 void with_viewpoints(const R&& points, viewpoint_table table) = delete;
 
 }  // namespace gnomon

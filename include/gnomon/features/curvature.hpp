@@ -1,21 +1,23 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How a surface bends at a point: principal curvatures and their directions, Gaussian and mean
-/// curvature, from a quadratic fitted to a neighborhood in the frame of its normal.
+/// Curvature estimators: principal curvatures and directions, Gaussian and mean curvature of a
+/// quadric that is fitted to the neighborhood of a point in the frame of its normal.
 ///
-/// Signs: bent towards the normal is positive. With normals that face the sensor (Eq. (3.20),
-/// `orient_normals`) what is convex towards the sensor has H < 0, as in Besl and Jain.
+/// Sign convention: a surface that curves towards its normal has positive curvature. With normals
+/// that face the sensor (Eq. (3.20), `orient_normals`), a surface convex towards the sensor has
+/// H < 0, as in Besl and Jain.
 ///
-/// A *curvature estimator* is called with a point, its normal and the ring of its neighbors and
-/// returns a `curvature` or something derived from it. Its laws, checked in
-/// tests/features/curvature_test.cpp: an unusable result is zero throughout and nothing is ever
-/// NaN; the order of the ring and the place of the cloud do not matter; directions turn with the
-/// cloud, curvatures do not change; a cloud s times as large has curvatures 1/s as large; the
-/// opposite normal has opposite curvatures.
+/// A *curvature estimator* is called with a point, its normal and its neighbors, and returns a
+/// `curvature` or a type derived from it. Its laws, as functions in tests/laws/curvature_laws.hpp:
+/// an unusable result is zero in all members, and no result is NaN; the result is invariant to the
+/// order of the neighbors and to translation; directions are equivariant and curvatures invariant
+/// under rotation; scaling the cloud by s scales curvatures by 1/s; reversing the normal reverses
+/// the signs of the curvatures.
 ///
-/// Models: `shape_operator_curvature`, and `thesis_curvature`, which breaks the law of scale.
+/// Models: `shape_operator_curvature`; `thesis_curvature`, which violates the law of scale.
 ///
-/// Klasing 2010, Sec. 3.3; P. Besl and R. Jain 1988.
+/// Klasing 2010, Sec. 3.3. P. Besl and R. Jain, Segmentation through variable-order surface
+/// fitting, 1988.
 #pragma once
 
 #include <array>
@@ -34,40 +36,50 @@
 
 namespace gnomon {
 
-/// The second order of a surface at a point. All zero where the trust is not usable.
+/// The curvature of a surface at a point. All numbers are zero if the trust is not usable.
 struct curvature {
     double kappa1 = 0.0;  ///< the larger principal curvature [1/m]
     double kappa2 = 0.0;  ///< the smaller one [1/m]
-    /// The principal directions, perpendicular unit vectors of arbitrary sign; direction1 x
-    /// direction2 is the normal of the fitted surface. Where kappa1 = kappa2, as on a sphere and on
-    /// a plane, any two directions are principal, and the data's noise chooses.
+    /// The principal direction of kappa1, a unit vector of arbitrary sign. If kappa1 = kappa2, as
+    /// on a sphere and on a plane, every tangent direction is principal, and noise decides.
     Eigen::Vector3d direction1{0.0, 0.0, 0.0};
+    /// The principal direction of kappa2, a unit vector; direction1 x direction2 is the normal of
+    /// the fitted quadric.
     Eigen::Vector3d direction2{0.0, 0.0, 0.0};
+    /// Quality of the estimate; see the estimator.
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 
-    /// K [1/m^2], Eq. (3.23).
+    /// The Gaussian curvature K [1/m^2], Eq. (3.23).
     [[nodiscard]] double gaussian() const { return kappa1 * kappa2; }
-    /// H [1/m], Eq. (3.24).
+    /// The mean curvature H [1/m], Eq. (3.24).
     [[nodiscard]] double mean() const { return 0.5 * (kappa1 + kappa2); }
 };
 
-/// What c(point, normal, ring) gives.
-template <class C>
-using curvature_result_t = std::remove_cvref_t<
-    std::invoke_result_t<const C&, const Eigen::Vector3d&, const Eigen::Vector3d&, ring_view>>;
+namespace detail {
 
-/// c(point, normal, ring) gives a `curvature`. Const and thread-safe.
+/// The result type of c(point, normal, neighbors).
+template <class C>
+using curvature_result_t =
+    std::remove_cvref_t<std::invoke_result_t<const C&, const Eigen::Vector3d&,
+                                             const Eigen::Vector3d&, neighborhood_view>>;
+
+}  // namespace detail
+
+/// A const, thread-safe callable c(point, normal, neighbors) that returns a `curvature` or a type
+/// derived from it. The laws are listed above.
 template <class C>
 concept curvature_estimator =
-    std::invocable<const C&, const Eigen::Vector3d&, const Eigen::Vector3d&, ring_view> &&
-    std::derived_from<curvature_result_t<C>, curvature> &&
-    std::default_initializable<curvature_result_t<C>>;
+    std::invocable<const C&, const Eigen::Vector3d&, const Eigen::Vector3d&, neighborhood_view> &&
+    std::derived_from<detail::curvature_result_t<C>, curvature> &&
+    std::default_initializable<detail::curvature_result_t<C>>;
 
 namespace detail {
 
-/// The curvature of the surface z = e x + f y + a x^2 + b x y + c y^2 of a frame above its origin.
-/// Where the surface is inclined to the frame, its own tangent plane counts: S is the second
-/// fundamental form in an orthonormal basis of that plane, t1 up the gradient and t2 across.
+/// The curvature at the origin of a frame of the quadric z = e x + f y + a x^2 + b x y + c y^2.
+///
+/// The curvatures are the eigenvalues of the shape operator S, in an orthonormal basis of the
+/// quadric's own tangent plane: t1 along the gradient (e, f) and t2 orthogonal to it. They hold
+/// also where that plane is inclined to the frame's x-y plane.
 [[nodiscard]] inline curvature curvature_of(const quadric& q, const height_frame& frame) {
     const double slope = std::sqrt(q.e * q.e + q.f * q.f);
     const double gx = slope > 0.0 ? q.e / slope : 1.0;
@@ -81,8 +93,7 @@ namespace detail {
 
     curvature result;
     if (!std::isfinite(s.larger * s.larger + s.smaller * s.smaller)) {
-        result.trust =
-            trust::degenerate;  // too small a neighborhood for its inverse to be a number
+        result.trust = trust::degenerate;  // the neighborhood is so small that 1/radius overflows
         return result;
     }
     result.kappa1 = s.larger;
@@ -97,39 +108,48 @@ namespace detail {
 
 }  // namespace detail
 
-/// The default: least squares of z = a x^2 + b xy + c y^2 + e x + f y + g over the ring and the
-/// point, then the shape operator. Neither the point nor its normal need be exact, as those of the
-/// thesis's form must: the constant and the first-order terms take up what they are off.
+/// Curvature by least squares of z = a x^2 + b xy + c y^2 + e x + f y + g over the neighbors and
+/// the point, followed by the eigenvalues of the shape operator. The default.
 ///
-/// Models `curvature_estimator`. Needs five neighbors. O(k), nothing on the heap.
+/// The constant and the first-order terms absorb errors of the point and of its normal; the
+/// thesis's form (`thesis_curvature`) has no such terms and requires both to be exact. See
+/// docs/thesis-notes.md, A13.
 ///
-/// The normal may have any length; zero stands for none. Trust: `not_finite` if the point, its
-/// normal or a neighbor is not; `degenerate` without a normal, and where ring and point do not
-/// determine six coefficients (fewer than six places, or all on one conic: one or two scan lines,
-/// or a circle about the axis of a rotating scanner); `weak` where they hardly do, or spread in one
-/// direction mainly.
+/// Models `curvature_estimator`. Needs five neighbors. O(k), no heap memory.
+///
+/// The normal may have any length; the zero vector means that it is missing. Trust: `not_finite` if
+/// the point, its normal or a neighbor is not finite; `degenerate` if the normal is missing, or if
+/// neighbors and point do not determine the six coefficients (fewer than six distinct points, or
+/// all on one conic: one or two scan lines, or a circle about the axis of a rotating scanner);
+/// `weak` if the fit is ill-conditioned by either parameter below.
 struct shape_operator_curvature {
-    double min_aspect_ratio = 0.1;  ///< sigma_ar in the tangent plane below which trust is weak
-    /// Share of a column of the fit that the columns before it leave unexplained, at the least; its
-    /// inverse is the factor by which noise is amplified (variance inflation). Below, it is weak.
+    /// Aspect ratio sigma_ar of the neighborhood in the tangent plane, Eq. (3.19), below which the
+    /// trust is `weak`.
+    double min_aspect_ratio = 0.1;
+    /// Tolerance below which the trust is `weak`: the smallest fraction of a column of the design
+    /// matrix that the preceding columns do not explain, in [0, 1]. Its inverse is the variance
+    /// inflation factor, by which noise in z is amplified.
     double min_independence = 1e-2;
 
+    /// @param p          the point [m]
+    /// @param normal     its normal, of any length
+    /// @param neighbors  the positions of its neighbors [m], without the point
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
-                                       ring_view ring) const {
-        detail::height_frame frame(p, normal, ring, 5, min_aspect_ratio);
+                                       neighborhood_view neighbors) const {
+        detail::height_frame frame(p, normal, neighbors, 5, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
         detail::least_squares_quadric fit;
         fit.add(0.0, 0.0, 0.0);
-        for (const Eigen::Vector3d& q : ring) {
-            // Scaled to one along both axes: the sums then are as well conditioned as the ring's
-            // shape permits, whatever its size.
+        for (const Eigen::Vector3d& q : neighbors) {
+            // Coordinates of root mean square 1 make the condition of the normal equations
+            // independent of the size and the aspect ratio of the neighborhood.
             const auto [x, y, z] = frame(q);
             fit.add(x / frame.rms_x, y / frame.rms_y, z);
         }
         const double independence = fit.solve();
-        constexpr double rounding = 1e-10;  // of the sums, with some digits to spare
+        constexpr double rounding = 1e-10;  // rounding error of D_j / A_jj, 1e-15, with a margin
         if (!(independence > rounding)) {
             none.trust = trust::degenerate;
             return none;
@@ -139,29 +159,38 @@ struct shape_operator_curvature {
     }
 };
 
-/// The thesis to the letter, Eqs. (3.25) to (3.27): the unit vector [a' b' c' d'] that makes the
-/// rows a' x^2 + b' xy + c' y^2 + d' z least, without a constant and in metres, a = -a'/d' and so
-/// on; K = 4ac - b^2, H = a + c (specification A13). It trusts point and normal to be exact.
+/// Curvature by the literal method of the thesis, Eqs. (3.25) to (3.27): the unit vector
+/// [a' b' c' d'] that minimizes the sum of squares of a' x^2 + b' xy + c' y^2 + d' z over the
+/// neighbors, in metres; a = -a'/d', b = -b'/d', c = -c'/d', K = 4ac - b^2, H = a + c. It assumes
+/// that point and normal are exact. See docs/thesis-notes.md, A13.
 ///
-/// Models `curvature_estimator`, but breaks the law of scale: the unit vector mixes units, and so
-/// the fit depends on what a metre is unless the residual is zero. Where z is noisier than the ring
-/// is wide squared, the smallest quadrics, xy and x^2 - y^2, win: it sees saddles everywhere, those
-/// of Fig. 3.14. Needs three neighbors. O(k), nothing on the heap. From the matrix R^T R, so the
-/// relative error is about 1e-16 (s_1 / s_3)^2 in singular values of R.
+/// Models `curvature_estimator`, but violates the law of scale: the unit vector mixes units [m^2]
+/// and [m], so the fit depends on the unit of length unless all residuals are zero. Where the noise
+/// of z exceeds the square of the neighborhood's width, the minimum is at the quadrics xy and x^2 -
+/// y^2, and the method finds saddles everywhere, as in Fig. 3.14.
 ///
-/// Normal and trust: as above; `degenerate` also where the least singular value is double, or
-/// its vector is without z.
+/// Needs three neighbors. O(k), no heap memory. The eigenvectors of R^T R give the singular vectors
+/// of the matrix R of all rows, so the relative error is about 1e-16 (s_1 / s_3)^2 in singular
+/// values of R.
+///
+/// Normal and trust: as for `shape_operator_curvature`; `degenerate` also if the smallest singular
+/// value is double, or if d' is zero.
 struct thesis_curvature {
-    double min_aspect_ratio = 0.1;  ///< sigma_ar in the tangent plane below which trust is weak
+    /// Aspect ratio sigma_ar of the neighborhood in the tangent plane, Eq. (3.19), below which the
+    /// trust is `weak`.
+    double min_aspect_ratio = 0.1;
 
+    /// @param p          the point [m]
+    /// @param normal     its normal, of any length
+    /// @param neighbors  the positions of its neighbors [m], without the point
     [[nodiscard]] curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
-                                       ring_view ring) const {
-        const detail::height_frame frame(p, normal, ring, 3, min_aspect_ratio);
+                                       neighborhood_view neighbors) const {
+        const detail::height_frame frame(p, normal, neighbors, 3, min_aspect_ratio);
         curvature none;
         none.trust = frame.trust;
         if (!usable(frame.trust)) return none;
         detail::homogeneous_quadric fit;
-        for (const Eigen::Vector3d& q : ring) {
+        for (const Eigen::Vector3d& q : neighbors) {
             const auto [x, y, z] = frame(q);
             fit.add(x, y, z);
         }

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a surface looks like near a point, in one word: eight types by the signs of Gaussian and
-/// mean curvature. With normals that face the sensor, a peak points at the sensor and a pit away.
+/// Classification of a surface near a point into eight types, by the signs of Gaussian and mean
+/// curvature. With normals that face the sensor, a peak points towards the sensor and a pit away
+/// from it.
 ///
 ///              K > 0     K = 0     K < 0
 ///     H < 0    peak      ridge     saddle ridge
@@ -20,7 +21,7 @@
 
 namespace gnomon {
 
-/// The types in the order of Fig. 3.13, and what has none.
+/// The surface types in the order of Fig. 3.13, and `unknown`.
 enum class surface_type : std::uint8_t {
     peak,
     ridge,
@@ -30,10 +31,10 @@ enum class surface_type : std::uint8_t {
     saddle_valley,
     valley,
     pit,
-    unknown  ///< the curvature is not usable
+    unknown  ///< the curvature is not usable, or K > 0 and H = 0
 };
 
-/// The enumerator's name, for tables and messages.
+/// Returns the enumerator's name, for tables and messages.
 [[nodiscard]] constexpr const char* to_string(surface_type t) {
     switch (t) {
         case surface_type::peak:
@@ -58,17 +59,19 @@ enum class surface_type : std::uint8_t {
     return "unknown";
 }
 
-/// Names the type of a curvature: besl_jain{}(c). O(1).
+/// Classifies a curvature by the scheme of Besl and Jain: besl_jain{}(c). O(1).
 ///
-/// The thesis gives no tolerances (specification A14); zero, the default, takes any sign for real,
-/// and then nothing but a perfect plane along the axes is flat. Curvatures that err by d [1/m] on
-/// surfaces of radius r [m] want a mean tolerance of d and a Gaussian one of d / r.
+/// The thesis gives no tolerances (docs/thesis-notes.md, A14). With the default, zero, every
+/// nonzero sign counts, and only a noise-free plane parallel to two coordinate axes is `flat`. For
+/// curvatures with an error of d [1/m] on surfaces of radius r [m], use a mean tolerance of d and a
+/// Gaussian tolerance of d / r.
 struct besl_jain {
-    double gaussian_tolerance = 0.0;  ///< epsilon_K: |K| up to this is zero [1/m^2], at least 0
-    double mean_tolerance = 0.0;      ///< epsilon_H: |H| up to this is zero [1/m], at least 0
+    double gaussian_tolerance = 0.0;  ///< K counts as zero if |K| <= this [1/m^2]; at least 0
+    double mean_tolerance = 0.0;      ///< H counts as zero if |H| <= this [1/m]; at least 0
 
-    /// From K [1/m^2] and H [1/m]. Since K <= H^2, K > 0 tells that H is not zero, and then its
-    /// sign decides even within the tolerance; `unknown` if K > 0 and H = 0, or either is NaN.
+    /// Classifies by the Gaussian curvature K [1/m^2] and the mean curvature H [1/m]. Since
+    /// K <= H^2, K > 0 implies that H is not zero; its sign then decides even within the tolerance.
+    /// @return the type; `unknown` if K > 0 and H = 0, or if either is NaN
     /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] constexpr surface_type operator()(double K, double H) const {
         detail::require(gaussian_tolerance >= 0.0 && mean_tolerance >= 0.0,
@@ -84,7 +87,8 @@ struct besl_jain {
         return saddle ? surface_type::minimal : surface_type::flat;
     }
 
-    /// `unknown` if the curvature is not usable.
+    /// Classifies a curvature.
+    /// @return the type; `unknown` if the curvature is not usable
     /// @throws std::invalid_argument  if a tolerance is negative or NaN
     [[nodiscard]] surface_type operator()(const curvature& c) const {
         const surface_type type = (*this)(c.gaussian(), c.mean());

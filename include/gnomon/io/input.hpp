@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A file's bytes with the file's name. Readers parse an `input`, so that bytes from memory (a
-/// message, a test) are read as a file is, and every complaint can name its file.
+/// The contents of a file and its name. Readers parse an `input`, so bytes in memory (a message, a
+/// test) are parsed as a file is, and every error names its file.
 #pragma once
 
 #include <algorithm>
@@ -16,14 +16,15 @@
 
 namespace gnomon::io {
 
-/// What a reader parses.
+/// The argument of the readers.
 struct input {
-    std::string name;   ///< as it shall appear in errors
-    std::string bytes;  ///< the whole contents
+    std::string name;   ///< name for error messages
+    std::string bytes;  ///< the whole contents of the file
 };
 
-/// The contents of the file `path`, however large.
-/// @throws gnomon::error  with the system's reason, for a file that cannot be opened or read
+/// Reads the whole file `path` into memory.
+/// @throws gnomon::error  with the operating system's message, if the file cannot be opened or read
+/// Complexity: O(bytes).
 [[nodiscard]] inline input load(const std::string& path) {
     struct closer {
         void operator()(std::FILE* file) const { std::fclose(file); }
@@ -31,8 +32,8 @@ struct input {
     const std::unique_ptr<std::FILE, closer> file(std::fopen(path.c_str(), "rb"));
     if (!file) throw detail::os_error(path, errno);
 
-    // Until nothing more comes, instead of asking for the size: pipes have none, and the C library
-    // has no portable 64-bit answer.
+    // Reads until the end instead of querying the size: pipes have no size, and the C library has
+    // no portable 64-bit query.
     std::string bytes;
     std::size_t size = 0;
     do {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A file that appears whole or not at all: what is written goes to a sibling, which takes the
-/// file's name at the very end.
+/// Atomic writing of files: the bytes go to a temporary file in the same directory, which is
+/// renamed to its final name when it is complete.
 #pragma once
 
 #include <cerrno>
@@ -15,18 +15,20 @@
 
 namespace gnomon::io {
 
-/// Writes the file `path`, links followed. Until `commit` an older file of that name is untouched;
-/// without it, nothing is left behind.
+/// A file that is being written. An existing file of that name stays unchanged until `commit`; if
+/// `commit` is not called, the destructor removes the temporary file. Symbolic links are followed.
 class output_file {
   public:
-    /// @throws gnomon::error  if `path` leads to something else than a file, or with the system's
-    ///                        reason, if none can be made beside it
+    /// Creates the temporary file for the file `path`.
+    /// @throws gnomon::error  if `path` is not a regular file, or, with the operating system's
+    ///                        message, if no file can be created in its directory
     explicit output_file(const std::string& path) : path_(detail::file_target(path)) {
-        // "x": neither a file of the user's nor that of another process is overwritten.
-        constexpr int most_tries = 100;
-        for (int i = 0; i < most_tries && file_ == nullptr; ++i) {
-            sibling_ = path_ + ".part" + std::to_string(i);
-            file_ = std::fopen(sibling_.c_str(), "wbx");
+        // Mode "x" fails for existing files, so no file of the user or of another process is
+        // overwritten.
+        constexpr int max_attempts = 100;
+        for (int i = 0; i < max_attempts && file_ == nullptr; ++i) {
+            temporary_ = path_ + ".part" + std::to_string(i);
+            file_ = std::fopen(temporary_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
         }
         if (file_ == nullptr) throw detail::os_error(path_, errno);
@@ -37,35 +39,37 @@ class output_file {
 
     ~output_file() {
         if (file_ != nullptr) std::fclose(file_);
-        if (!sibling_.empty()) std::remove(sibling_.c_str());
+        if (!temporary_.empty()) std::remove(temporary_.c_str());
     }
 
     /// Appends `bytes`. Precondition: not committed.
-    /// @throws gnomon::error  with the system's reason, e.g. if the disk is full
+    /// @throws gnomon::error  with the operating system's message, e.g. if the disk is full
     void write(std::string_view bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
             throw detail::os_error(path_, errno);
     }
 
-    /// Gives the file its name; an older one is replaced.
-    /// @throws gnomon::error  with the system's reason, if this or the last of writing fails
+    /// Renames the temporary file to its final name and replaces an existing file. Precondition:
+    /// not committed.
+    /// @throws gnomon::error  with the operating system's message, if writing or renaming fails
     void commit() {
         if (std::fclose(std::exchange(file_, nullptr)) != 0) throw detail::os_error(path_, errno);
 #ifdef _WIN32
-        std::remove(path_.c_str());  // there, rename does not replace
+        std::remove(path_.c_str());  // rename does not replace files on Windows
 #endif
-        if (std::rename(sibling_.c_str(), path_.c_str()) != 0) throw detail::os_error(path_, errno);
-        sibling_.clear();
+        if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
+            throw detail::os_error(path_, errno);
+        temporary_.clear();
     }
 
   private:
-    std::string path_;
-    std::string sibling_;  // empty once it has taken the name
+    std::string path_;       // final name
+    std::string temporary_;  // name of the temporary file; empty after commit
     std::FILE* file_ = nullptr;
 };
 
-/// Writes `bytes` to the file `path`, whole or not at all.
-/// @throws gnomon::error  with the system's reason
+/// Writes `bytes` to the file `path` atomically; an existing file is replaced or stays unchanged.
+/// @throws gnomon::error  with the operating system's message
 inline void replace_file(const std::string& path, std::string_view bytes) {
     output_file file(path);
     file.write(bytes);

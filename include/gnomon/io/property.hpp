@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a file can hold of a point beside its position: named columns of numbers, computed when
-/// they are written. Several are put together with braces:
+/// Properties of points in a PLY file in addition to their positions: named columns of numbers,
+/// computed when they are written. Braces combine several:
 ///
 ///     write_ply("surface.ply", scan, {normal_properties(surface),
 ///                                     scalar_property("label", segments.labels())});
@@ -26,21 +26,23 @@
 
 namespace gnomon::io {
 
-/// One column.
+/// One column: a number for each point.
 struct property {
-    std::string name;
-    field_type type = field_type::float64;
-    std::size_t size = 0;                      ///< for so many points
-    std::function<double(std::size_t)> value;  ///< of point i
+    std::string name;                          ///< one word, unique in the file
+    field_type type = field_type::float64;     ///< type in the file
+    std::size_t size = 0;                      ///< number of points
+    std::function<double(std::size_t)> value;  ///< the number of point i
 };
 
-/// Columns in their order.
+/// A list of columns, in the order of the file.
 class properties {
   public:
+    /// No columns.
     properties() = default;
+    /// One column.
     explicit(false) properties(property single) { columns_.push_back(std::move(single)); }
 
-    /// All the columns of `groups`.
+    /// The columns of all `groups`, in their order.
     properties(std::initializer_list<properties> groups) {
         for (const properties& group : groups)
             columns_.insert(columns_.end(), group.begin(), group.end());
@@ -56,12 +58,12 @@ class properties {
 
 namespace detail {
 
-/// A number, a truth value or an enumerator.
+/// An arithmetic type, bool or an enumeration.
 template <class T>
 concept scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
-/// The type of a file that holds every T; 64-bit integers, which PLY has not, become float64 and
-/// are exact up to 2^53.
+/// The type in the file for values of type T. PLY has no 64-bit integers: they become float64,
+/// which is exact up to 2^53.
 template <scalar T>
 [[nodiscard]] constexpr field_type field_type_for() {
     if constexpr (std::is_enum_v<T>)
@@ -78,8 +80,8 @@ template <scalar T>
         return std::is_signed_v<T> ? field_type::int8 : field_type::uint8;
 }
 
-/// By index, what `convert` makes of the projected elements of a range that we refer to.
-template <indexed_range R, class Proj, class Convert>
+/// The function from index i to convert(projection(range[i])). Refers to the range.
+template <gnomon::detail::indexed_range R, class Proj, class Convert>
 [[nodiscard]] auto converted(const R& range, Proj projection, Convert convert) {
     return [&range, projection = std::move(projection), convert](std::size_t i) {
         const auto first = std::ranges::begin(range);
@@ -88,7 +90,7 @@ template <indexed_range R, class Proj, class Convert>
     };
 }
 
-/// Three columns, of the components of what `vector` gives by index.
+/// Three columns: the components of vector(i).
 template <class Vector>
 [[nodiscard]] properties three_properties(const std::array<const char*, 3>& names, field_type type,
                                           std::size_t size, const Vector& vector) {
@@ -101,19 +103,25 @@ template <class Vector>
 
 }  // namespace detail
 
-/// One number for each element of `range`, in a type that holds it; refers to the range.
-template <indexed_range R, class Proj = std::identity>
-    requires detail::scalar<projected_element_t<R, Proj>>
+/// One number for each element of `range`.
+/// @param name        of the column, one word
+/// @param range       any random-access range; must outlive the result
+/// @param projection  maps an element to an arithmetic value, bool or enumerator
+/// @return a column whose type holds all values; 64-bit integers become float64
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
+    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
 [[nodiscard]] property scalar_property(std::string name, const R& range, Proj projection = {}) {
-    using number = projected_element_t<R, Proj>;
+    using number = gnomon::detail::projected_element_t<R, Proj>;
     return {std::move(name), detail::field_type_for<number>(),
             static_cast<std::size_t>(std::ranges::size(range)),
             detail::converted(range, std::move(projection),
                               [](number n) { return static_cast<double>(n); })};
 }
 
-/// nx, ny, nz as float32 from 3-vectors; refers to the range.
-template <indexed_range R, class Proj = std::identity>
+/// The columns nx, ny, nz (float32) from 3-vectors.
+/// @param range       any range of points, taken as vectors; must outlive the result
+/// @param projection  maps an element to a 3-vector
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] properties normal_properties(const R& range, Proj projection = {}) {
     return detail::three_properties(
@@ -121,7 +129,7 @@ template <indexed_range R, class Proj = std::identity>
         detail::converted(range, std::move(projection), [](const auto& n) { return position(n); }));
 }
 
-/// nx, ny, nz as float32 of the normals of a surface; refers to it.
+/// The columns nx, ny, nz (float32) from the normals of a surface, which must outlive the result.
 template <normal_range S>
 [[nodiscard]] properties normal_properties(const S& surface) {
     return detail::three_properties(
@@ -130,9 +138,11 @@ template <normal_range S>
         [&surface](std::size_t i) -> Eigen::Vector3d { return surface[i].normal; });
 }
 
-/// red, green, blue from arrays of three bytes; refers to the range.
-template <indexed_range R, class Proj = std::identity>
-    requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
+/// The columns red, green, blue (uint8) from arrays of three bytes.
+/// @param range       any random-access range; must outlive the result
+/// @param projection  maps an element to std::array<std::uint8_t, 3>
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
+    requires std::same_as<gnomon::detail::projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
 [[nodiscard]] properties color_properties(const R& range, Proj projection = {}) {
     return detail::three_properties(
         {"red", "green", "blue"}, field_type::uint8,
@@ -140,16 +150,17 @@ template <indexed_range R, class Proj = std::identity>
         detail::converted(range, std::move(projection), [](const auto& color) { return color; }));
 }
 
-template <indexed_range R, class Proj = std::identity>
-    requires detail::scalar<projected_element_t<R, Proj>>
+// The columns refer to the range, so a temporary range is an error.
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
+    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
 void scalar_property(std::string name, const R&& range, Proj projection = {}) = delete;
-template <indexed_range R, class Proj = std::identity>
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
     requires point_range<R, Proj>
 void normal_properties(const R&& range, Proj projection = {}) = delete;
 template <normal_range S>
 void normal_properties(const S&& surface) = delete;
-template <indexed_range R, class Proj = std::identity>
-    requires std::same_as<projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
+template <gnomon::detail::indexed_range R, class Proj = std::identity>
+    requires std::same_as<gnomon::detail::projected_element_t<R, Proj>, std::array<std::uint8_t, 3>>
 void color_properties(const R&& range, Proj projection = {}) = delete;
 
 }  // namespace gnomon::io

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads a scan from a file of any format that we know; what the file begins with decides, and not
-/// its name.
+/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file. The format is detected from the contents,
+/// not from the file name.
 #pragma once
 
 #include <string>
@@ -22,10 +22,12 @@
 namespace gnomon::io {
 namespace detail {
 
-/// Whether a line near the beginning, before any number, begins with a keyword of PCD.
+/// Returns whether one of the first lines begins with a keyword of PCD, before any line that begins
+/// with a number.
 [[nodiscard]] inline bool looks_like_pcd(const input& file) {
+    constexpr int max_lines = 32;  // comments can precede the header
     text_cursor text(file);
-    for (int i = 0; i < 32; ++i) {
+    for (int i = 0; i < max_lines; ++i) {
         const auto line = text.line();
         if (!line) return false;
         const std::string_view word = splitter(*line).next().value_or("");
@@ -38,11 +40,13 @@ namespace detail {
 }  // namespace detail
 
 /// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
+/// @param file    name and contents of the file
 /// @param fields  names of further columns that become fields of the scan, in this order
-/// @throws gnomon::error  if the file is damaged or has not all the fields; it lists
-///                        those there are
+/// @return the points [m], in the order of the file, with viewpoints and fields
+/// @throws gnomon::error  if the file is damaged or a field is missing; the message lists the
+///                        fields of the file
 /// Complexity: O(bytes).
-template <class = void>  // costs the compiler nothing where nobody reads
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
@@ -51,9 +55,10 @@ template <class = void>  // costs the compiler nothing where nobody reads
     return read_xyz(file, fields);
 }
 
-/// Reads the file `path`.
-/// @throws gnomon::error  moreover with the system's reason, if it cannot be read
-template <class = void>  // costs the compiler nothing where nobody reads
+/// Reads the file `path`; parameters and result as above.
+/// @throws gnomon::error  as above, and with the operating system's message on a failure to read
+/// Complexity: O(bytes).
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const std::string& path, const std::vector<std::string>& fields = {}) {
     return read(load(path), fields);
 }

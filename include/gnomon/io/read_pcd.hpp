@@ -25,7 +25,8 @@
 namespace gnomon::io {
 namespace detail {
 
-/// The names of the single values: "x", and "fpfh[0]", "fpfh[1]", ... of a field that has many.
+/// The names of the columns: "x" for a field of one value, "fpfh[0]", "fpfh[1]", ... for a field of
+/// several values.
 [[nodiscard]] inline std::vector<std::string> pcd_columns(const pcd_header& header) {
     std::vector<std::string> result;
     for (const pcd_field& field : header.fields) {
@@ -37,14 +38,14 @@ namespace detail {
     return result;
 }
 
-/// Where in the data the values of one column lie: that of point i at first + i * stride [bytes].
+/// The place of a column in binary data: the value of point i is at byte first + i * stride.
 struct pcd_column {
     scalar_layout type;
     std::size_t first;
     std::size_t stride;
 };
 
-/// The columns of point after point, each of `stride` bytes ...
+/// The places of the columns in binary data: point after point, each of `stride` bytes.
 [[nodiscard]] inline std::vector<pcd_column> interleaved_columns(const pcd_header& header,
                                                                  std::size_t stride) {
     std::vector<pcd_column> result;
@@ -55,7 +56,7 @@ struct pcd_column {
     return result;
 }
 
-/// ... and those of field after field, each for all the points.
+/// The places of the columns in binary_compressed data: field after field, each for all points.
 [[nodiscard]] inline std::vector<pcd_column> planar_columns(const pcd_header& header,
                                                             std::size_t points) {
     std::vector<pcd_column> result;
@@ -68,7 +69,7 @@ struct pcd_column {
     return result;
 }
 
-/// Adds the points that lie in `data`. PCD says nothing about byte order; all its writers are
+/// Adds the points in binary `data`. The PCD format does not define a byte order; all writers use
 /// little-endian.
 inline void add_pcd_points(scan_builder& builder, std::string_view data,
                            const std::vector<pcd_column>& columns, std::size_t points) {
@@ -83,6 +84,7 @@ inline void add_pcd_points(scan_builder& builder, std::string_view data,
     }
 }
 
+/// Reads the points of ascii data, one per line.
 inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_t points,
                            std::size_t columns) {
     text.require_rows(points, columns);
@@ -96,6 +98,7 @@ inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_
     }
 }
 
+/// Reads the points of binary data.
 inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
                             std::size_t stride) {
     bytes.require_rows(header.points, stride);
@@ -104,6 +107,7 @@ inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_
                    points);
 }
 
+/// Reads the points of binary_compressed data: two sizes, then LZF.
 inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
                                 std::size_t stride) {
     const auto size = [&bytes] {
@@ -122,12 +126,14 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 
 }  // namespace detail
 
-/// Parses a PCD file. Points of NaN are kept; the position in VIEWPOINT becomes the view point [m].
-/// The points are left in the frame of the file: the orientation in VIEWPOINT is not applied.
-/// @param fields  names of further fields, e.g. "intensity" or, of many values, "fpfh[0]"
-/// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
+/// Parses a PCD file. NaN coordinates are kept. The position in VIEWPOINT becomes the viewpoint
+/// [m]; its orientation is not applied, so the points stay in the frame of the file.
+/// @param file    name and contents of the file
+/// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values
+/// @return the points [m] in the order of the file, with viewpoint and fields
+/// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // costs the compiler nothing where nobody reads
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads the vertices of a PLY file (Turk 1994), whatever other elements stand before them.
+/// Reads the vertices of a PLY file (Turk 1994). Other elements are skipped.
 #pragma once
 
 #include <bit>
@@ -22,7 +22,7 @@
 namespace gnomon::io {
 namespace detail {
 
-/// The elements of an ascii file: one per line, and all of it.
+/// Reads the rows of an ascii file: one element per line.
 class ascii_rows {
   public:
     explicit ascii_rows(const text_cursor& text) : text_(text) {}
@@ -40,7 +40,7 @@ class ascii_rows {
     splitter words_;
 };
 
-/// The elements of a binary file.
+/// Reads the rows of a binary file.
 class binary_rows {
   public:
     binary_rows(byte_cursor bytes, std::endian order) : bytes_(bytes), order_(order) {}
@@ -56,7 +56,7 @@ class binary_rows {
     std::endian order_;
 };
 
-/// Reads one element into `row`: its numbers, without its lists.
+/// Reads one element into `row`: its numbers. Lists are skipped.
 template <class Rows>
 void read_ply_row(Rows& rows, const ply_element& element, std::vector<double>& row) {
     row.clear();
@@ -74,13 +74,13 @@ void read_ply_row(Rows& rows, const ply_element& element, std::vector<double>& r
     rows.end();
 }
 
-/// Reads the vertices, and first whatever is before them.
+/// Skips the elements before the vertices and reads the vertices.
 template <class Rows>
 [[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, scan_builder builder) {
     std::vector<double> row;
     for (const ply_element& element : header.elements) {
         const bool is_vertex = element.name == "vertex";
-        if (element.properties.empty()) continue;  // nothing of it is in the file
+        if (element.properties.empty()) continue;  // occupies no bytes in the file
         rows.require(element);
         if (is_vertex) builder.reserve(static_cast<std::size_t>(element.count));
         for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -94,12 +94,15 @@ template <class Rows>
 
 }  // namespace detail
 
-/// Parses a PLY file, ascii or binary of either byte order. Points of NaN are kept; a comment
-/// "viewpoint x y z", as `write_ply` leaves it, becomes the view point.
+/// Parses a PLY file, ascii or binary of either byte order. NaN coordinates are kept. Properties
+/// viewpoint_x, viewpoint_y, viewpoint_z, or a comment "viewpoint x y z", both as `write_ply`
+/// writes them, become the viewpoints [m].
+/// @param file    name and contents of the file
 /// @param fields  names of further properties of the vertices, e.g. "nx", that become fields
-/// @throws gnomon::error  if the file is damaged, has no x, y, z or not all the fields
+/// @return the vertices [m] in the order of the file, with viewpoints and fields
+/// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // costs the compiler nothing where nobody reads
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::ply_header header = detail::read_ply_header(text);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads the points of a legacy VTK file (POLYDATA or UNSTRUCTURED_GRID, ASCII); cells and data
-/// that follow them are left unread.
+/// Reads the points of a legacy VTK file (POLYDATA or UNSTRUCTURED_GRID, ASCII). Cells and data
+/// after the points are ignored.
 #pragma once
 
 #include <cstddef>
@@ -20,11 +20,12 @@
 namespace gnomon::io {
 namespace detail {
 
-/// The words with which a legacy VTK file begins.
+/// The beginning of a legacy VTK file.
 inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 
 /// Reads up to and including the line "POINTS n type".
-/// @return n
+/// @return n, as declared
+/// @throws gnomon::error  if the header is damaged, BINARY or of another kind of data set
 [[nodiscard]] inline std::uint64_t read_vtk_header(text_cursor& text) {
     if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
     static_cast<void>(text.line());  // the title
@@ -39,7 +40,7 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
     if (dataset != "POLYDATA" && dataset != "UNSTRUCTURED_GRID")
         text.fail("DATASET " + in_quotes(dataset) + " is not supported");
 
-    // Fields of the data set as a whole, e.g. the time, may come first.
+    // Fields of the whole data set, e.g. its time, can precede the points.
     do words = text.words();
     while (words.next() != "POINTS");
     const std::uint64_t points = text.count(words);
@@ -50,12 +51,14 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 
 }  // namespace detail
 
-/// Parses a legacy VTK file. Points of NaN are kept; VTK knows no view point.
-/// @param fields  as for the other formats, but only "x", "y" and "z" are to be had
-/// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if a field
-///                        is asked for
+/// Parses a legacy VTK file. NaN coordinates are kept. The format has no viewpoints.
+/// @param file    name and contents of the file
+/// @param fields  names of further columns, as for the other formats; only "x", "y" and "z" exist
+/// @return the points [m] in the order of the file
+/// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if another
+///                        field is requested
 /// Complexity: O(bytes).
-template <class = void>  // costs the compiler nothing where nobody reads
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);
@@ -63,7 +66,7 @@ template <class = void>  // costs the compiler nothing where nobody reads
     text.require_rows(points, 3);
     builder.reserve(static_cast<std::size_t>(points));
 
-    // The numbers run on over the lines as they like.
+    // Line breaks can be anywhere between numbers.
     detail::splitter words;
     std::vector<double> row;
     for (std::uint64_t i = 0; i < points; ++i) {

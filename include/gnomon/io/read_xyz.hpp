@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads a text of one point per line: x y z, then whatever else, separated by blanks, commas or
-/// semicolons. What .xyz, .txt, .csv and .asc files have in common.
+/// Reads text files of one point per line (.xyz, .txt, .csv, .asc): x y z, then any number of
+/// further columns, separated by blanks, commas or semicolons.
 #pragma once
 
 #include <cstddef>
@@ -21,28 +21,30 @@
 namespace gnomon::io {
 namespace detail {
 
-/// The words of a line of values; where semicolons separate, a comma is not a separator (and so no
-/// decimal comma is mistaken for one).
+/// The words of a line of values. If the line has a semicolon, commas do not separate, so a decimal
+/// comma is an error and not a separator.
 [[nodiscard]] inline splitter split_values(std::string_view line) {
     return splitter(line, line.find(';') == std::string_view::npos ? ',' : ';');
 }
 
-/// Whether a line that begins with `word` holds values, be they damaged, and not names.
+/// Returns whether a line that begins with `word` holds values, possibly damaged, and not names.
 [[nodiscard]] inline bool begins_values(std::string_view word) {
     constexpr std::string_view beginnings = "+-.0123456789";
     return is_number(word) || beginnings.find(word.substr(0, 1)) != std::string_view::npos;
 }
 
-/// The name of a column, out of its quotes if it has some.
+/// The name of a column without surrounding quotes.
 [[nodiscard]] inline std::string_view unquoted(std::string_view word) {
     const bool quoted = word.size() >= 2 && (word.front() == '"' || word.front() == '\'') &&
                         word.back() == word.front();
     return quoted ? word.substr(1, word.size() - 2) : word;
 }
 
-/// Names the columns after the first line: what it says if it holds names, else "x", "y", "z",
-/// "column 3", "column 4", ...
+/// Returns the names of the columns from the first line: the names in it, or "x", "y", "z",
+/// "column 3", "column 4", ... if it holds values.
+/// @param words      of the first line
 /// @param has_names  whether the line holds names
+/// @throws gnomon::error  for fewer than three columns, a numeric name, or a misplaced axis
 [[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
                                                           const text_cursor& text) {
     constexpr std::string_view axes = "xyzXYZ";
@@ -60,20 +62,22 @@ namespace detail {
             result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
     }
     if (result.size() < 3)
-        text.fail("fewer than three columns; besides text, PLY, PCD and legacy VTK can be read");
+        text.fail("fewer than three columns; supported formats are text, PLY, PCD and legacy VTK");
     return result;
 }
 
 }  // namespace detail
 
-/// Parses a text with x y z first on each line. Blank lines and lines that begin with '#' or "//"
-/// are skipped; a first line that begins with no number names the columns.
-/// @param fields  names of further columns that become fields: those of the first line, or, counted
-///                from 0, "column 3", "column 4", ...
-/// @throws gnomon::error  for a line that is no row of as many numbers as the first, if there is no
-///                        point at all, or not all the fields
+/// Parses a text with x y z [m] first on each line. Blank lines and lines that begin with '#' or
+/// "//" are skipped. A first line that does not begin with a number names the columns.
+/// @param file    name and contents of the file
+/// @param fields  names of further columns that become fields: those of the first line, or
+///                "column 3", "column 4", ..., counted from 0
+/// @return the points in the order of the file; no viewpoints
+/// @throws gnomon::error  if a line does not hold as many numbers as the first, if there is no
+///                        point, or if a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // costs the compiler nothing where nobody reads
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Writes points and what is known of them to a PLY file (Turk 1994), which all viewers open.
+/// Writes points and their properties to a PLY file (Turk 1994).
 #pragma once
 
 #include <algorithm>
@@ -28,29 +28,29 @@
 
 namespace gnomon::io {
 
-/// How to write it.
+/// Options of `write_ply`.
 struct ply_options {
-    ply_format format = ply_format::binary_little_endian;
-    field_type coordinates = field_type::float64;  ///< or float32
+    ply_format format = ply_format::binary_little_endian;  ///< encoding of the file
+    field_type coordinates = field_type::float64;          ///< type of x, y, z; or float32
 };
 
 namespace detail {
 
-/// Appends `value` and a blank; floating-point numbers with as many digits as they need to be read
-/// back exactly.
+/// Appends `value` and a blank. Floating-point numbers have the fewest digits that are read back
+/// exactly.
 template <class T>
 void append_text(std::string& text, T value) {
     char digits[32];
     if constexpr (std::is_floating_point_v<T>) {
-        if (std::isnan(value)) value = std::numeric_limits<T>::quiet_NaN();  // drops its sign
+        if (std::isnan(value)) value = std::numeric_limits<T>::quiet_NaN();  // without sign
     }
     const auto [end, problem] = std::to_chars(digits, digits + sizeof digits, value);
     static_cast<void>(problem);  // the longest double has 24 characters
     text.append(digits, end) += ' ';
 }
 
-/// `value` as a T.
-/// @throws std::invalid_argument  if T cannot hold it, but for the digits of a float
+/// Converts `value` to T. A conversion to float is rounded.
+/// @throws std::invalid_argument  if `value` is outside the range of T, or not integral as T is
 template <class T>
 [[nodiscard]] T narrowed(double value) {
     using limits = std::numeric_limits<T>;
@@ -65,7 +65,7 @@ template <class T>
     return static_cast<T>(value);
 }
 
-/// Appends one value of a row.
+/// Appends one value of a row in the encoding of the file.
 inline void append_value(std::string& bytes, double value, field_type type, ply_format format) {
     visit_type(ply_type_of(type).layout, [&](auto zero) {
         const auto number = narrowed<decltype(zero)>(value);
@@ -78,6 +78,7 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
     });
 }
 
+/// The header of the file. A single viewpoint is written as a comment.
 [[nodiscard]] inline std::string ply_header_text(std::size_t points,
                                                  const viewpoint_table& viewpoints,
                                                  const properties& columns, ply_options options) {
@@ -99,7 +100,7 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
     return text + "end_header\n";
 }
 
-/// The writer, whatever the points are.
+/// Writes the file. Independent of the type of the points, so that it is compiled once.
 inline void write_ply_rows(const std::string& path, std::size_t points,
                            const std::function<Eigen::Vector3d(std::size_t)>& position_of,
                            const viewpoint_table& viewpoints, const properties& columns,
@@ -139,15 +140,20 @@ inline void write_ply_rows(const std::string& path, std::size_t points,
 
 }  // namespace detail
 
-/// Writes the file `path`, whole or not at all; an older one is replaced.
-/// @param points   their positions [m] are written exactly, as long as `coordinates` is float64;
-///                 NaN too. A single known view point goes into a comment, several into the
-///                 properties viewpoint_x, viewpoint_y, viewpoint_z; `read_ply` knows both.
-/// @param columns  what else to write of each point
-/// @throws gnomon::error          if the system refuses, e.g. for a full disk
-/// @throws std::invalid_argument  before anything is written, for a property of another number of
-///                                points or a name that is taken; with nothing left behind, for a
-///                                value that its type cannot hold
+/// Writes points and properties to the PLY file `path` atomically: an existing file is replaced or
+/// stays unchanged.
+/// @param path        name of the file
+/// @param points      any point range [m]; NaN is written. A single viewpoint is written as a
+///                    comment "viewpoint x y z", several as properties viewpoint_x, viewpoint_y,
+///                    viewpoint_z; `read_ply` reads both.
+/// @param columns     properties of the points in addition to x, y, z
+/// @param options     encoding, and type of the coordinates; float64 coordinates are exact
+/// @param projection  maps an element of the range to a point
+/// @throws gnomon::error          with the operating system's message, e.g. if the disk is full
+/// @throws std::invalid_argument  if a property is for another number of points, if its name is
+///                                used twice or is not one word, if the type of the coordinates is
+///                                not float32 or float64, or if a value is outside the range of its
+///                                type
 /// Complexity: O(points * properties).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>

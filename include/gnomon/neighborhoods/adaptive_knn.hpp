@@ -3,7 +3,7 @@
 /// As many nearest neighbors as a point needs: few where the surface bends, many where noise must
 /// be averaged out or a scanner's lines lie far apart. The numbers of neighbors to choose from form
 /// a geometric series; a *preference* puts a cost on each, from the moments of that many neighbors,
-/// and the cheapest is taken. How many it was, the size of the ring tells.
+/// and the least cost is taken. `surfel::neighbors` is the resulting number.
 #pragma once
 
 #include <algorithm>
@@ -17,17 +17,19 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/spectrum.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
-#include <gnomon/neighborhoods/detail/tree_search.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/detail/graph_of.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon {
 
@@ -85,7 +87,7 @@ struct prefer_small_error {
     }
 };
 
-/// Models `streaming_neighborhood`. Rings come in canonical order, nearest first.
+/// Models `indexed_neighborhood`. Neighbors come in canonical order, nearest first.
 template <size_preference Preference = prefer_isotropic>
 struct adaptive_knn {
     std::size_t min_k = 10;
@@ -93,54 +95,55 @@ struct adaptive_knn {
     double growth = 2.0;  ///< from one size to the next
     Preference preference = {};
 
-    /// The stored graph. O(n (log n + max_k log max_k)).
+    /// The stored graph of points, or of an index of them. O(n (log n + max_k log max_k)).
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        return adjacency(search(points, std::move(projection)), run);
+        return detail::graph_of(*this, points, run, projection);
     }
 
-    /// A search that stores nothing but its index; the points must outlive it.
+    /// Replaces the content of `found` by the neighbors of the finite point i.
+    /// O(log n + max_k log max_k).
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
-    template <class R, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
+    void find(const spatial_index& index, std::size_t i, std::vector<neighbor>& found) const {
+        require_valid();
+        knn{.k = max_k}.find(index, i, found);
+        found.resize(best_size(index, index[i], found), {});
+    }
+
+    /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
+    void require_valid() const {
         detail::require(min_k >= 1 && min_k <= max_k, "adaptive_knn: needs 1 <= min_k <= max_k");
         detail::require(growth >= 1.1 && std::isfinite(growth),
                         "adaptive_knn: growth must be at least 1.1");
-        return detail::tree_search(*this, points, std::move(projection));
     }
 
-    template <class R, class Proj = std::identity>
-    void search(const R&& points, Proj projection = {}) const = delete;
-
-    /// The ring of the finite point i.
-    void find(const kd_tree& tree, const auto& points, std::size_t i,
-              std::vector<neighbor>& ring) const {
-        const Eigen::Vector3d p = points[i];
-        tree.nearest(p, max_k, i, ring);
-
+  private:
+    /// The number of neighbors of p of least cost, from the `max_k` nearest.
+    [[nodiscard]] std::size_t best_size(const spatial_index& index, const Eigen::Vector3d& p,
+                                        const std::vector<neighbor>& found) const {
         moments m;
-        std::size_t best = std::min(min_k, ring.size());
+        std::size_t best = std::min(min_k, found.size());
         double least = std::numeric_limits<double>::infinity();
         double wanted = static_cast<double>(min_k);
-        while (m.count < ring.size()) {
-            wanted = std::min(wanted, static_cast<double>(ring.size()));
-            const auto k = std::min(static_cast<std::size_t>(wanted), ring.size());
-            while (m.count < k) m.add(detail::difference(points[ring[m.count].index], p));
+        while (m.count < found.size()) {
+            wanted = std::min(wanted, static_cast<double>(found.size()));
+            const auto k = std::min(static_cast<std::size_t>(wanted), found.size());
+            while (m.count < k) m.add(detail::difference(index[found[m.count].index], p));
             const Eigen::Matrix3d covariance = m.covariance_with_point();
             if (!detail::has_finite_trace(covariance)) break;
-            const double cost = preference(neighborhood_shape{
-                k, ring[k - 1].squared_distance, spectrum(symmetric_eigen(covariance).values)});
+            const double cost = preference(
+                neighborhood_shape{k, found[k - 1].squared_distance,
+                                   spectrum(detail::symmetric_eigen(covariance).values)});
             if (cost < least) {
                 least = cost;
                 best = k;
             }
             wanted = std::max(wanted * growth, wanted + 1.0);
         }
-        ring.resize(best, {});
+        return best;
     }
 };
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The k nearest neighbors, but none farther than a radius: `knn` that does not reach across gaps,
-/// or `radius` that does not drown in dense places.
+/// The k nearest neighbors within a radius: `knn` that does not reach across gaps, or `radius` with
+/// a bounded number of neighbors in dense places.
 #pragma once
 
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
@@ -14,68 +13,53 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/graph_of.hpp>
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
-#include <gnomon/neighborhoods/detail/swept_graph.hpp>
-#include <gnomon/neighborhoods/detail/tree_search.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon {
 
-/// Models `sweeping_neighborhood`. Rings come in canonical order, nearest first, and may be empty.
+/// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest first; there may be
+/// none.
 struct hybrid {
-    std::size_t k = 50;  ///< at most this many neighbors, at least 1
+    std::size_t k = 50;  ///< the largest number of neighbors, at least 1
     double r = 0.30;     ///< and at most this far [m], the distance included
 
-    /// The stored graph. O(n (log n + k log k)).
+    /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
                                        Proj projection = {}) const {
-        return detail::swept_graph(*this, points, run, std::move(projection));
+        return detail::graph_of(*this, points, run, projection);
     }
 
-    /// Calls visit(i, found) for each finite point i, in any order and from several threads, each
-    /// with a visitor that make_visitor() gives.
-    /// @return whether it did: not where so many points coincide that one point after the other is
-    ///         faster
+    /// Replaces the content of `found` by the neighbors of the finite point i. O(log n + k log k).
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
-    template <class R, execution X, class Proj>
-        requires point_range<R, Proj>
-    [[nodiscard]] bool sweep(const R& points, const X& run, const Proj& projection,
-                             auto&& make_visitor) const {
-        check();
-        const auto tree =
-            detail::tree_unless_crowded(position_view<R, Proj>(points, projection), run);
-        if (!tree) return false;
-        const auto make_search = [&] { return detail::leaf_search(*tree, {.k = k, .radius = r}); };
-        detail::sweep_leaves(*tree, run, make_search, make_visitor);
-        return true;
+    template <class Allocator>
+    void find(const spatial_index& index, std::size_t i,
+              std::vector<neighbor, Allocator>& found) const {
+        require_valid();
+        detail::search_tree(
+            index.tree(), index[i],
+            {.k = k, .squared_radius = r * r, .except = static_cast<point_index>(i)}, found);
     }
 
-    /// A search that stores nothing but its index; the points must outlive it.
+    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// @return false where coincident points make a search point by point faster
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
-    template <class R, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] auto search(const R& points, Proj projection = {}) const {
-        check();
-        return detail::tree_search(*this, points, std::move(projection));
+    template <execution X>
+    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        require_valid();
+        return detail::sweep_nearest(index.tree(), {.k = k, .radius = r}, run, make_visitor);
     }
 
-    template <class R, class Proj = std::identity>
-    void search(const R&& points, Proj projection = {}) const = delete;
-
-    /// The ring of the finite point i.
-    void find(const kd_tree& tree, const auto& points, std::size_t i,
-              std::vector<neighbor>& ring) const {
-        tree.nearest(points[i], k, i, ring);
-        while (!ring.empty() && ring.back().squared_distance > r * r) ring.pop_back();
-    }
-
-  private:
-    void check() const {
+    /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
+    void require_valid() const {
         detail::require(k > 0, "hybrid: k must be at least 1");
         detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
     }

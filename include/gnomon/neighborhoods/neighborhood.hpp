@@ -1,20 +1,22 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Who is next to whom: the concepts of this floor.
+/// Neighborhoods and graphs: the concepts of this floor.
 ///
-/// A *neighborhood* is a small policy such as `knn{.k = 30}`; called with points it gives a
-/// *graph*, in which the neighbors of point i are the indices graph[i] (Klasing 2010, Sec. 3.2.2).
-/// A *streaming* neighborhood has a second door, `search`, that finds one ring at a time and stores
-/// none; a *sweeping* one has a third, `sweep`, that finds all rings in whatever order is fastest.
-/// All doors give the same rings. Some graphs know more of a ring than its members, e.g. that it
-/// ends at a boundary: they say so in a `ring_note`.
+/// A *neighborhood* is a small policy such as `knn{.k = 30}`. Called with points, or with a
+/// `spatial_index` of them, it returns a *graph*, in which graph[i] are the indices of the
+/// neighbors of point i (Klasing 2010, Sec. 3.2.2). An *indexed* neighborhood is a query on an
+/// index: its member `find` returns the neighbors of one point and stores nothing else. A
+/// *sweeping* neighborhood also searches for all points at once, in whatever order is fastest. The
+/// three ways give the same neighbors. Some graphs also have a `neighborhood_note` for each point,
+/// e.g. that its neighborhood ends at a boundary.
 ///
 /// Laws, checked in tests/laws/neighborhood_laws.hpp for every model: i is not in graph[i]; indices
-/// are valid and not repeated; a point that is not finite has no neighbors and is nobody's; the
-/// graph is the same bytes for every execution; all doors agree.
+/// are valid and not repeated; a point that is not finite has no neighbors and is not a neighbor of
+/// any point; the graph is the same bytes for every execution; `find` and `sweep` agree with the
+/// graph.
 ///
-/// Models: `knn`, `radius` and `hybrid`, which have all three doors; `adaptive_knn`, `delaunay` and
-/// `sorted_around`, which have the first two; graphs: `adjacency`, and any
+/// Models: `knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`, `delaunay` and
+/// `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
 /// std::vector<std::vector<point_index>>.
 #pragma once
 
@@ -22,43 +24,24 @@
 #include <cstddef>
 #include <functional>
 #include <iterator>
+#include <type_traits>
 #include <vector>
 
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon {
 
-/// A point found by a search, in canonical order: by distance, ties by index.
-struct neighbor {
-    double squared_distance;  ///< [m^2], see squared_distance()
-    point_index index;
+/// Properties of a neighborhood in addition to its members.
+struct neighborhood_note {
+    bool open = false;      ///< last and first neighbor, in angular order, span a boundary
+    bool certified = true;  ///< no point that the search did not read could change the neighborhood
 
-    friend bool operator==(const neighbor&, const neighbor&) = default;
-    friend bool operator<(const neighbor& a, const neighbor& b) {
-        if (a.squared_distance != b.squared_distance)
-            return a.squared_distance < b.squared_distance;
-        return a.index < b.index;
-    }
-};
-
-/// What becomes of points that are all as near as the k-th neighbor.
-enum class tie_rule : bool {
-    by_index,  ///< exactly k neighbors: of equals those of smaller index
-    /// All of them, as long as no more than 2 k neighbors come together; equal is what differs by
-    /// less than 1e-9 of the squared distance. The ring then depends neither on the order of the
-    /// points nor on where the cloud lies and how it is turned, but for what moving it does to the
-    /// last places of coordinates; also for depth cameras, whose quantised points are full of ties.
-    all
-};
-
-/// What a graph may know of a ring besides its members.
-struct ring_note {
-    bool open = false;      ///< the last neighbor and the first do not enclose the surface
-    bool certified = true;  ///< points that were not looked at could not change the ring
-
-    friend bool operator==(const ring_note&, const ring_note&) = default;
+    friend bool operator==(const neighborhood_note&, const neighborhood_note&) = default;
 };
 
 /// size() points, and for each i a sized range of the indices of its neighbors.
@@ -69,48 +52,27 @@ concept neighborhood_graph = requires(const G& graph, std::size_t i) {
     { std::ranges::size(graph[i]) } -> std::convertible_to<std::size_t>;
 };
 
-/// A graph that has a note for each ring.
+/// A graph that has a note for each neighborhood.
 template <class G>
 concept annotated_graph = neighborhood_graph<G> && requires(const G& graph, std::size_t i) {
-    { graph.note(i) } -> std::same_as<ring_note>;
+    { graph.note(i) } -> std::same_as<neighborhood_note>;
 };
 
-/// Finds one ring at a time: search(i, ring) replaces the content of `ring` by the neighbors of
-/// point i, in the order of the policy, and returns nothing or a `ring_note`. Const and
-/// thread-safe.
-template <class S>
-concept neighbor_search = requires(const S& search, std::size_t i, std::vector<neighbor>& ring) {
-    { search.size() } -> std::convertible_to<std::size_t>;
-    search(i, ring);
-};
-
-/// A search that returns a note for each ring.
-template <class S>
-concept annotated_search =
-    neighbor_search<S> && requires(const S& search, std::size_t i, std::vector<neighbor>& ring) {
-        { search(i, ring) } -> std::same_as<ring_note>;
+/// A policy that makes a graph of points: policy(points, execution, projection).
+template <class N, class R, class Proj = std::identity>
+concept neighborhood =
+    point_range<R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+        { policy(points, sequential{}, proj) } -> neighborhood_graph;
     };
 
-/// What a graph notes of the ring of point i; nothing, if it keeps no notes.
-template <neighborhood_graph G>
-[[nodiscard]] ring_note note_of(const G& graph, std::size_t i) {
-    if constexpr (annotated_graph<G>) {
-        return graph.note(i);
-    } else {
-        return {};
-    }
-}
-
-/// Calls search(i, ring) and returns its note.
-template <neighbor_search S>
-ring_note search_noted(const S& search, std::size_t i, std::vector<neighbor>& ring) {
-    if constexpr (annotated_search<S>) {
-        return search(i, ring);
-    } else {
-        search(i, ring);
-        return {};
-    }
-}
+/// A neighborhood that is a query on an index: policy.find(index, i, found) replaces the content of
+/// `found` by the neighbors of the finite point i and returns nothing or a `neighborhood_note`.
+/// Const and thread-safe.
+template <class N>
+concept indexed_neighborhood =
+    neighborhood<N, spatial_index> &&
+    requires(const N& policy, const spatial_index& index, std::size_t i,
+             std::vector<neighbor>& found) { policy.find(index, i, found); };
 
 namespace detail {
 
@@ -120,32 +82,70 @@ struct any_visitor {
 
 }  // namespace detail
 
-/// A policy that makes a graph of points: policy(points, execution, projection).
-template <class N, class R, class Proj = std::identity>
-concept neighborhood =
-    point_range<R, Proj> && requires(const N& policy, const R& points, Proj proj) {
-        { policy(points, sequential{}, proj) } -> neighborhood_graph;
-    };
-
-/// A neighborhood that can also search without storing: policy.search(points, projection).
-template <class N, class R, class Proj = std::identity>
-concept streaming_neighborhood =
-    neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
-        { policy.search(points, proj) } -> neighbor_search;
-    };
-
-/// A neighborhood that can also find all rings at one sweep: policy.sweep(points, execution,
-/// projection, make_visitor) calls visit(i, found) for each finite point i, with a visitor made for
-/// each chunk of work (and in the end its finish(), if it has one), and returns whether it did. If
-/// not, for the points are such that this would take too long, no visitor was called. What was
-/// found tells, during the call, its `size()`, its ring by `sort_into(ring)`, and without that, by
-/// `summed()`, its moments `about_point` and its `mean_distance`.
-template <class N, class R, class Proj = std::identity>
+/// An indexed neighborhood that can also search for all points at once: policy.sweep(index,
+/// execution, make_visitor) calls visit(i, found) for each finite point i, in any order and from
+/// several threads, with a visitor that make_visitor() returns for each chunk of work, and at the
+/// end of the chunk its finish(), if it has one. It returns whether it did: not where searching
+/// point by point is faster, and then no visitor was called. `found` is valid during the call: its
+/// `size()`; the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that
+/// order, by `summed()`, their moments `about_point` and `mean_distance`.
+template <class N>
 concept sweeping_neighborhood =
-    streaming_neighborhood<N, R, Proj> && requires(const N& policy, const R& points, Proj proj) {
+    indexed_neighborhood<N> && requires(const N& policy, const spatial_index& index) {
         {
-            policy.sweep(points, sequential{}, proj, [] { return detail::any_visitor{}; })
+            policy.sweep(index, sequential{}, [] { return detail::any_visitor{}; })
         } -> std::same_as<bool>;
     };
 
+namespace detail {
+
+/// What a graph notes of the neighborhood of point i; nothing, if it keeps no notes.
+template <neighborhood_graph G>
+[[nodiscard]] neighborhood_note note_of(const G& graph, std::size_t i) {
+    if constexpr (annotated_graph<G>) {
+        return graph.note(i);
+    } else {
+        return {};
+    }
+}
+
+/// Whether the policy's `find` returns notes.
+template <class N>
+concept notes_neighborhoods =
+    requires(const N& policy, const spatial_index& index, std::vector<neighbor>& found) {
+        { policy.find(index, std::size_t{}, found) } -> std::same_as<neighborhood_note>;
+    };
+
+/// The vector for the neighbors that a policy finds: in scratch memory, if its `find` takes vectors
+/// with any allocator.
+template <class N>
+using neighbor_buffer =
+    std::conditional_t<requires(const N& policy, const spatial_index& index,
+                                scratch<neighbor>& found) { policy.find(index, 0, found); },
+                       scratch<neighbor>, std::vector<neighbor>>;
+
+/// The neighbors of point i, finite or not, with their note.
+template <indexed_neighborhood N, class Allocator>
+neighborhood_note find_noted(const N& policy, const spatial_index& index, std::size_t i,
+                             std::vector<neighbor, Allocator>& found) {
+    if (index.tree().place_of(i) == leaf_tree::no_place) {
+        found.clear();
+        return notes_neighborhoods<N> ? neighborhood_note{.open = true, .certified = false}
+                                      : neighborhood_note{};
+    }
+    if constexpr (notes_neighborhoods<N>) {
+        return policy.find(index, i, found);
+    } else {
+        policy.find(index, i, found);
+        return {};
+    }
+}
+
+/// Throws what the policy throws for parameters out of range, whatever the points.
+template <class N>
+void require_valid(const N& policy) {
+    if constexpr (requires { policy.require_valid(); }) policy.require_valid();
+}
+
+}  // namespace detail
 }  // namespace gnomon

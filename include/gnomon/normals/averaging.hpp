@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Averaging methods: the normal is the weighted mean of the normals of the triangles that a point
-/// makes with consecutive neighbors.
+/// forms with consecutive neighbors.
 ///
-/// A k-nearest-neighbor ring comes in the order of distance, so that consecutive triangles turn
-/// this way and that, and their normals cancel: the thesis's claim that such rings yield good
-/// results holds only if the triangles are given a common sign. Rings in angular order (`delaunay`,
-/// `sorted_around`) need no such help.
+/// The k nearest neighbors are sorted by distance, so that consecutive triangles have either
+/// orientation and their normals cancel. The thesis states good results for such neighborhoods;
+/// they require a common sign of all triangles (`triangle_sign::to_viewpoint`) or an angular order
+/// of the neighbors (`delaunay`, `angularly_sorted`).
 ///
 /// Klasing 2010, Eqs. (3.9)-(3.11), Tab. 3.2; Gouraud 1971; Jin, Lewis and West 2005.
 #pragma once
@@ -23,23 +23,68 @@
 
 namespace gnomon {
 
-/// What decides about the sign of each triangle's normal.
+/// How the sign of each triangle's normal is chosen.
 enum class triangle_sign : bool {
     from_order,   ///< the order of the two neighbors, as in the thesis
-    to_viewpoint  ///< each normal is turned to the side of the view point first
+    to_viewpoint  ///< every normal is on the side of the view point
 };
 
-/// A weight of the triangle (p, p + a, p + b) whose area is not zero.
-/// @param a, b         offsets of the two neighbors [m]
-/// @param double_area  |a x b| [m^2]
+namespace detail {
+
+/// The weight of a triangle (p, p + a, p + b) whose area is not zero, from the offsets a and b of
+/// the two neighbors [m] and |a x b| [m^2].
 template <class W>
 concept triangle_weight = requires(const W& weight, const Eigen::Vector3d& a, double double_area) {
     { weight(a, a, double_area) } -> std::convertible_to<double>;
 };
 
+/// The same weight for all triangles. Gouraud 1971.
+struct equal_weight {
+    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return 1.0; }
+};
+
+/// The area of the triangle [m^2], Eq. (3.10): the normal is that of the vector area of the fan.
+struct area_weight {
+    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double double_area) const {
+        return 0.5 * double_area;
+    }
+};
+
+/// The angle of the triangle at the point [rad], Eq. (3.11), which is small for sliver triangles.
+struct angle_weight {
+    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double double_area) const {
+        return std::atan2(double_area, dot(a, b));  // acos loses half the digits near 0 and pi
+    }
+};
+
+/// The inverse squared distance of the triangle's centroid from the point [1/m^2]. Chen and Wu
+/// 2004.
+struct centroid_weight {
+    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double) const {
+        const Eigen::Vector3d sum = combined(1.0, a, 1.0, b);
+        return 9.0 / dot(sum, sum);
+    }
+};
+
+/// The area of the triangle divided by the squared distance of its centroid: the gravitation of a
+/// mass there. The thesis names the method without a formula.
+struct gravitational_weight {
+    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                      double double_area) const {
+        const Eigen::Vector3d sum = combined(1.0, a, 1.0, b);
+        return 4.5 * double_area / dot(sum, sum);
+    }
+};
+
 /// Models `ray_estimator` and `cyclic_estimator`. Needs two neighbors. O(k).
 ///
-/// Trust: `degenerate` where all triangles are, or where their normals cancel.
+/// Trust: `degenerate` where all triangles have no area, or where their normals cancel to less than
+/// 1e-12 of their weights (rounding).
+///
+/// @tparam Weight  weight(a, b, double_area) is the weight of the triangle (p, p + a, p + b) whose
+///                 area is not zero: a and b are the offsets of the two neighbors [m], double_area
+///                 is |a x b| [m^2]
 template <triangle_weight Weight>
 struct averaging {
     static constexpr auto sensitive_to = sensitivity::order;
@@ -48,19 +93,19 @@ struct averaging {
     triangle_sign sign = triangle_sign::from_order;
     [[no_unique_address]] Weight weight = {};
 
-    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
                                         const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
-        const std::size_t k = ring.size();
+        const std::size_t k = neighbors.size();
         if (k < 2) return fit;
         const Eigen::Vector3d to_viewpoint = detail::difference(viewpoint, p);
-        // The fan is closed unless it ends at a boundary; of two neighbors there is one triangle.
-        const std::size_t triangles = ring.open() || k == 2 ? k - 1 : k;
+        // The fan is closed unless it ends at a boundary; two neighbors form one triangle.
+        const std::size_t triangles = neighbors.open() || k == 2 ? k - 1 : k;
         Eigen::Vector3d sum(0.0, 0.0, 0.0);
         double weights = 0.0;
         for (std::size_t j = 0; j < triangles; ++j) {
-            const Eigen::Vector3d a = detail::difference(ring[j], p);
-            const Eigen::Vector3d b = detail::difference(ring[j + 1 < k ? j + 1 : 0], p);
+            const Eigen::Vector3d a = detail::difference(neighbors[j], p);
+            const Eigen::Vector3d b = detail::difference(neighbors[j + 1 < k ? j + 1 : 0], p);
             const Eigen::Vector3d c = detail::cross(a, b);
             const double double_area = detail::length(c);
             if (double_area == 0.0) continue;
@@ -88,49 +133,12 @@ struct averaging {
 template <class Weight>
 averaging(triangle_sign, Weight) -> averaging<Weight>;
 
-/// All triangles alike. Gouraud 1971.
-struct equal_weight {
-    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double) const { return 1.0; }
-};
+}  // namespace detail
 
-/// The triangle's area [m^2], Eq. (3.10): the normal is that of the vector area of the fan.
-struct area_weight {
-    double operator()(const Eigen::Vector3d&, const Eigen::Vector3d&, double double_area) const {
-        return 0.5 * double_area;
-    }
-};
-
-/// The angle [rad] at the point, Eq. (3.11), which slivers have little of.
-struct angle_weight {
-    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                      double double_area) const {
-        return std::atan2(double_area,
-                          detail::dot(a, b));  // acos would lose half the digits near 0 and pi
-    }
-};
-
-/// The inverse squared distance [1/m^2] of the triangle's centroid. Chen and Wu 2004.
-struct centroid_weight {
-    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b, double) const {
-        const Eigen::Vector3d sum = detail::combined(1.0, a, 1.0, b);
-        return 9.0 / detail::dot(sum, sum);
-    }
-};
-
-/// The pull of the triangle as a mass at its centroid: area over squared distance. The thesis names
-/// the method and gives no formula; this is what the name says.
-struct gravitational_weight {
-    double operator()(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                      double double_area) const {
-        const Eigen::Vector3d sum = detail::combined(1.0, a, 1.0, b);
-        return 4.5 * double_area / detail::dot(sum, sum);
-    }
-};
-
-using equally_weighted = averaging<equal_weight>;
-using area_weighted = averaging<area_weight>;    ///< Eq. (3.10)
-using angle_weighted = averaging<angle_weight>;  ///< Eq. (3.11)
-using centroid_weighted = averaging<centroid_weight>;
-using gravitationally_weighted = averaging<gravitational_weight>;
+using equally_weighted = detail::averaging<detail::equal_weight>;
+using area_weighted = detail::averaging<detail::area_weight>;    ///< Eq. (3.10)
+using angle_weighted = detail::averaging<detail::angle_weight>;  ///< Eq. (3.11)
+using centroid_weighted = detail::averaging<detail::centroid_weight>;
+using gravitationally_weighted = detail::averaging<detail::gravitational_weight>;
 
 }  // namespace gnomon

@@ -1,237 +1,88 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Normals for all points of a cloud: any neighborhood, any estimator, one loop for all of them.
+/// Normals for all points of a cloud, by any estimator over any neighborhood:
+///
+///     auto surface = gnomon::estimate_normals(scan);                          // knn{.k = 30},
+///     plane_pca{} auto surface = gnomon::estimate_normals(scan, knn{.k = 50}, plane_pca{},
+///     threads{}); auto surface = gnomon::estimate_normals(index, knn{.k = 50}, plane_ekf{});
+///
+/// Klasing 2010, Sec. 3.2.
 #pragma once
 
-#include <algorithm>
-#include <array>
-#include <concepts>
 #include <cstddef>
 #include <functional>
-#include <limits>
-#include <span>
 #include <type_traits>
 #include <utility>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
-#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/normals/detail/ring_gatherer.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/mistaken_call.hpp>
+#include <gnomon/normals/detail/surfel_maker.hpp>
 #include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/surfel.hpp>
 
 namespace gnomon {
-
-/// A surface element: the estimator's own result, and what the neighborhood told besides.
-template <class Estimate>
-struct surfel : Estimate {
-    double mean_distance = 0.0;  ///< rho_bar, mean distance to the neighbors [m], Eq. (4.2)
-    point_index neighbors = 0;   ///< how many there were
-};
-
 namespace detail {
 
-/// Whether an ulp of the coordinates at p exceeds 5 % of the mean distance to the neighbors [m], in
-/// the scalar that the points came in.
-template <class Scalar>
-[[nodiscard]] bool is_coarse(const Eigen::Vector3d& p, double mean_distance) {
-    const double ulp = static_cast<double>(std::numeric_limits<Scalar>::epsilon()) *
-                       std::max({std::abs(p.x()), std::abs(p.y()), std::abs(p.z())});
-    return ulp > 0.05 * mean_distance;
+/// The default neighborhoods, as recommended in docs/normals.md.
+template <class N>
+[[nodiscard]] constexpr N usual_neighborhood() {
+    if constexpr (std::is_same_v<N, knn>)
+        return {.k = 30};
+    else
+        return {};
 }
 
-/// Makes surface elements of the points of a position_view one by one, through one buffer.
-template <estimator E, class Points>
-class surfel_maker {
-  public:
-    surfel_maker(const E& estimate, const Points& points, const viewpoint_table& viewpoints)
-        : estimate_(estimate),
-          points_(points),
-          viewpoints_(viewpoints),
-          gather_(points, "estimate_normals: the graph lists a neighbor of no point") {}
-
-    /// The surface element of point i, whose ring `noted` is.
-    template <class Ring>
-    surfel<estimate_t<E>> operator()(std::size_t i, const noted_ring<Ring>& noted) {
-        const Eigen::Vector3d p = points_[i];
-        surfel<estimate_t<E>> s;
-        if (!is_finite(p)) {
-            s.trust = trust::not_finite;
-            s.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
-            return s;
-        }
-        const ring_view ring = gather_(noted);
-        static_cast<estimate_t<E>&>(s) = checked(i, raw(i, p, ring));
-        s.neighbors = static_cast<point_index>(ring.size());
-        if (!ring.empty()) {
-            for (const Eigen::Vector3d& q : ring) {
-                s.mean_distance += std::sqrt(squared_distance(q, p));
-            }
-            s.mean_distance /= static_cast<double>(ring.size());
-        }
-        if (s.trust == trust::good && (coarse(p, s.mean_distance) || !noted.note.certified))
-            s.trust = trust::weak;
-        return s;
-    }
-
-    /// That of point i from what a sweep has found.
-    surfel<estimate_t<E>> from_sweep(std::size_t i, const auto& found) {
-        found.sort_into(sorted_);
-        return (*this)(i, noted_ring<const std::vector<neighbor>&>{sorted_, {}});
-    }
-
-    /// The same from the estimate for point i, the number of its neighbors and the mean distance to
-    /// them.
-    surfel<estimate_t<E>> finished(std::size_t i, const estimator_result_t<E>& raw,
-                                   std::size_t neighbors, double mean_distance) const {
-        surfel<estimate_t<E>> s;
-        static_cast<estimate_t<E>&>(s) = checked(i, raw);
-        s.neighbors = static_cast<point_index>(neighbors);
-        s.mean_distance = mean_distance;
-        if (s.trust == trust::good && coarse(points_[i], mean_distance)) s.trust = trust::weak;
-        return s;
-    }
-
-  private:
-    static bool coarse(const Eigen::Vector3d& p, double mean_distance) {
-        return is_coarse<typename Points::scalar>(p, mean_distance);
-    }
-
-    /// An estimate for point i, with the promises kept that an estimator may have broken: a usable
-    /// normal has unit length, an unusable one is zero.
-    estimate_t<E> checked(std::size_t i, const estimator_result_t<E>& raw) const {
-        estimate_t<E> e;
-        if constexpr (normal_estimate<estimator_result_t<E>>) {
-            e = raw;
-        } else {
-            e.normal = position(raw);
-            e.trust = trust::good;
-        }
-        if constexpr (ray_estimator<E>) {
-            if (!is_finite(viewpoints_[i])) e.trust = trust::not_finite;
-        }
-        if (usable(e.trust)) {
-            const bool is_unit = std::abs(dot(e.normal, e.normal) - 1.0) <= 1e-15;
-            if (!is_unit) normalise(e);
-        }
-        if (!usable(e.trust)) e.normal = Eigen::Vector3d(0.0, 0.0, 0.0);
-        return e;
-    }
-
-    static void normalise(estimate_t<E>& e) {
-        const double length = e.normal.norm();
-        if (!std::isfinite(length)) e.trust = trust::not_finite;
-        if (length < 1e-150) e.trust = trust::degenerate;
-        if (usable(e.trust)) e.normal /= length;
-    }
-
-    estimator_result_t<E> raw(std::size_t i, const Eigen::Vector3d& p, ring_view ring) const {
-        if constexpr (ray_estimator<E>) {
-            return std::invoke(estimate_, p, ring, viewpoints_[i]);
-        } else {
-            return std::invoke(estimate_, p, ring);
+/// The surface elements of the points of an index, by an indexed neighborhood.
+template <indexed_neighborhood N, estimator E, execution X>
+void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
+                      const N& policy, const E& estimate, const X& run) {
+    require_valid(policy);
+    resize_touched(surface, index.size(), run);
+    if constexpr (sweeping_neighborhood<N>) {
+        if (policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); })) {
+            for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i) {
+                    if (index.is_finite(i)) continue;
+                    surface[i] = {};
+                    surface[i].trust = trust::not_finite;
+                }
+            });
+            return;
         }
     }
-
-    const E& estimate_;
-    const Points& points_;
-    const viewpoint_table& viewpoints_;
-    ring_gatherer<Points> gather_;
-    std::vector<neighbor> sorted_;
-};
-
-/// Visits what a sweep finds and makes surface elements of it, several at once if the estimator
-/// can.
-template <estimator E, class Points>
-class sweep_visitor {
-  public:
-    sweep_visitor(const E& estimate, const Points& points, const viewpoint_table& viewpoints,
-                  std::vector<surfel<estimate_t<E>>>& surface)
-        : estimate_(estimate), make_(estimate, points, viewpoints), surface_(surface) {}
-
-    void operator()(std::size_t i, const auto& found) {
-        if constexpr (batch_estimator<E>) {
-            const auto sums = found.summed();
-            waiting_[count_] = i;
-            moments_[count_] = sums.about_point;
-            mean_distances_[count_] = sums.mean_distance;
-            if (++count_ == batch) finish();
-        } else if constexpr (moment_estimator<E> && !ray_estimator<E>) {
-            const auto sums = found.summed();
-            surface_[i] = make_.finished(i, std::invoke(estimate_, sums.about_point), found.size(),
-                                         sums.mean_distance);
-        } else {
-            surface_[i] = make_.from_sweep(i, found);
-        }
-    }
-
-    /// Called when nothing more comes.
-    void finish() {
-        if constexpr (batch_estimator<E>) {
-            const std::span waiting(moments_.data(), count_);
-            std::invoke(estimate_, waiting, std::span(results_.data(), count_));
-            for (std::size_t w = 0; w < count_; ++w) {
-                surface_[waiting_[w]] =
-                    make_.finished(waiting_[w], results_[w], waiting[w].count, mean_distances_[w]);
-            }
-            count_ = 0;
-        }
-    }
-
-  private:
-    static constexpr std::size_t batch = batch_estimator<E> ? 32 : 0;
-
-    const E& estimate_;
-    surfel_maker<E, Points> make_;
-    std::vector<surfel<estimate_t<E>>>& surface_;
-    std::size_t count_ = 0;
-    std::array<std::size_t, batch> waiting_{};
-    std::array<moments, batch> moments_{};
-    std::array<double, batch> mean_distances_{};
-    std::array<estimator_result_t<E>, batch> results_{};
-};
-
-/// Renews surface[i] for i = index_of(0), ..., index_of(n - 1), from `rings`, stored or found.
-template <execution X, estimator E, class Points>
-void estimate_at(const X& run, std::size_t n, auto&& index_of, const Points& points,
-                 const viewpoint_table& viewpoints, auto&& rings, const E& estimate,
-                 std::vector<surfel<estimate_t<E>>>& surface) {
-    for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-        surfel_maker<E, Points> make(estimate, points, viewpoints);
-        std::vector<neighbor> buffer;
-        for (std::size_t j = begin; j < end; ++j) {
-            const std::size_t i = index_of(j);
-            surface[i] = make(i, rings(i, buffer));
-        }
-    });
+    estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
+                found_neighborhoods(policy, index), estimate, surface);
 }
 
 }  // namespace detail
 
-/// The surface elements of all points, in their order: from a stored graph.
+/// The surface elements of all points, in their order, from a stored graph.
 ///
-/// @param points      any point range of n points; ray estimators ask a scan, or what
-///                    with_viewpoint(s) gives, for its view points and else assume the origin
+/// @param points      any point range of n points, or an index of them; ray estimators ask a scan,
+///                    or what with_viewpoint(s) returns, for its view points and otherwise assume
+///                    the origin
 /// @param graph       the neighbors of each of the n points, indices below n
 /// @param estimate    any estimator
-/// @param run         `sequential{}` or `threads{n}`; the result is the same bytes
+/// @param run         `sequential{}`, `threads{n}` or another execution; the result is the same
+/// bytes
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
-///         neighbor distance (float points far from the origin) or the ring is not certified;
-///         `not_finite` as well where a ray estimator has a view point that is not.
-/// @throws std::invalid_argument  if graph and points differ in size, an index is of no point, or
+///         neighbor distance (float points far from the origin) or the neighborhood is not
+///         certified; `not_finite` as well where a ray estimator has a view point that is not.
+/// @throws std::invalid_argument  if graph and points differ in size, an index is out of range, or
 ///                                the view points are for another number of points
-/// Complexity: one call of the estimator per point. Source: Klasing 2010, Sec. 3.2.
+/// Complexity: one call of the estimator per point.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -239,55 +90,65 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "estimate_normals: the graph is of other points");
+    detail::require(graph.size() == p.size(), "estimate_normals: graph and points differ in size");
     std::vector<surfel<estimate_t<E>>> surface(p.size());
-    detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints_of(points),
-                        detail::stored_rings(graph), estimate, surface);
+    detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+        detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints,
+                            detail::epsilon_of<position_view<R, Proj>>(points),
+                            detail::stored_neighborhoods(graph), estimate, surface);
+    });
     return surface;
 }
 
-/// The same from a neighborhood policy. Nothing is stored if the policy streams: searched and
-/// estimated point by point, or, if it sweeps, many points at once.
-/// @throws std::invalid_argument  if the policy's parameters are out of range, e.g. k = 0
-/// Complexity: one search and one call of the estimator per point.
+/// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
+/// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
+/// to grow.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
-[[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
-                                    const X& run = {}, Proj projection = {})
-    -> std::vector<surfel<estimate_t<E>>> {
-    const position_view<R, Proj> p(points, projection);
+void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
+                           const N& policy, const E& estimate, const X& run = {},
+                           Proj projection = {}) {
     const auto& team = detail::staying(run);
-    if constexpr (sweeping_neighborhood<N, R, Proj>) {
-        auto surface = detail::touched_vector<surfel<estimate_t<E>>>(p.size(), team);
-        const viewpoint_table viewpoints = viewpoints_of(points);
-        const auto make_visitor = [&] {
-            return detail::sweep_visitor(estimate, p, viewpoints, surface);
-        };
-        if (policy.sweep(points, team, projection, make_visitor)) {
-            for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i)
-                    if (!is_finite(p[i])) surface[i].trust = trust::not_finite;
-            });
-            return surface;
-        }
-    }
-    if constexpr (streaming_neighborhood<N, R, Proj>) {
-        const auto search = policy.search(points, projection);
-        std::vector<surfel<estimate_t<E>>> surface(p.size());
-        detail::estimate_at(team, p.size(), std::identity{}, p, viewpoints_of(points),
-                            detail::found_rings(search), estimate, surface);
-        return surface;
+    if constexpr (indexed_neighborhood<N>) {
+        const auto& index = detail::index_of(points, team, projection);
+        detail::estimate_indexed(surface, index, policy, estimate, team);
     } else {
-        return estimate_normals(points, policy(points, team, projection), estimate, team,
-                                projection);
+        surface = estimate_normals(points, policy(points, team, projection), estimate, team,
+                                   std::move(projection));
     }
 }
 
-/// Refused: an estimator is called as e(point, ring) or e(point, ring, viewpoint) and gives a
-/// `normal_estimate` or a bare 3-vector. Without this, compilers would first complain that a policy
-/// is no graph.
+/// The same from a neighborhood policy; an indexed one stores no graph. estimate_normals(points)
+/// takes the 30 nearest neighbors and `plane_pca`.
+/// @throws std::invalid_argument  also if the policy's parameters are out of range, e.g. k = 0
+/// Complexity: one search and one call of the estimator per point, and the index if `points` is
+/// none.
+template <class R, class N = knn, estimator E = plane_pca, execution X = sequential,
+          class Proj = std::identity>
+    requires neighborhood<N, R, Proj>
+[[nodiscard]] auto estimate_normals(const R& points,
+                                    const N& policy = detail::usual_neighborhood<N>(),
+                                    const E& estimate = {}, const X& run = {}, Proj projection = {})
+    -> std::vector<surfel<estimate_t<E>>> {
+    std::vector<surfel<estimate_t<E>>> surface;
+    estimate_normals_into(surface, points, policy, estimate, run, std::move(projection));
+    return surface;
+}
+
+/// Refused, with the remedy in the first line: other points, a number for a neighborhood, arguments
+/// in another order.
+template <class R, class N = knn, class E = plane_pca, class X = sequential,
+          class Proj = std::identity>
+    requires(detail::mistaken_call<R, N, E, Proj>)
+auto estimate_normals(const R&, const N& = {}, const E& = {}, const X& = {}, const Proj& = {}) {
+    (void)detail::explain_mistaken_call<R, N, E, Proj>();
+    return std::vector<surfel<decltype(detail::expected_estimate<N, E>())>>{};
+}
+
+/// Refused: an estimator is called as e(point, neighbors) or e(point, neighbors, viewpoint) and
+/// returns a `normal_estimate` or a bare 3-vector.
 template <class R, class N, class E>
-    requires(!estimator<E>)
+    requires(!estimator<E> && !detail::mistaken_call<R, N, E>)
 void estimate_normals(const R& points, const N& neighborhood, const E& not_an_estimator,
                       const auto&... others) = delete;
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The thesis's measure of a normal's quality against ground truth.
+/// Gamma, the quality of a normal against ground truth: the cosine of its error.
 ///
 /// Klasing 2010, Sec. 3.2.6, Eq. (3.12).
 #pragma once
@@ -19,19 +19,21 @@
 
 namespace gnomon {
 
-/// gamma_i = |<n_i, n^_i>| in [0, 1] for unit vectors, whatever their signs. Eq. (3.12)
+/// gamma_i = |<n_i, n^_i>| of two unit vectors, in [0, 1], without regard to their signs. Eq.
+/// (3.12)
 [[nodiscard]] inline double gamma(const Eigen::Vector3d& n, const Eigen::Vector3d& truth) {
     return std::abs(detail::dot(n, truth));
 }
 
-/// gamma, the mean over all points. A missing normal (the zero vector) counts as 0: a method gains
-/// nothing by giving up.
+/// The mean of gamma over all points. A missing normal (the zero vector) has the gamma 0, so that
+/// no method improves its mean by leaving normals out.
 ///
 /// @param surface  the estimated normals
 /// @param truth    the true unit normals, in the same order
-/// @return NaN for no points
+/// @return the mean, in [0, 1]; NaN for no points
 /// @throws std::invalid_argument  if the two differ in size
-template <normal_range Surface, indexed_range Truth>
+/// Complexity: O(n).
+template <normal_range Surface, detail::indexed_range Truth>
 [[nodiscard]] double mean_gamma(const Surface& surface, const Truth& truth) {
     const auto n = std::ranges::size(surface);
     detail::require(n == std::ranges::size(truth), "mean_gamma: normals and truth differ in size");

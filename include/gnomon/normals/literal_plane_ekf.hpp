@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// PlaneEKF line by line as in the thesis, for the record: the state is a 3-vector of any length,
-/// it starts anywhere, and passing the data again counts them again. Some starts never come round,
-/// and the covariance promises far too much; `plane_ekf` is the filter to use.
+/// PlaneEKF line by line as in the thesis, for comparison: the state is a 3-vector of any length,
+/// the initial state is random, and every further pass counts the same measurements again. From
+/// some initial states it does not converge, and its covariance is far too small: use `plane_ekf`.
 ///
 /// Klasing 2010, Sec. 3.2.7, Alg. 3.2, Eqs. (3.16)-(3.18).
 #pragma once
@@ -26,7 +26,7 @@
 namespace gnomon {
 
 /// Models `ray_estimator`. Needs two neighbors. O(passes k). The covariance is that of the
-/// algorithm, made one of the unit normal.
+/// algorithm, of the state x, transformed to the unit normal x / |x|.
 struct literal_plane_ekf {
     static constexpr auto sensitive_to =
         sensitivity::order | sensitivity::units | sensitivity::axes;
@@ -34,29 +34,39 @@ struct literal_plane_ekf {
     double sigma = 0.015;          ///< standard deviation of the range [m]
     int passes = 5;                ///< over all points
     double prior_variance = 10.0;  ///< Sigma_0 = 10 I
-    std::uint64_t seed = 1;        ///< of the random start x_0
+    std::uint64_t seed = 1;        ///< of the random initial state x_0
 
     /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
     ///                                there is a pass
-    [[nodiscard]] normal_belief operator()(const Eigen::Vector3d& p, ring_view ring,
-                                           const Eigen::Vector3d& viewpoint = {0.0, 0.0,
-                                                                               0.0}) const {
+    [[nodiscard]] normal_belief<> operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
+                                             const Eigen::Vector3d& viewpoint = {0.0, 0.0,
+                                                                                 0.0}) const {
         detail::require_sigma(sigma);
         detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
                         "literal_plane_ekf: needs a pass and a positive prior variance");
-        using namespace detail;  // dot, scaled, ...
-        normal_belief belief;
-        if (ring.size() < 2) return belief;
+        if (neighbors.size() < 2) return {};
+        return belief_of(filtered(p, neighbors, viewpoint));
+    }
 
+  private:
+    struct gaussian_state {
+        Eigen::Vector3d x;
+        Eigen::Matrix3d covariance;
+    };
+
+    /// Alg. 3.2, line by line.
+    [[nodiscard]] gaussian_state filtered(const Eigen::Vector3d& p, neighborhood_view neighbors,
+                                          const Eigen::Vector3d& viewpoint) const {
+        using namespace detail;  // dot, scaled, ...
         random_stream random(seed);
         Eigen::Vector3d x;  // line 1
         for (int a = 0; a < 3; ++a) x[a] = random.gaussian();
         x = scaled(1.0 / length(x), x);
         Eigen::Matrix3d covariance = diagonal(prior_variance, prior_variance, prior_variance);
-        const moments m = moments_about(p, ring);
+        const moments m = moments::about(p, neighbors);
         const Eigen::Vector3d seen = difference(p, viewpoint);
         const Eigen::Vector3d centroid = combined(1.0, seen, 1.0, m.mean_with_point());  // line 2
-        const auto take_in = [&](const Eigen::Vector3d& q) {
+        const auto update = [&](const Eigen::Vector3d& q) {
             const double range = length(q);
             const Eigen::Vector3d u = scaled(1.0 / range, q);                 // line 4
             const double h = range_of_plane(centroid, x, u);                  // line 5
@@ -67,21 +77,25 @@ struct literal_plane_ekf {
             add_outer(covariance, -gain, ph, ph);                           // line 9
         };
         for (int pass = 0; pass < passes; ++pass) {
-            take_in(seen);
-            for (const Eigen::Vector3d& q : ring) take_in(difference(q, viewpoint));
+            update(seen);
+            for (const Eigen::Vector3d& q : neighbors) update(difference(q, viewpoint));
         }
+        return {x, covariance};
+    }
 
-        const double size = length(x);
-        double sum = size;
-        for (int i = 0; i < 9; ++i) sum += covariance.data()[i];
-        belief.trust = std::isfinite(sum) ? trust::degenerate : trust::not_finite;
-        if (!std::isfinite(sum) || size == 0.0) return belief;
-        belief.normal = scaled(1.0 / size, x);
-        const detail::tangent_basis frame(belief.normal);
-        const Eigen::Vector3d c1 = scaled(1.0 / (size * size), product(covariance, frame.b1));
-        const Eigen::Vector3d c2 = scaled(1.0 / (size * size), product(covariance, frame.b2));
-        belief.covariance = frame.in_space(dot(frame.b1, c1), dot(frame.b1, c2), dot(frame.b2, c2));
+    /// The unit normal of a state, with its covariance.
+    static normal_belief<> belief_of(const gaussian_state& state) {
+        normal_belief<> belief;
+        const double size = detail::length(state.x);
+        const bool finite = std::isfinite(size) && detail::all_finite(state.covariance);
+        belief.trust = finite ? trust::degenerate : trust::not_finite;
+        if (!finite || size == 0.0) return belief;
+        belief.normal = detail::direction_of(state.x);
         belief.trust = trust::good;
+        const detail::tangent_basis frame(belief.normal);
+        const auto [p11, p12, p22] = frame.restricted(state.covariance);
+        const double w = 1.0 / (size * size);
+        detail::set_covariance(belief, frame, {w * p11, w * p12, w * p22});
         return belief;
     }
 };

@@ -13,17 +13,19 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon {
@@ -39,39 +41,38 @@ namespace detail {
 
 /// The moments of the first k neighbors about p.
 template <class Points>
-[[nodiscard]] moments moments_of_first(std::size_t k, const std::vector<neighbor>& ring,
+[[nodiscard]] moments moments_of_first(std::size_t k, const std::vector<neighbor>& neighbors,
                                        const Points& points, const Eigen::Vector3d& p) {
     moments m;
-    for (std::size_t l = 0; l < k; ++l) m.add(difference(points[ring[l].index], p));
+    for (std::size_t l = 0; l < k; ++l) m.add(difference(points[neighbors[l].index], p));
     return m;
 }
 
-/// `noise_level` of the points of a position_view in a tree, from neighborhoods up to max_k.
-template <class Points>
-[[nodiscard]] double noise_level_in(const Points& points, const kd_tree& tree, std::size_t max_k) {
+/// `noise_level` of an index, from neighborhoods of up to max_k points.
+[[nodiscard]] inline double noise_level_in(const spatial_index& points, std::size_t max_k) {
     constexpr std::size_t samples = 500;
     constexpr double flat_part = 0.3, clearance = 4.0;
     std::vector<std::size_t> chosen;  // evenly from the finite points
-    const std::size_t step = std::max<std::size_t>(1, tree.size() / samples);
+    const std::size_t step = std::max<std::size_t>(1, points.finite() / samples);
     for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
-        if (is_finite(points[i]) && finite++ % step == 0) chosen.push_back(i);
+        if (points.is_finite(i) && finite++ % step == 0) chosen.push_back(i);
 
     double sigma = 0.0;
-    std::vector<neighbor> ring;
+    std::vector<neighbor> neighbors;
     std::vector<double> spread, radius;
     for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
         spread.clear();
         radius.clear();
         for (const std::size_t i : chosen) {
             const Eigen::Vector3d p = points[i];
-            tree.nearest(p, k, i, ring);
-            if (ring.size() < 3) return 0.0;  // so few points are on one plane
-            const auto n = static_cast<double>(ring.size());
-            const moments m = moments_of_first(ring.size(), ring, points, p);
+            knn{.k = k}.find(points, i, neighbors);
+            if (neighbors.size() < 3) return 0.0;  // at most three points are always coplanar
+            const auto n = static_cast<double>(neighbors.size());
+            const moments m = moments_of_first(neighbors.size(), neighbors, points, p);
             const plane_fit fit = plane_of_least_spread(m.covariance_with_point(), 0.0);
             // k + 1 points, less the three parameters of a plane
             spread.push_back(std::sqrt(fit.spectrum.lambda[2] * (n + 1.0) / (n - 2.0)));
-            radius.push_back(std::sqrt(ring.back().squared_distance));
+            radius.push_back(std::sqrt(neighbors.back().squared_distance));
         }
         if (chosen.empty()) return 0.0;
         sigma = quantile(spread, flat_part);
@@ -83,18 +84,18 @@ template <class Points>
 
 /// The standard deviation of the points across the surface they lie on [m]; 0 for a clean cloud of
 /// flat pieces, and for fewer than four points. One number for all points: of a scanner whose noise
-/// grows with range, it tells the noise of the typical point. Where walls are nearer to each other
-/// than about eight deviations, it reads too much; noise so strong that 256 points do not form a
-/// plane reads too little (25 % too little at 100,000 points with noise of 1.2 % of the cloud's
-/// diagonal).
+/// grows with range, it is the noise of the typical point. It is too large where parallel
+/// surfaces are closer to each other than about eight deviations, and too small for noise so strong
+/// that 256 neighbors are not planar (25 % too little at 100,000 points with noise of 1.2 % of the
+/// cloud's diagonal).
 ///
-/// @param points  any point range [m]; points that are not finite do not count
-/// Complexity: O(n log n) for the index, and 500 neighborhoods.
-template <class R, class Proj = std::identity>
+/// @param points  any point range [m], or an index of it; points that are not finite do not count
+/// Complexity: 500 neighborhoods, and O(n log n) for the index if `points` is none.
+template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] double noise_level(const R& points, Proj projection = {}) {
-    const kd_tree tree(points, projection);
-    return detail::noise_level_in(position_view<R, Proj>(points, std::move(projection)), tree, 255);
+[[nodiscard]] double noise_level(const R& points, const X& run = {}, Proj projection = {}) {
+    const auto& index = detail::index_of(points, run, projection);
+    return detail::noise_level_in(index, 255);
 }
 
 }  // namespace gnomon

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How good are normals whose truth is known? gamma, as in the thesis, and the errors as angles,
-/// which tell apart what gamma calls 0.999.
+/// The quality of normals against ground truth: gamma as in the thesis, and the errors as angles,
+/// which also distinguish results whose gamma rounds to 0.999.
 ///
 /// Klasing 2010, Sec. 3.2.6, Eq. (3.12); the root mean square of unoriented angles is the measure
 /// of Guerrero et al., PCPNet, 2018.
@@ -27,30 +27,32 @@
 
 namespace gnomon {
 
-/// The angle [rad] between two unit normals, whatever their signs, 0 to pi / 2; accurate also where
-/// it is small.
-[[nodiscard]] inline double unoriented_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-    return std::atan2(detail::length(detail::cross(a, b)), std::abs(detail::dot(a, b)));
+/// The angle between two unit normals without regard to their signs, 0 to 90 degrees; accurate also
+/// where it is small.
+[[nodiscard]] inline angle unoriented_angle(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+    return radians(std::atan2(detail::length(detail::cross(a, b)), std::abs(detail::dot(a, b))));
 }
 
-/// The quality of normals over all points with a true one. Angles are without regard to sign. A
-/// missing normal, or one that is not finite, counts as gamma 0 and as a right angle: a method
-/// gains nothing by giving up.
+/// The quality of the normals of all points with a true normal. Angles are without regard to sign.
+/// A missing normal, or one that is not finite, has the gamma 0 and the error of a right angle, so
+/// that no method improves its figures by leaving normals out.
 struct normal_quality {
-    std::size_t points = 0;                                    ///< that have a true normal
+    std::size_t points = 0;  ///< the number of points with a true normal
     double gamma = std::numeric_limits<double>::quiet_NaN();   ///< mean, Eq. (3.12)
-    double usable = std::numeric_limits<double>::quiet_NaN();  ///< the share that has a normal
+    double usable = std::numeric_limits<double>::quiet_NaN();  ///< the part of them with a normal
     angle rms;                                                 ///< root of the mean squared error
-    angle median;  ///< half of the errors are at most this
+    angle median;  ///< 50 % of the errors are at most this
     angle p90;     ///< 90 % of the errors are at most this
     angle p99;     ///< 99 % of the errors are at most this
 };
 
+/// The quality of normals against the true ones.
+///
 /// @param surface  the estimated normals
 /// @param truth    the true unit normals, in the same order; zero or NaN where there is none
 /// @throws std::invalid_argument  if the two differ in size
 /// Complexity: O(n).
-template <normal_range Surface, indexed_range Truth>
+template <normal_range Surface, detail::indexed_range Truth>
 [[nodiscard]] normal_quality quality_of(const Surface& surface, const Truth& truth) {
     detail::require(std::ranges::size(surface) == std::ranges::size(truth),
                     "quality_of: normals and truth differ in size");
@@ -63,7 +65,8 @@ template <normal_range Surface, indexed_range Truth>
         const Eigen::Vector3d expected = *t++;
         if (is_missing(expected) || !is_finite(expected)) continue;
         const bool missing = is_missing(s.normal) || !is_finite(s.normal);
-        errors.push_back(missing ? 0.5 * std::numbers::pi : unoriented_angle(s.normal, expected));
+        errors.push_back(missing ? 0.5 * std::numbers::pi
+                                 : unoriented_angle(s.normal, expected).radians());
         squares += errors.back() * errors.back();
         gammas += missing ? 0.0 : gamma(s.normal, expected);
         usable += !missing;

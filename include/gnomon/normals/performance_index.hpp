@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The thesis's index of a normal estimator: half quality, half speed.
+/// The performance index of a normal estimator: the mean of its quality and its relative speed.
 ///
 /// Klasing 2010, Sec. 3.2.6, Eq. (3.13).
 #pragma once
@@ -10,13 +10,13 @@
 
 namespace gnomon {
 
-/// pi = (gamma + wanted_time / mean_time) / 2: one for perfect normals at the wanted speed, and
-/// more than one for faster ones.
+/// pi = (gamma + wanted_time / mean_time) / 2: one for perfect normals in the wanted time, and
+/// above one in less time.
 ///
 /// @param gamma        mean quality, Eq. (3.12), 0 to 1
 /// @param mean_time    t-bar, per normal
-/// @param wanted_time  t-hat, the bound that the user thinks reasonable, in the same unit; 1 us in
-///                     the thesis
+/// @param wanted_time  t-hat, the time per normal that the application requires, in the same unit;
+///                     1 us in the thesis
 /// @throws std::invalid_argument  unless times are positive and finite and gamma is in [0, 1]
 [[nodiscard]] inline double performance_index(double gamma, double mean_time, double wanted_time) {
     detail::require(mean_time > 0.0 && std::isfinite(mean_time) && wanted_time > 0.0 &&

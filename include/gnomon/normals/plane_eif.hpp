@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The information form of the filter: `ray_ls` with the covariance of its normal. As the inverse
-/// range is linear in m = n/d, all measurements add up to one system, and nothing is iterated.
+/// The extended information filter: `ray_ls` with the covariance of its normal. The inverse range
+/// is linear in m = n/d, so that all measurements add up to one linear system without iteration.
 ///
 /// Klasing 2010, Sec. 3.2.7 names the extended information filter as an extension that "avoids
 /// iterative computations".
@@ -19,30 +19,31 @@
 
 namespace gnomon {
 
-/// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`, whose normal
-/// and trust it gives, but `weak` where the covariance exceeds some 20 degrees.
+/// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`. Normal and
+/// trust are those of `ray_ls`; `weak` as well where the trace of the covariance is above
+/// 0.1 rad^2.
 struct plane_eif {
     double sigma = 0.015;  ///< standard deviation of the range [m]
     ray_ls fit = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite
-    [[nodiscard]] with_covariance_of<ray_fit> operator()(const Eigen::Vector3d& p, ring_view ring,
-                                                         const Eigen::Vector3d& viewpoint = {
-                                                             0.0, 0.0, 0.0}) const {
+    [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
+                                                    neighborhood_view neighbors,
+                                                    const Eigen::Vector3d& viewpoint = {
+                                                        0.0, 0.0, 0.0}) const {
         detail::require_sigma(sigma);
-        with_covariance_of<ray_fit> belief;
-        if (ring.size() < 3) return belief;
-        const detail::ray_regression regression = detail::regression_of(p, ring, viewpoint);
+        normal_belief<ray_fit> belief;
+        if (neighbors.size() < 3) return belief;
+        const detail::ray_regression regression = detail::regression_of(p, neighbors, viewpoint);
         static_cast<ray_fit&>(belief) = detail::plane_seen(regression, fit.min_aspect_ratio);
         if (!usable(belief.trust)) return belief;
-        // n = M / |M|: only the part of M's error across n turns n.
+        // n = M / |M|: only the part of the error of M across n rotates n.
         const detail::tangent_basis frame(belief.normal);
-        const auto& [n, b1, b2] = frame;
         const double scaled_sigma = sigma / detail::length(regression.solution());
-        belief.covariance = frame.in_space(regression.covariance(scaled_sigma, b1, b1),
-                                           regression.covariance(scaled_sigma, b1, b2),
-                                           regression.covariance(scaled_sigma, b2, b2));
-        detail::distrust_if_vague(belief);
+        detail::set_covariance(belief, frame,
+                               {regression.covariance(scaled_sigma, frame.b1, frame.b1),
+                                regression.covariance(scaled_sigma, frame.b1, frame.b2),
+                                regression.covariance(scaled_sigma, frame.b2, frame.b2)});
         return belief;
     }
 };

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a total least squares fit of a plane tells: the direction in which a set of points varies
-/// least, and how it spreads. The result of all estimators that decompose a 3x3 matrix.
+/// The result of a total least squares fit of a plane: its normal, the direction of least variance,
+/// and the variances of the points along all three principal directions. All estimators that
+/// decompose a 3x3 matrix return it.
 #pragma once
 
 #include <algorithm>
@@ -13,30 +14,33 @@
 
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/separated_eigen.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/spectrum.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {
 
-/// A plane fitted to a neighborhood, and how the neighborhood spreads.
+/// The normal of a plane fitted to a neighborhood, and the spectrum of the neighborhood.
 struct plane_fit : normal_fit {
-    gnomon::spectrum spectrum;  ///< of what was fitted [m^2]
+    gnomon::spectrum spectrum;  ///< the variances along the principal directions [m^2]
 
+    /// 3 s_3 / (s_1 + s_2 + s_3), Eq. (3.28): 0 for a plane, 1 for a ball.
     [[nodiscard]] double surface_variation() const { return spectrum.surface_variation(); }
+    /// s_2 / s_1, Eq. (3.19): near 0 for points on one scan line.
     [[nodiscard]] double aspect_ratio() const { return spectrum.aspect_ratio(); }
 };
 
 namespace detail {
 
-/// Eigenvectors err by about 1e-15 / gap: below this gap, relative to the largest eigenvalue, a
-/// normal is noise.
+/// The smallest gap between the two smaller eigenvalues, relative to the largest, that determines a
+/// normal: the rounding error of eigenvectors is about 1e-15 / gap [rad].
 inline constexpr double smallest_gap = 1e-12;
 
-/// The plane across the direction of least spread, from the eigenvectors of a neighborhood's second
-/// moments [m^2]: degenerate where that is not determined, weak under the given aspect ratio.
+/// The plane whose normal is the direction of least variance, from the eigenvectors of the second
+/// moments of a neighborhood [m^2]: degenerate where that direction is not determined, weak below
+/// the given aspect ratio.
 [[nodiscard]] inline plane_fit plane_across(const eigen_decomposition& e, double min_aspect_ratio) {
     plane_fit fit;
     fit.spectrum = gnomon::spectrum(e.values);
@@ -49,9 +53,10 @@ inline constexpr double smallest_gap = 1e-12;
     return fit;
 }
 
-/// The same from the second moments themselves.
-[[nodiscard]] inline plane_fit plane_of_least_spread(const Eigen::Matrix3d& second_moments,
-                                                     double min_aspect_ratio) {
+/// The same plane from the second moments themselves. (Not inline, as estimators call it in several
+/// places: for compile time only.)
+[[nodiscard, gnu::noinline]] inline plane_fit plane_of_least_spread(
+    const Eigen::Matrix3d& second_moments, double min_aspect_ratio) {
     if (has_finite_trace(second_moments))
         return plane_across(symmetric_eigen(second_moments), min_aspect_ratio);
     plane_fit fit;
@@ -59,7 +64,8 @@ inline constexpr double smallest_gap = 1e-12;
     return fit;
 }
 
-/// The same of n matrices, the i-th of which covariance_of(i) gives.
+/// The same planes for n matrices; covariance_of(i) returns matrix i. Decomposes several matrices
+/// at once.
 void planes_of_least_spread(std::size_t n, auto&& covariance_of, double min_aspect_ratio,
                             std::span<plane_fit> fits) {
     for (std::size_t first = 0; first < n; first += pack::size) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// PlanePCA: the normal is the direction in which a point and its neighbors vary least, the total
-/// least squares plane. The method of choice throughout the thesis.
+/// PlanePCA: the normal of the total least squares plane, the direction in which a point and its
+/// neighbors have the least variance. The thesis uses it throughout.
 ///
 /// Klasing, Aspects of 3D Perception, Abstraction, and Interpretation in Autonomous Mobile
 /// Robotics, TUM 2010, Eq. (3.2) and Alg. 3.1; Hoppe et al. 1992.
@@ -21,14 +21,15 @@ namespace gnomon {
 
 /// Models `batch_estimator`. Needs two neighbors. O(k).
 ///
-/// Trust: `weak` where the aspect ratio is under `min_aspect_ratio` (a neighborhood from one scan
-/// line); `degenerate` where the normal is not determined: all points at one place, on one line, or
-/// spread alike in two directions across the largest.
+/// Trust: `weak` where the aspect ratio is below `min_aspect_ratio` (a neighborhood from one scan
+/// line); `degenerate` where the normal is not determined: all points at one position, on one line,
+/// or with equal variances in the two directions of less variance.
 struct plane_pca {
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak, Sec. 3.2.9
 
-    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
-        return (*this)(moments_about(p, ring));
+    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
+                                       neighborhood_view neighbors) const {
+        return (*this)(moments::about(p, neighbors));
     }
 
     /// The fit from the moments of the neighbors about the point.
@@ -38,8 +39,8 @@ struct plane_pca {
                                              min_aspect_ratio);
     }
 
-    /// The fits of many neighborhoods at once, each from its moments. A template, so that only who
-    /// uses it compiles it.
+    /// The fits of many neighborhoods at once, each from its moments. A template, so that it is
+    /// compiled only where it is used.
     template <std::same_as<plane_fit> Fit>
     void operator()(std::span<const moments> m, std::span<Fit> fits) const {
         detail::planes_of_least_spread(

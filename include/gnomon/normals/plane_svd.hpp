@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// PlaneSVD: the plane n . x + d = 0 whose four coefficients, as a unit vector, are most nearly
-/// orthogonal to the points (x, 1).
+/// PlaneSVD: the plane n . x + d = 0 whose coefficients (n, d), of unit length as a 4-vector,
+/// minimize the sum of squares of n . x + d over the points.
 ///
-/// A unit *four*-vector weighs metres against a number, so the result depends on the unit and on
-/// the origin. In the sensor's frame and in metres, as the thesis has it, it leans the normal
-/// towards the line of sight. Under noise along the rays this happens to help, and it is why
-/// PlaneSVD comes out ahead of PlanePCA on simulated scans; it is a prior, not information.
+/// The length of the 4-vector adds coordinates in metres to a number, so that the result depends on
+/// the unit and on the origin. In metres and in the frame of the sensor, as in the thesis, the
+/// normal is biased towards the ray. With noise along the rays this bias reduces the error, which
+/// is why PlaneSVD has smaller errors than PlanePCA on simulated scans.
 ///
-/// Klasing 2010, Eq. (3.1), which forgets the column of ones in the matrix of its text.
+/// Klasing 2010, Eq. (3.1); the matrix in the text there lacks the column of ones.
 #pragma once
 
 #include <cstddef>
@@ -16,9 +16,9 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/jacobi_eigen.hpp>
+#include <gnomon/core/detail/square_array.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/square_array.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -28,21 +28,21 @@ namespace gnomon {
 
 /// Models `ray_estimator`: the origin of its frame is the view point. Needs two neighbors. O(k).
 ///
-/// Trust: `degenerate` where the plane is not determined; more than some 1e5 neighborhood radii
-/// from the view point that is always so.
+/// Trust: `degenerate` where the plane is not determined: always, where the view point is farther
+/// away than some 1e5 radii of the neighborhood.
 struct plane_svd {
     static constexpr auto sensitive_to = sensitivity::units;
 
-    /// Constrains only the normal to unit length, which makes it PlanePCA, anywhere and in any
-    /// unit.
+    /// Constrains the length of n instead of that of (n, d). The result is that of PlanePCA, which
+    /// depends on neither unit nor origin.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
                                         const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
-        if (ring.size() < 2) return {};
-        if (centred) return plane_pca{}(p, ring);
+        if (neighbors.size() < 2) return {};
+        if (centred) return plane_pca{}(p, neighbors);
 
-        square_array<4> m = {};  // [Q+ 1]^T [Q+ 1]
+        detail::square_array<4> m = {};  // [Q+ 1]^T [Q+ 1]
         const auto add = [&m, &viewpoint](const Eigen::Vector3d& q) {
             const double row[4] = {q[0] - viewpoint[0], q[1] - viewpoint[1], q[2] - viewpoint[2],
                                    1.0};
@@ -51,12 +51,12 @@ struct plane_svd {
             }
         };
         add(p);
-        for (const Eigen::Vector3d& q : ring) add(q);
+        for (const Eigen::Vector3d& q : neighbors) add(q);
 
         normal_fit fit;
         fit.trust = trust::not_finite;
         if (!std::isfinite(m[0][0] + m[1][1] + m[2][2])) return fit;
-        const auto e = symmetric_eigen<4>(m);
+        const auto e = detail::jacobi_eigen<4>(m);
         const Eigen::Vector3d n(e.vectors[0][3], e.vectors[1][3], e.vectors[2][3]);
         const double length = detail::length(n);
         fit.trust = trust::degenerate;

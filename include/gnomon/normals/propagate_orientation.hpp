@@ -8,11 +8,11 @@
 /// two sides of a board, with parallel normals, come close. Xie et al. reflect n_j through the
 /// plane that halves the link before they compare, which is right across sharp edges but not for
 /// noise (both reviewed by Koenig and Gumhold 2009). What the two dispute are the parts of the
-/// normals along the link; here only what both accept is compared: the shadows of the normals on
-/// that plane. A link that leaves the tangent planes, such as one through a board, is then weak.
-/// The tree decides alone: a vote of all links between growing clusters, after Jakob et al. 2019,
-/// was tried and helps with much noise, but links through thin boards then outvote the few around
-/// their rims.
+/// normals along the link; here only the components on which both agree are compared: the
+/// projections of the normals onto that plane. A link that leaves the tangent planes, such as one
+/// through a board, is then weak. The tree decides alone: a vote of all links between growing
+/// clusters, after Jakob et al. 2019, was tried and helps with much noise, but links through thin
+/// boards then outvote the few around their rims.
 #pragma once
 
 #include <algorithm>
@@ -41,7 +41,7 @@
 namespace gnomon {
 
 /// How far signs are carried.
-struct orientation_propagation {
+struct propagate_orientation_options {
     /// Links of this strength |c| or less, from 0 to 1, carry no sign: larger values give more
     /// components with fewer wrong signs in each, good where view points decide for each component.
     double min_link = 0.0;
@@ -52,8 +52,8 @@ struct orientation {
     /// The strength of the weakest link between the point and the core of its component, along the
     /// strongest path: 1 if the surface is smooth all the way, about 1/2 beyond a sharp right
     /// angle, 0 if the sign is a guess, as for points without links or normals. For the core, where
-    /// all paths end, that of its own strongest link. It speaks of the sign relative to the core;
-    /// which side the component faces as a whole is for view points to tell.
+    /// all paths end, that of its own strongest link. It refers to the sign relative to the
+    /// core, not to the orientation of the component as a whole.
     std::vector<double> confidence;
     /// Points of one component are oriented alike: numbers from 0, the largest component first, and
     /// -1 for points without normal. `segments(component)` lists the points of each.
@@ -64,8 +64,9 @@ struct orientation {
 namespace detail {
 
 /// c = <n_i, n_j> - <n_i, e> <n_j, e> for the unit vector e from p_i to p_j, from -1 to 1: the
-/// inner product of the shadows on the plane across the link, and the mean of what Hoppe et al. and
-/// Xie et al. compare. Its sign tells whether the normals agree, its absolute value how strongly.
+/// inner product of the projections onto the plane across the link, and the mean of the criteria of
+/// Hoppe et al. and Xie et al. It is positive if the normals agree; its absolute value is the
+/// strength of the link.
 /// The same bytes for (j, i).
 [[nodiscard]] inline double sign_relation(const Eigen::Vector3d& p_i, const Eigen::Vector3d& n_i,
                                           const Eigen::Vector3d& p_j, const Eigen::Vector3d& n_j) {
@@ -89,8 +90,8 @@ namespace detail {
 /// convention, and upwards for a plane. Pass `scan.points` to have a scan face outwards.
 ///
 /// Two sides of a board stay apart as long as the neighbors of most points are on their own side:
-/// choose k such that rings are narrower than the board; where they are not, signs are a lottery
-/// and the confidence gives no warning. Surfaces that touch are one component.
+/// choose k such that neighborhoods are narrower than the board; where they are wider, signs
+/// are unreliable and the confidence does not indicate it. Surfaces that touch are one component.
 ///
 /// @param points   any point range of n points [m]
 /// @param graph    the neighbors of each point; i and j are linked if either lists the other
@@ -99,7 +100,7 @@ namespace detail {
 /// @return confidence and component of each point. A normal that is zero or not finite, and that of
 ///         a point that is not finite, stays as it is, with confidence 0 and component -1.
 /// @throws std::invalid_argument  if points, graph and surface differ in size, the graph lists a
-///                                neighbor of no point, min_link is not from 0 to 1, or a view
+///                                neighbor out of range, min_link is not from 0 to 1, or a view
 ///                                point is not finite; `surface` then is as it was
 /// Neither the signs that the normals had nor the order of the points matter, but for ties.
 /// Complexity: O(n k log(n k)) for k neighbors per point; 16 bytes per neighbor.
@@ -107,13 +108,13 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
           class Proj = std::identity>
     requires point_range<R, Proj> && (!std::is_const_v<Surface>)
 orientation propagate_orientation(const R& points, const G& graph, Surface& surface,
-                                  const orientation_propagation& options = {}, const X& run = {},
-                                  Proj projection = {}) {
+                                  const propagate_orientation_options& options = {},
+                                  const X& run = {}, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     const std::size_t n = p.size();
-    detail::require(graph.size() == n, "propagate_orientation: the graph is of other points");
+    detail::require(graph.size() == n, "propagate_orientation: graph and points differ in size");
     detail::require(std::ranges::size(surface) == n,
-                    "propagate_orientation: the surface is of other points");
+                    "propagate_orientation: surface and points differ in size");
     detail::require(options.min_link >= 0.0 && options.min_link <= 1.0,
                     "propagate_orientation: min_link must be from 0 to 1");
     const auto usable = [&](std::size_t i) {
@@ -124,11 +125,11 @@ orientation propagate_orientation(const R& points, const G& graph, Surface& surf
     std::vector<std::size_t> first(n + 1, 0);
     for (std::size_t i = 0; i < n; ++i) first[i + 1] = first[i] + std::ranges::size(graph[i]);
     std::vector<detail::sign_link> links(first[n]);
-    for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+    detail::for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             detail::sign_link* link = links.data() + first[i];
             for (const point_index j : graph[i]) {
-                detail::require(j < n, "propagate_orientation: a neighbor of no point");
+                detail::require(j < n, "propagate_orientation: a neighbor index is out of range");
                 if (usable(i) && usable(j)) {  // a link to itself joins nothing
                     link->relation =
                         detail::sign_relation(p[i], surface[i].normal, p[j], surface[j].normal);
@@ -165,8 +166,8 @@ template <class R, class N, normal_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires neighborhood<N, R, Proj> && (!std::is_const_v<Surface>)
 orientation propagate_orientation(const R& points, const N& policy, Surface& surface,
-                                  const orientation_propagation& options = {}, const X& run = {},
-                                  Proj projection = {}) {
+                                  const propagate_orientation_options& options = {},
+                                  const X& run = {}, Proj projection = {}) {
     return propagate_orientation(points, policy(points, run, projection), surface, options, run,
                                  projection);
 }

@@ -3,10 +3,11 @@
 /// QuadSVD: a quadric through the neighbors, S(x) = c . (x^2 y^2 z^2 xy xz yz x y z 1) = 0 with
 /// |c| = 1; the normal is its gradient at the point.
 ///
-/// Exact on spheres, cylinders, cones and paraboloids, whatever their curvature. On noisy planes it
-/// is weak: two planes are a quadric, too, so that nothing but noise decides between them.
+/// Exact on spheres, cylinders, cones and paraboloids of any curvature. On noisy planes it is
+/// inaccurate: every pair of planes that contains the plane is a quadric through the points, and
+/// noise determines which of them fits best.
 ///
-/// Klasing 2010, Eq. (3.7), which leaves the gradient to the reader.
+/// Klasing 2010, Eq. (3.7); the gradient is not in the text.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +15,9 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/small_svd.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/small_svd.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -32,19 +33,19 @@ namespace gnomon {
 struct quad_svd {
     static constexpr auto sensitive_to = sensitivity::units | sensitivity::axes;
 
-    /// Puts the origin into the point and makes the mean squared distance to its neighbors one, so
-    /// that neither units nor the view point matter; the thesis does not.
+    /// Moves the origin to the point and scales the mean squared distance to its neighbors to one,
+    /// so that the result depends on neither unit nor view point. The thesis does neither.
     bool centred = false;
 
-    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, ring_view ring,
+    [[nodiscard]] normal_fit operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
                                         const Eigen::Vector3d& viewpoint = {0.0, 0.0, 0.0}) const {
         normal_fit fit;
-        if (ring.size() < 9) return fit;
+        if (neighbors.size() < 9) return fit;
         const Eigen::Vector3d origin = centred ? p : viewpoint;
-        const double scale = centred ? inverse_rms_distance(p, ring) : 1.0;
+        const double scale = centred ? inverse_rms_distance(p, neighbors) : 1.0;
 
-        row_triangle<10> rows;
-        for (const Eigen::Vector3d& q : ring) {
+        detail::row_triangle<10> rows;
+        for (const Eigen::Vector3d& q : neighbors) {
             const double x = scale * (q.x() - origin.x());
             const double y = scale * (q.y() - origin.y());
             const double z = scale * (q.z() - origin.z());
@@ -58,7 +59,7 @@ struct quad_svd {
             fit.trust = trust::not_finite;
             return fit;
         }
-        const auto svd = small_svd<10>(rows.matrix());
+        const auto svd = detail::small_svd<10>(rows.matrix());
 
         const auto c = [&svd](std::size_t i) { return svd.right[i][9]; };
         const double x = scale * (p.x() - origin.x());
@@ -71,7 +72,7 @@ struct quad_svd {
         constexpr double negligible = 1e-12;
         if (svd.values[8] - svd.values[9] <= negligible * svd.values[0] ||
             length <= negligible * (1.0 + std::abs(x) + std::abs(y) + std::abs(z))) {
-            const plane_fit plane = plane_pca{}(p, ring);
+            const plane_fit plane = plane_pca{}(p, neighbors);
             fit.normal = plane.normal;
             fit.trust = usable(plane.trust) ? trust::weak : plane.trust;
             return fit;
@@ -82,10 +83,10 @@ struct quad_svd {
     }
 
   private:
-    static double inverse_rms_distance(const Eigen::Vector3d& p, ring_view ring) {
+    static double inverse_rms_distance(const Eigen::Vector3d& p, neighborhood_view neighbors) {
         double square = 0.0;
-        for (const Eigen::Vector3d& q : ring) square += squared_distance(p, q);
-        return square > 0.0 ? std::sqrt(static_cast<double>(ring.size()) / square) : 1.0;
+        for (const Eigen::Vector3d& q : neighbors) square += squared_distance(p, q);
+        return square > 0.0 ? std::sqrt(static_cast<double>(neighbors.size()) / square) : 1.0;
     }
 };
 

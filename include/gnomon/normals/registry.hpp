@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// All estimators and all graphs with their names, as tuples that tests and benchmarks unfold at
-/// compile time: a new model is entered here, and everything is run on it.
+/// All estimators and all neighborhoods with their names, as tuples that tests and benchmarks
+/// iterate over at compile time. A new model is added here, and every test and benchmark runs on
+/// it.
 ///
 /// Needs Boost.Hana, and is therefore not part of gnomon.hpp.
 #pragma once
@@ -11,11 +12,11 @@
 #include <boost/hana/tuple.hpp>
 
 #include <gnomon/neighborhoods/adaptive_knn.hpp>
+#include <gnomon/neighborhoods/angularly_sorted.hpp>
 #include <gnomon/neighborhoods/delaunay.hpp>
 #include <gnomon/neighborhoods/hybrid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
-#include <gnomon/neighborhoods/sorted_around.hpp>
 #include <gnomon/normals/averaging.hpp>
 #include <gnomon/normals/literal_plane_ekf.hpp>
 #include <gnomon/normals/plane_eif.hpp>
@@ -33,8 +34,9 @@
 #include <gnomon/normals/with_covariance.hpp>
 
 namespace gnomon {
+namespace detail {
 
-/// A policy and what it is called in tables.
+/// A policy and its name in tables.
 template <class Policy>
 struct named {
     const char* name;
@@ -43,14 +45,7 @@ struct named {
 template <class Policy>
 named(const char*, Policy) -> named<Policy>;
 
-/// The seven methods of Tabs. 3.1 and 3.2, in their order and as the thesis has them.
-inline constexpr auto thesis_estimators = boost::hana::make_tuple(
-    named{"plane_svd", plane_svd{}}, named{"plane_pca", plane_pca{}},
-    named{"vector_svd", vector_svd{}}, named{"quad_svd", quad_svd{}},
-    named{"quad_trans_svd", quad_trans_svd{}}, named{"area_weighted", area_weighted{}},
-    named{"angle_weighted", angle_weighted{}});
-
-/// The others that the thesis names or uses, variants of the seven, and what goes beyond it.
+/// Other methods of the thesis, variants of the seven, and methods beyond the thesis.
 inline constexpr auto other_estimators = boost::hana::make_tuple(
     named{"vector_pca", vector_pca{}}, named{"plane_svd centred", plane_svd{.centred = true}},
     named{"quad_svd centred", quad_svd{.centred = true}},
@@ -65,15 +60,26 @@ inline constexpr auto other_estimators = boost::hana::make_tuple(
     named{"weighted_pca", weighted_pca{}}, named{"robust_pca", robust_pca{}},
     named{"ransac_plane", ransac_plane{}}, named{"mlesac_plane", mlesac_plane{}});
 
-/// All estimators.
-inline constexpr auto estimators = boost::hana::concat(thesis_estimators, other_estimators);
+}  // namespace detail
 
-/// All kinds of neighborhood graphs.
+/// The seven methods of Tabs. 3.1 and 3.2, in their order and with the parameters of the thesis.
+inline constexpr auto thesis_estimators = boost::hana::make_tuple(
+    detail::named{"plane_svd", plane_svd{}}, detail::named{"plane_pca", plane_pca{}},
+    detail::named{"vector_svd", vector_svd{}}, detail::named{"quad_svd", quad_svd{}},
+    detail::named{"quad_trans_svd", quad_trans_svd{}},
+    detail::named{"area_weighted", area_weighted{}},
+    detail::named{"angle_weighted", angle_weighted{}});
+
+/// All estimators.
+inline constexpr auto estimators = boost::hana::concat(thesis_estimators, detail::other_estimators);
+
+/// All neighborhoods.
 inline constexpr auto graphs = boost::hana::make_tuple(
-    named{"knn", knn{}}, named{"radius", radius{}}, named{"hybrid", hybrid{}},
-    named{"delaunay", delaunay{}}, named{"sorted_around knn", sorted_around<knn>{}},
-    named{"adaptive_knn isotropic", adaptive_knn<prefer_isotropic>{}},
-    named{"adaptive_knn low entropy", adaptive_knn<prefer_low_entropy>{}},
-    named{"adaptive_knn small error", adaptive_knn<prefer_small_error>{}});
+    detail::named{"knn", knn{}}, detail::named{"radius", radius{}},
+    detail::named{"hybrid", hybrid{}}, detail::named{"delaunay", delaunay{}},
+    detail::named{"angularly_sorted knn", angularly_sorted<knn>{}},
+    detail::named{"adaptive_knn isotropic", adaptive_knn<prefer_isotropic>{}},
+    detail::named{"adaptive_knn low entropy", adaptive_knn<prefer_low_entropy>{}},
+    detail::named{"adaptive_knn small error", adaptive_knn<prefer_small_error>{}});
 
 }  // namespace gnomon

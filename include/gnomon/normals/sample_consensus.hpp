@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Planes by sample consensus: of many planes through three of the points each, the one that most
-/// others agree with, fitted once more to those. For neighborhoods in which outliers abound.
+/// Planes by sample consensus, for neighborhoods with many outliers: among the planes through
+/// random triples of points the one of least cost, refitted to its inliers by total least squares.
 ///
 /// Klasing 2010, Sec. 3.2.6 names both as improvements. RANSAC: Fischler and Bolles 1981; MLESAC:
 /// Torr and Zisserman 2000.
@@ -17,6 +17,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/detail/weighted_moments.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
@@ -27,28 +28,24 @@
 #include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon {
-
-/// Where inliers end, in standard deviations: 99 % of them lie within.
-inline constexpr double inlier_limit = 2.5;
-
 namespace detail {
 
-/// Distances as costs are given them: of one point, in its plane.
+/// The largest distance of an inlier, in standard deviations: 99 % of a normal distribution.
+inline constexpr double inlier_limit = 2.5;
+
+/// An archetype of the distances: those of one point, on its plane.
 struct one_distance {
     void operator()(auto&& visit) const { visit(0.0); }
 };
 
-}  // namespace detail
-
-/// How badly points agree with a plane: cost(sigma, distances), smaller is better, where
-/// distances(visit) calls visit(signed distance [m]) for every point.
+/// The cost of a plane: cost(sigma, distances), where distances(visit) calls visit(signed distance
+/// [m]) for every point.
 template <class C>
-concept consensus_cost =
-    requires(const C& cost, double sigma, const detail::one_distance& distances) {
-        { cost(sigma, distances) } -> std::convertible_to<double>;
-    };
+concept consensus_cost = requires(const C& cost, double sigma, const one_distance& distances) {
+    { cost(sigma, distances) } -> std::convertible_to<double>;
+};
 
-/// RANSAC: the number of points that are not inliers.
+/// RANSAC: the number of outliers.
 struct count_outliers {
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
         double outliers = 0.0;
@@ -57,15 +54,15 @@ struct count_outliers {
     }
 };
 
-/// MLESAC: minus the logarithm of the likelihood of inliers, normally distributed, and outliers,
-/// anywhere within `reach`, in the proportion that fits best.
+/// MLESAC: the negative logarithm of the likelihood of a mixture of inliers, normally distributed,
+/// and outliers, uniformly distributed, with the mixing proportion of maximum likelihood.
 struct mixture_likelihood {
-    double reach = 40.0;   ///< the width over which outliers are spread [sigma]
-    int mixing_steps = 3;  ///< of expectation and maximization, for the proportion
+    double reach = 40.0;   ///< the width of the uniform distribution of outliers [sigma]
+    int mixing_steps = 3;  ///< of expectation maximization, for the proportion
 
     [[nodiscard]] double operator()(double sigma, auto&& distances) const {
-        detail::require(reach > 0.0 && std::isfinite(reach),
-                        "mixture_likelihood: the reach must be positive and finite");
+        require(reach > 0.0 && std::isfinite(reach),
+                "mixture_likelihood: the reach must be positive and finite");
         const double outlier = 1.0 / reach;
         const auto inlier = [sigma](double d) {
             constexpr double height = 0.5 * std::numbers::sqrt2 * std::numbers::inv_sqrtpi;
@@ -88,27 +85,28 @@ struct mixture_likelihood {
     }
 };
 
-/// Models `estimator`. Needs three neighbors. O(trials k).
-///
-/// Trust: that of PlanePCA on the inliers of the best plane.
+/// The method behind `ransac_plane` and `mlesac_plane`.
 template <consensus_cost Cost>
 struct sample_consensus {
     static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
 
-    double sigma = 0.01;     ///< standard deviation of inliers across the plane [m]
-    int trials = 60;         ///< enough for one triple without outliers in 1,000, were half of them
-    std::uint64_t seed = 1;  ///< of the triples, which are the same for every point
+    double sigma = 0.01;  ///< standard deviation of inliers across the plane [m]
+    /// The number of triples; with half of the points outliers, the probability that every triple
+    /// contains one is (1 - 1/8)^60 < 0.001.
+    int trials = 60;
+    std::uint64_t seed = 1;         ///< of the triples; every point uses the same sequence
     double min_aspect_ratio = 0.1;  ///< sigma_ar of the inliers below which the normal is weak
     [[no_unique_address]] Cost cost = {};
 
     /// @throws std::invalid_argument  unless sigma is positive and finite and there is a trial
-    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
-        detail::require_sigma(sigma);
-        detail::require(trials >= 1, "sample_consensus: needs a trial");
-        if (ring.size() < 3) return {};
-        const std::size_t n = ring.size() + 1;
+    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
+                                       neighborhood_view neighbors) const {
+        require_sigma(sigma);
+        require(trials >= 1, "sample_consensus: needs a trial");
+        if (neighbors.size() < 3) return {};
+        const std::size_t n = neighbors.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {
-            return j == 0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : detail::difference(ring[j - 1], p);
+            return j == 0 ? Eigen::Vector3d(0.0, 0.0, 0.0) : difference(neighbors[j - 1], p);
         };
 
         random_stream random(seed);
@@ -118,12 +116,10 @@ struct sample_consensus {
             const Eigen::Vector3d a = offset(random.bits() % n);
             const Eigen::Vector3d b = offset(random.bits() % n);
             const Eigen::Vector3d c = offset(random.bits() % n);
-            const Eigen::Vector3d normal =
-                detail::cross(detail::difference(b, a), detail::difference(c, a));
-            const double length = detail::length(normal);
-            if (!(length > 0.0) || !std::isfinite(length)) continue;  // a line: no plane
-            const plane candidate{detail::scaled(1.0 / length, normal),
-                                  detail::dot(a, normal) / length};
+            const Eigen::Vector3d normal = cross(difference(b, a), difference(c, a));
+            const double size = length(normal);
+            if (!(size > 0.0) || !std::isfinite(size)) continue;  // collinear
+            const plane candidate{scaled(1.0 / size, normal), dot(a, normal) / size};
             const double value = cost(sigma, [&](auto&& visit) {
                 for (std::size_t j = 0; j < n; ++j) visit(candidate.signed_distance(offset(j)));
             });
@@ -135,16 +131,28 @@ struct sample_consensus {
         plane_fit fit;
         fit.trust = trust::degenerate;
         if (least == std::numeric_limits<double>::infinity()) return fit;
-        weighted_moments inliers;
+        detail::weighted_moments inliers;
         for (std::size_t j = 0; j < n; ++j) {
             const Eigen::Vector3d d = offset(j);
             if (std::abs(best.signed_distance(d)) <= inlier_limit * sigma) inliers.add(d, 1.0);
         }
-        return detail::plane_of_least_spread(inliers.covariance(), min_aspect_ratio);
+        return plane_of_least_spread(inliers.covariance(), min_aspect_ratio);
     }
 };
 
-using ransac_plane = sample_consensus<count_outliers>;
-using mlesac_plane = sample_consensus<mixture_likelihood>;
+}  // namespace detail
+
+/// RANSAC: the plane with the most inliers. Models `estimator`. Needs three neighbors. O(trials k).
+///
+/// Parameters: `sigma`, the standard deviation of inliers across the plane [m]; the number of
+/// `trials` and their `seed`; `min_aspect_ratio`, sigma_ar of the inliers below which the normal is
+/// weak.
+///
+/// Trust: that of PlanePCA on the inliers of the best plane.
+using ransac_plane = detail::sample_consensus<detail::count_outliers>;
+
+/// MLESAC: the plane of maximum likelihood; otherwise as `ransac_plane`. Its parameter `cost` is
+/// the mixture of inliers and outliers: `mlesac_plane{.cost = {.reach = 40.0}}`.
+using mlesac_plane = detail::sample_consensus<detail::mixture_likelihood>;
 
 }  // namespace gnomon

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// VectorPCA: PlanePCA without the point itself, so that its own noise does not matter.
+/// VectorPCA: PlanePCA of the neighbors without the point itself, so that the noise of the point
+/// has no effect.
 ///
-/// Klasing 2010, Sec. 3.2.3, where it is found almost identical to PlanePCA.
+/// Klasing 2010, Sec. 3.2.3, where its results are almost identical to those of PlanePCA.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +18,9 @@ namespace gnomon {
 struct vector_pca {
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 
-    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
-        return (*this)(moments_about(p, ring));
+    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
+                                       neighborhood_view neighbors) const {
+        return (*this)(moments::about(p, neighbors));
     }
 
     /// The fit from the moments of the neighbors about the point.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// VectorSVD: the normal is the direction most nearly orthogonal to all vectors from the point to
-/// its neighbors. The plane passes through the point, so its noise enters with full weight.
+/// VectorSVD: the normal minimizes the sum of squared scalar products with the vectors from the
+/// point to its neighbors. The plane passes through the point, whose noise has its full effect.
 ///
 /// Klasing 2010, Eq. (3.6).
 #pragma once
@@ -14,13 +14,14 @@
 
 namespace gnomon {
 
-/// Models `moment_estimator`. Needs two neighbors. O(k). Trust as for `plane_pca`; the spectrum is
-/// that of the vectors, about the point instead of the centroid.
+/// Models `moment_estimator`. Needs two neighbors. O(k). Trust as for `plane_pca`. The spectrum is
+/// that of the second moments about the point instead of the centroid.
 struct vector_svd {
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 
-    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p, ring_view ring) const {
-        return (*this)(moments_about(p, ring));
+    [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
+                                       neighborhood_view neighbors) const {
+        return (*this)(moments::about(p, neighbors));
     }
 
     /// The fit from the moments of the neighbors about the point.

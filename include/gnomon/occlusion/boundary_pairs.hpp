@@ -16,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
@@ -31,13 +32,12 @@ namespace detail {
 
 /// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
 template <class Points>
-[[nodiscard]] std::vector<neighbor> nearest_of(const Points& points,
-                                               std::span<const point_index> some,
-                                               const Eigen::Vector3d& place, std::size_t count) {
-    std::vector<neighbor> nearest;
+[[nodiscard]] scratch<neighbor> nearest_of(const Points& points, std::span<const point_index> some,
+                                           const Eigen::Vector3d& place, std::size_t count) {
+    scratch<neighbor> nearest;
     if (count == 0) return nearest;
     for (const point_index i : some) {
-        require(i < points.size(), "boundary_pairs: an index of no point");
+        require(i < points.size(), "boundary_pairs: an index is out of range");
         const neighbor candidate{squared_distance(points[i], place), i};
         if (nearest.size() == count && !(candidate < nearest.back())) continue;
         if (!is_finite(points[i])) continue;
@@ -52,14 +52,14 @@ template <class Points>
 /// For each of some points, the one of others that is nearest; of finite ones only. In one pass
 /// over these, as they may be many. Precondition: there is a finite one.
 template <class Points>
-[[nodiscard]] std::vector<neighbor> nearest_to_each(const Points& points,
-                                                    std::span<const neighbor> some,
-                                                    std::span<const point_index> others) {
-    std::vector<Eigen::Vector3d> places;
+[[nodiscard]] scratch<neighbor> nearest_to_each(const Points& points,
+                                                std::span<const neighbor> some,
+                                                std::span<const point_index> others) {
+    scratch<Eigen::Vector3d> places;
     for (const neighbor& p : some) places.push_back(points[p.index]);
     constexpr neighbor none{std::numeric_limits<double>::infinity(),
                             std::numeric_limits<point_index>::max()};
-    std::vector<neighbor> nearest(some.size(), none);
+    scratch<neighbor> nearest(some.size(), none);
     for (const point_index i : others) {
         const Eigen::Vector3d other = points[i];
         for (std::size_t k = 0; k < places.size(); ++k) {
@@ -70,7 +70,23 @@ template <class Points>
     return nearest;
 }
 
-}  // namespace detail
+/// Appends the boundary pairs of two segments to `found`; see boundary_pairs.
+template <class Points>
+void append_boundary_pairs(auto& found, const Points& points, std::span<const point_index> first,
+                           std::span<const point_index> second,
+                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids,
+                           std::size_t pairs) {
+    const auto near_second = nearest_of(points, first, centroids.second, pairs / 2);
+    const auto near_first = nearest_of(points, second, centroids.first, pairs / 2);
+    if (near_second.empty() || near_first.empty()) return;
+    const auto across = nearest_to_each(points, near_second, second);
+    for (std::size_t k = 0; k < across.size(); ++k)
+        found.push_back(
+            {near_second[k].index, across[k].index, std::sqrt(across[k].squared_distance)});
+    const auto back = nearest_to_each(points, near_first, first);
+    for (std::size_t k = 0; k < back.size(); ++k)
+        found.push_back({back[k].index, near_first[k].index, std::sqrt(back[k].squared_distance)});
+}
 
 /// The boundary pairs of two segments of some points: half of them from each side.
 ///
@@ -80,23 +96,14 @@ template <class Points>
 /// @param centroids  of both
 /// @param pairs      n_b, as many as are wanted, an even number; fewer if a segment has fewer
 ///                   finite points
-/// @throws std::invalid_argument  for an index of no point
+/// @throws std::invalid_argument  for an index out of range
 /// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
 [[nodiscard]] std::vector<boundary_pair> boundary_pairs(
     const Points& points, std::span<const point_index> first, std::span<const point_index> second,
     const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
-    const auto near_second = detail::nearest_of(points, first, centroids.second, pairs / 2);
-    const auto near_first = detail::nearest_of(points, second, centroids.first, pairs / 2);
     std::vector<boundary_pair> found;
-    if (near_second.empty() || near_first.empty()) return found;
-    const auto across = detail::nearest_to_each(points, near_second, second);
-    for (std::size_t k = 0; k < across.size(); ++k)
-        found.push_back(
-            {near_second[k].index, across[k].index, std::sqrt(across[k].squared_distance)});
-    const auto back = detail::nearest_to_each(points, near_first, first);
-    for (std::size_t k = 0; k < back.size(); ++k)
-        found.push_back({back[k].index, near_first[k].index, std::sqrt(back[k].squared_distance)});
+    append_boundary_pairs(found, points, first, second, centroids, pairs);
     return found;
 }
 
@@ -107,4 +114,5 @@ template <class Points>
     return least;
 }
 
+}  // namespace detail
 }  // namespace gnomon

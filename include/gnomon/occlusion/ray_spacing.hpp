@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How far apart the rays of a cloud are, for who makes range images of clouds whose sensor is not
-/// known.
+/// How far apart the rays of a cloud are, for range images of clouds whose sensor is not known.
 #pragma once
 
 #include <algorithm>
@@ -12,12 +11,12 @@
 #include <functional>
 #include <numbers>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -54,8 +53,8 @@ class rays_of_cloud {
 
     [[nodiscard]] angle spacing() const {
         if (directions_.empty()) return radians(most);
-        std::vector<double> squared;
-        for (std::vector<double>& near : near_seeds(drawn())) {
+        scratch<double> squared;
+        for (scratch<double>& near : near_seeds(drawn())) {
             squared.push_back(reach2);
             if (near.size() <= neighbors) continue;
             std::nth_element(near.begin(), near.begin() + neighbors, near.end());
@@ -76,8 +75,8 @@ class rays_of_cloud {
 
     /// Some of the rays, of different directions, drawn by their numbers: the same in whatever
     /// order the points are stored, which may well be as regular as any other way to draw them.
-    [[nodiscard]] std::vector<std::size_t> drawn() const {
-        std::vector<std::pair<std::uint64_t, std::size_t>> some;
+    [[nodiscard]] scratch<std::size_t> drawn() const {
+        scratch<std::pair<std::uint64_t, std::size_t>> some;
         for (std::size_t r = 0; r < directions_.size(); ++r) {
             const std::uint64_t number = drawn_number(directions_[r]);
             if (some.size() == seed_count && number > some.back().first) continue;
@@ -91,16 +90,15 @@ class rays_of_cloud {
             some.insert(at, {number, r});
             if (some.size() > seed_count) some.pop_back();
         }
-        std::vector<std::size_t> chosen;
+        scratch<std::size_t> chosen;
         for (const auto& s : some) chosen.push_back(s.second);
         return chosen;
     }
 
     /// The squares of the angles [rad^2] from each seed to the rays near it, as chords.
-    [[nodiscard]] std::vector<std::vector<double>> near_seeds(
-        const std::vector<std::size_t>& chosen) const {
+    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen) const {
         constexpr int cubes = 13;  // along a side, with one more at both ends
-        std::vector<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
+        scratch<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
         const auto cube_of = [](const Eigen::Vector3d& d) {
             const auto place = [&d](int a) { return static_cast<int>(d[a] / size + 6.5); };
             return static_cast<std::size_t>((place(0) * cubes + place(1)) * cubes + place(2));
@@ -111,7 +109,7 @@ class rays_of_cloud {
             Eigen::Vector3d direction, origin;
             double apart2;  // [m^2]
         };
-        std::vector<seed> seeds;
+        scratch<seed> seeds;
         for (std::size_t s = 0; s < chosen.size(); ++s) {
             const point_index i = point_[chosen[s]];
             const Eigen::Vector3d origin = viewpoints_[i];
@@ -123,7 +121,7 @@ class rays_of_cloud {
             }
         }
         const bool is_still = viewpoints_.positions().size() <= 1;
-        std::vector<std::vector<double>> near(chosen.size());
+        scratch<scratch<double>> near(chosen.size());
         for (std::size_t r = 0; r < directions_.size(); ++r) {
             const Eigen::Vector3d& d = directions_[r];
             for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
@@ -145,11 +143,9 @@ class rays_of_cloud {
 
     const Points& points_;
     const viewpoint_table& viewpoints_;
-    std::vector<Eigen::Vector3d> directions_;
-    std::vector<point_index> point_;  // of each direction
+    scratch<Eigen::Vector3d> directions_;
+    scratch<point_index> point_;  // of each direction
 };
-
-}  // namespace detail
 
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
 /// 16 nearest rays has for itself, which is no more for three of four rays. From 32 rays, drawn as
@@ -158,8 +154,10 @@ template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    const viewpoint_table viewpoints = viewpoints_of(points);
-    return detail::rays_of_cloud(p, viewpoints).spacing();
+    return with_table_of(points, [&p](const viewpoint_table& viewpoints) {
+        return rays_of_cloud(p, viewpoints).spacing();
+    });
 }
 
+}  // namespace detail
 }  // namespace gnomon

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Before segmentation: find floor and ceiling, set the scan upright, and leave both out. They are
-/// often more than half of an indoor scan and connect everything that stands on them.
-///
-/// Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands open. Here the floor is refitted
-/// to its own band until it rests, so that a tilt of a few degrees is found in rooms of any length.
+/// Finds floor and ceiling, levels the scan, and removes both: they are often more than half of an
+/// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
+/// of the bands open; the floor is refitted to its band until it converges, so that tilts are
+/// found.
 #pragma once
 
 #include <algorithm>
@@ -17,31 +16,32 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/segmentation/detail/height_histogram.hpp>
 
 namespace gnomon {
 
 /// What counts as the floor.
-struct floor_search {
+struct find_floor_options {
     double band = 0.1;  ///< half the height [m] of the band about the plane
 };
 
 /// Where to look for the ceiling, in heights above the floor.
-struct ceiling_search {
+struct find_ceiling_options {
     double min_height = 1.8;  ///< [m]
     double bin = 0.02;        ///< of the histogram of heights [m]
     double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one
 };
 
 /// Which heights above the floor to leave out.
-struct height_bands {
+struct crop_height_options {
     double floor = 0.05;    ///< up to this height [m]
     double ceiling = 0.05;  ///< down to this far below the ceiling [m]
 };
@@ -53,9 +53,8 @@ struct leveling {
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
         Eigen::Vector3d q(0.0, 0.0, lift);
-        for (int i = 0; i < 3; ++i) {
+        for (int i = 0; i < 3; ++i)
             for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
-        }
         return q;
     }
 };
@@ -102,18 +101,19 @@ template <class R, class Proj = std::identity>
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<plane> find_floor(const R& points, const plane& guess = {},
-                                              const floor_search& search = {},
+                                              const find_floor_options& search = {},
                                               Proj projection = {}) {
     detail::require(search.band > 0.0, "find_floor: the band must be positive");
     detail::require_hesse(guess);
     const position_view<R, Proj> p(points, std::move(projection));
     plane floor = guess;
     double band = search.band;
+    detail::scratch<double> distances;
     for (int refit = 0; refit < 50; ++refit) {
         // Moments about a point of the band, so that nothing is lost far from the origin.
         std::optional<Eigen::Vector3d> origin;
         moments m;
-        std::vector<double> distances;
+        distances.clear();
         for (std::size_t i = 0; i < p.size(); ++i) {
             if (!is_finite(p[i])) continue;
             const double d = std::abs(floor.signed_distance(p[i]));
@@ -123,7 +123,7 @@ template <class R, class Proj = std::identity>
             distances.push_back(d);
         }
         if (m.count < 3) return std::nullopt;
-        const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+        const detail::eigen_decomposition e = detail::symmetric_eigen(m.covariance_of_neighbors());
         if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
 
         plane next{detail::column(e.vectors, 2), 0.0};
@@ -134,7 +134,8 @@ template <class R, class Proj = std::identity>
         next.offset = detail::dot(next.normal, centroid);
 
         // Feet of furniture and walls stand in the band: narrow it to three robust standard
-        // deviations of what lies there (1.4826 times the median for a normal distribution).
+        // deviations of the points of the floor (1.4826 times the median for a normal
+        // distribution).
         const auto median = distances.begin() + static_cast<std::ptrdiff_t>(m.count / 2);
         std::nth_element(distances.begin(), median, distances.end());
         const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
@@ -158,7 +159,7 @@ template <class R, class Proj = std::identity>
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
-                                                 const ceiling_search& search = {},
+                                                 const find_ceiling_options& search = {},
                                                  Proj projection = {}) {
     detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
     detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
@@ -210,6 +211,23 @@ template <class R, class Proj = std::identity>
     return level;
 }
 
+namespace detail {
+
+/// crop_height(), over a position_view and in the memory of `kept`.
+void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
+                      std::optional<double> ceiling, const crop_height_options& bands) {
+    require_hesse(floor);
+    kept.clear();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i])) continue;
+        const double height = floor.signed_distance(p[i]);
+        if (height > bands.floor && !(ceiling && height >= *ceiling - bands.ceiling))
+            kept.push_back(static_cast<point_index>(i));
+    }
+}
+
+}  // namespace detail
+
 /// The indices of the points between the bands of floor and ceiling, ascending; see subset_view.
 /// Points that are not finite are left out.
 ///
@@ -218,20 +236,13 @@ template <class R, class Proj = std::identity>
 /// Complexity: O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] std::vector<point_index> between_bands(const R& points, const plane& floor,
-                                                     std::optional<double> ceiling,
-                                                     const height_bands& bands = {},
-                                                     Proj projection = {}) {
-    detail::require_hesse(floor);
-    const position_view<R, Proj> p(points, std::move(projection));
+[[nodiscard]] std::vector<point_index> crop_height(const R& points, const plane& floor,
+                                                   std::optional<double> ceiling,
+                                                   const crop_height_options& bands = {},
+                                                   Proj projection = {}) {
     std::vector<point_index> kept;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
-        const double height = floor.signed_distance(p[i]);
-        if (!(height > bands.floor)) continue;
-        if (ceiling && height >= *ceiling - bands.ceiling) continue;
-        kept.push_back(static_cast<point_index>(i));
-    }
+    detail::crop_height_into(kept, position_view<R, Proj>(points, std::move(projection)), floor,
+                             ceiling, bands);
     return kept;
 }
 

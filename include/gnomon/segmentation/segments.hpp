@@ -12,14 +12,36 @@
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/union_find.hpp>
 
 namespace gnomon {
 
 /// The label of points that belong to no segment.
 inline constexpr std::int32_t unlabeled = -1;
+
+namespace detail {
+
+/// The groups of a labeling, by a counting sort: members[begin[l]] to members[begin[l + 1]] are the
+/// indices of label l, ascending. Labels below 0 have no group. O(n + largest label).
+void group_by_label(std::span<const std::int32_t> labels, auto& begin, auto& members) {
+    const std::int32_t last = labels.empty() ? -1 : *std::max_element(labels.begin(), labels.end());
+    begin.assign(static_cast<std::size_t>(std::max<std::int64_t>(last, -1) + 2), 0);
+    for (const std::int32_t l : labels)
+        if (l >= 0) ++begin[static_cast<std::size_t>(l) + 1];
+    std::partial_sum(begin.begin(), begin.end(), begin.begin());
+    members.resize(begin.back());
+    // Each begin[l] is advanced to the end of its group, which is the begin of the next one.
+    for (std::size_t i = 0; i < labels.size(); ++i)
+        if (labels[i] >= 0)
+            members[begin[static_cast<std::size_t>(labels[i])]++] = static_cast<point_index>(i);
+    std::copy_backward(begin.begin(), begin.end() - 1, begin.end());
+    begin.front() = 0;
+}
+
+}  // namespace detail
 
 /// Disjoint groups of points. Segmentations number them from the largest to the smallest, equal
 /// ones by their smallest point index, so that the result does not depend on threads.
@@ -31,23 +53,19 @@ class segments {
     /// O(n + largest label), in memory too: number labels from 0 on.
     /// @throws std::invalid_argument  for another negative label
     explicit segments(std::vector<std::int32_t> labels) : labels_(std::move(labels)) {
-        std::int32_t last = unlabeled;
-        for (const std::int32_t l : labels_) {
-            detail::require(l >= unlabeled, "segments: a label is neither -1 nor at least 0");
-            last = std::max(last, l);
-        }
-        // Counting sort by label; the points of a group stay in ascending order.
-        begin_.assign(static_cast<std::size_t>(std::int64_t{last} + 2), 0);
-        for (const std::int32_t l : labels_) {
-            if (l != unlabeled) ++begin_[static_cast<std::size_t>(l) + 1];
-        }
-        std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-        members_.resize(begin_.back());
-        std::vector<std::size_t> next(begin_.begin(), begin_.end() - 1);
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] == unlabeled) continue;
-            members_[next[static_cast<std::size_t>(labels_[i])]++] = static_cast<point_index>(i);
-        }
+        require_valid(labels_);
+        detail::group_by_label(labels_, begin_, members_);
+    }
+
+    /// Replaces the groups by those of a labeling of n points, as the constructor, in the memory of
+    /// this object; allocates only to grow. O(n + largest label). Precondition: `labels` does not
+    /// refer to labels() of this object.
+    /// @throws std::invalid_argument  for a negative label that is not `unlabeled`; the groups are
+    ///                                then the same as before
+    void assign(std::span<const std::int32_t> labels) {
+        require_valid(labels);
+        labels_.assign(labels.begin(), labels.end());
+        detail::group_by_label(labels_, begin_, members_);
     }
 
     /// Number of segments.
@@ -58,15 +76,20 @@ class segments {
     [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const& {
         return {members_.data() + begin_[label], members_.data() + begin_[label + 1]};
     }
-    void operator[](std::size_t label) && = delete;  // its points would be gone
+    void operator[](std::size_t label) && = delete;  // its points would be destroyed
 
-    /// The label of each point, `unlabeled` for those of no segment.
+    /// The label of each point: its segment, or `unlabeled`.
     [[nodiscard]] const std::vector<std::int32_t>& labels() const& { return labels_; }
     [[nodiscard]] std::vector<std::int32_t> labels() && { return std::move(labels_); }
 
     friend bool operator==(const segments&, const segments&) = default;
 
   private:
+    static void require_valid(std::span<const std::int32_t> labels) {
+        for (const std::int32_t l : labels)
+            detail::require(l >= unlabeled, "segments: a label is neither -1 nor at least 0");
+    }
+
     std::vector<std::int32_t> labels_;
     std::vector<std::size_t> begin_{0};
     std::vector<point_index> members_;
@@ -74,49 +97,85 @@ class segments {
 
 namespace detail {
 
-/// The segments that have points, renumbered from the largest to the smallest, equal ones by their
-/// smallest point index, with the numbers that they had. O(n + s log s) for s segments. (As a
-/// template, it costs only those who use it the compilation of a sort.)
-[[nodiscard]] std::pair<segments, std::vector<std::size_t>> largest_first(const auto& found) {
-    std::vector<std::size_t> order;
-    for (std::size_t s = 0; s < found.size(); ++s) {
-        if (!found[s].empty()) order.push_back(s);
+/// The groups of a labeling in scratch memory, for algorithms that need them only while they run.
+class label_groups {
+  public:
+    explicit label_groups(std::span<const std::int32_t> labels) {
+        group_by_label(labels, begin_, members_);
     }
-    std::sort(order.begin(), order.end(), [&found](std::size_t a, std::size_t b) {
-        if (found[a].size() != found[b].size()) return found[a].size() > found[b].size();
-        return found[a].front() < found[b].front();
+
+    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+    /// The indices of the points of a label, ascending.
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t label) const {
+        return {members_.data() + begin_[label], members_.data() + begin_[label + 1]};
+    }
+
+  private:
+    scratch<std::size_t> begin_;
+    scratch<point_index> members_;
+};
+
+/// Renumbers labels from the most frequent one to the least frequent one, equally frequent ones by
+/// their smallest point index. O(n + largest label + s log s) for s labels. (A template, so that
+/// only its users compile a sort.)
+/// @return the previous numbers, in the new order
+template <class Labels>
+scratch<std::int32_t> number_by_size(Labels& labels) {
+    struct group {
+        std::size_t size = 0;
+        std::size_t first = 0;  // its smallest point index
+    };
+    scratch<group> groups;
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] < 0) continue;
+        const auto l = static_cast<std::size_t>(labels[i]);
+        if (l >= groups.size()) groups.resize(l + 1);
+        if (groups[l].size++ == 0) groups[l].first = i;
+    }
+    scratch<std::int32_t> order;
+    for (std::size_t l = 0; l < groups.size(); ++l)
+        if (groups[l].size > 0) order.push_back(static_cast<std::int32_t>(l));
+    const auto of = [&groups](std::int32_t l) { return groups[static_cast<std::size_t>(l)]; };
+    std::sort(order.begin(), order.end(), [&of](std::int32_t a, std::int32_t b) {
+        return of(a).size != of(b).size ? of(a).size > of(b).size : of(a).first < of(b).first;
     });
-    std::vector<std::int32_t> labels(found.labels().size(), unlabeled);
-    for (std::size_t s = 0; s < order.size(); ++s) {
-        for (const point_index i : found[order[s]]) labels[i] = static_cast<std::int32_t>(s);
-    }
-    return {segments(std::move(labels)), std::move(order)};
+    scratch<std::int32_t> number(groups.size(), unlabeled);
+    for (std::size_t s = 0; s < order.size(); ++s)
+        number[static_cast<std::size_t>(order[s])] = static_cast<std::int32_t>(s);
+    for (std::int32_t& label : labels)
+        if (label >= 0) label = number[static_cast<std::size_t>(label)];
+    return order;
 }
 
-/// The sets of a partition that have at least `min_points` members, largest first, where counts(i)
-/// tells whether i may be a member at all. O(n log n).
-[[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
-    std::vector<std::size_t> count(sets.size(), 0);
-    for (std::size_t i = 0; i < sets.size(); ++i) {
+/// Labels the sets of a partition that have at least `min_points` members, from the largest to the
+/// smallest, where counts(i) returns whether element i is counted as a member. O(n log n).
+[[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
+                                                   auto&& counts) {
+    scratch<point_index> count(sets.size(), 0);
+    for (std::size_t i = 0; i < sets.size(); ++i)
         if (counts(i)) ++count[sets.find(static_cast<point_index>(i))];
-    }
 
-    std::vector<point_index> roots;
-    for (std::size_t i = 0; i < count.size(); ++i) {
+    scratch<point_index> roots;
+    for (std::size_t i = 0; i < count.size(); ++i)
         if (count[i] > 0 && count[i] >= min_points) roots.push_back(static_cast<point_index>(i));
-    }
-    std::stable_sort(roots.begin(), roots.end(),
-                     [&count](point_index a, point_index b) { return count[a] > count[b]; });
+    std::sort(roots.begin(), roots.end(), [&count](point_index a, point_index b) {
+        return count[a] != count[b] ? count[a] > count[b] : a < b;
+    });
 
-    std::vector<std::int32_t> label_of_root(sets.size(), unlabeled);
-    for (std::size_t r = 0; r < roots.size(); ++r) {
+    scratch<std::int32_t> label_of_root(sets.size(), unlabeled);
+    for (std::size_t r = 0; r < roots.size(); ++r)
         label_of_root[roots[r]] = static_cast<std::int32_t>(r);
-    }
-    std::vector<std::int32_t> labels(sets.size());
-    for (std::size_t i = 0; i < labels.size(); ++i) {
+    scratch<std::int32_t> labels(sets.size());
+    for (std::size_t i = 0; i < labels.size(); ++i)
         labels[i] = label_of_root[sets.find(static_cast<point_index>(i))];
-    }
-    return segments(std::move(labels));
+    return labels;
+}
+
+/// The segments of these sets; see labels_of_sets.
+[[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
+    segments result;
+    result.assign(labels_of_sets(sets, min_points, counts));
+    return result;
 }
 
 }  // namespace detail

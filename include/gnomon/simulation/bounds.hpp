@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How far something reaches: a box along the axes about it.
+/// An axis-aligned bounding box.
 #pragma once
 
 #include <algorithm>
@@ -8,9 +8,10 @@
 
 #include <Eigen/Core>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// From the low to the high corner. Empty, as at first, if a low coordinate exceeds the high one.
+/// An axis-aligned bounding box. It is empty if a low coordinate exceeds the high one, as in a
+/// default-constructed box.
 struct bounds {
     /// [m]
     Eigen::Vector3d low = Eigen::Vector3d::Constant(std::numeric_limits<double>::infinity());
@@ -39,4 +40,4 @@ struct bounds {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

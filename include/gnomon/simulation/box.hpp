@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A box: the block of which furniture is made, and from within a room.
+/// A box. Furniture is made of boxes; seen from inside, a box is a room.
 #pragma once
 
 #include <array>
@@ -19,11 +19,11 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Centered on its frame, along the axes. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z. Rays that
-/// pass it by less than a billionth of its size meet it, so that none falls between boxes that
-/// touch; a ray within the plane of a side is within the box.
+/// An axis-aligned box about the origin of its frame. Surfaces: 0 to 5 for +x, -x, +y, -y, +z, -z.
+/// The box is enlarged by a billionth of its size for rays that miss it, so that no ray passes
+/// between adjacent boxes. A ray within the plane of a side counts as inside.
 struct box {
     double length;  ///< along x [m]
     double width;   ///< along y [m]
@@ -78,7 +78,7 @@ struct box {
     }
 
   private:
-    /// Where a ray is within all three pairs of parallel planes.
+    /// The interval of ranges in which a ray lies between all three pairs of parallel planes.
     struct interval {
         double enter;
         double leave;
@@ -116,4 +116,4 @@ struct box {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

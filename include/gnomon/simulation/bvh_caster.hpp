@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The ray caster that needs nothing else: a bounding volume hierarchy over the shapes of a scene.
-/// Meshes have another one of their own triangles.
+/// The ray caster without dependencies: a bounding volume hierarchy over the shapes of a scene.
+/// Each mesh has a hierarchy of its own over its triangles.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
 /// Models `ray_caster`, in double precision. Where a ray meets two surfaces at the same range, as
-/// at edges, either may be told; always the same.
+/// at edges, either is reported, deterministically.
 class bvh_caster {
   public:
     /// Keeps the shapes of `world`, not the scene. O(n log n).
@@ -44,4 +44,4 @@ class bvh_caster {
     detail::bvh tree_;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

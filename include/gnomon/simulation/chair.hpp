@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Chairs by their measures.
+/// Chairs, given by their dimensions.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// What the back of a chair is made of.
+/// The back of a chair.
 enum class chair_back : char {
     none,     ///< a stool
     solid,    ///< a board
@@ -41,7 +41,7 @@ struct chair {
     bool massive = false;          ///< an armchair: no legs, seat and arms down to the floor
 };
 
-/// A chair of all measures times `scale`.
+/// The chair with all lengths multiplied by `scale`.
 [[nodiscard]] inline chair scaled(chair c, double scale) {
     for (double* measure : {&c.width, &c.depth, &c.seat_height, &c.seat_thickness, &c.leg,
                             &c.back_height, &c.back_thickness, &c.slat_width, &c.rail_height,
@@ -92,10 +92,10 @@ inline void add_back(object_builder& b, const chair& c) {
 
 }  // namespace detail
 
-/// Adds a chair with the parts "seat", "back", "leg 1" to "leg 4", "arm left" and "arm right", as
-/// far as it has them. If a measure is refused, what was added before it stays.
+/// Adds a chair with the parts "seat", "back", "leg 1" to "leg 4", "arm left" and "arm right", if
+/// it has them. If a dimension is invalid, the scene keeps the parts that were added before.
 /// @return the number of the object
-/// @throws std::invalid_argument  if measures are negative, not finite, or do not fit together
+/// @throws std::invalid_argument  if dimensions are negative, not finite, or inconsistent
 inline std::int32_t add(scene& world, std::string name, const chair& c, const pose& at = {}) {
     detail::object_builder b(world, std::move(name), at);
     const double below = c.massive ? 0.0 : c.seat_height - c.seat_thickness;
@@ -129,4 +129,4 @@ inline std::int32_t add(scene& world, std::string name, const chair& c, const po
     return b.object();
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A cone: a lamp shade, a road marker.
+/// A closed cone.
 #pragma once
 
 #include <array>
@@ -12,10 +12,10 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Stands on z = 0 about the z axis with its apex on top, closed. Surfaces: 0 the mantle, 1 the
-/// bottom. Of height 0 it is a disc.
+/// A closed cone about the z axis with its base at z = 0 and its apex above. Surfaces: 0 the
+/// mantle, 1 the bottom. With height 0 it is a disc.
 struct cone {
     double radius;  ///< at the bottom [m]
     double height;  ///< of the apex [m]
@@ -37,4 +37,4 @@ struct cone {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

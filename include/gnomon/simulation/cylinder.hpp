@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A cylinder: a table leg, a bin, a lamp.
+/// A closed cylinder.
 #pragma once
 
 #include <array>
@@ -12,9 +12,10 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Stands on z = 0 about the z axis, closed. Surfaces: 0 the mantle, 1 the bottom, 2 the top.
+/// A closed cylinder about the z axis with its base at z = 0. Surfaces: 0 the mantle, 1 the bottom,
+/// 2 the top.
 struct cylinder {
     double radius;  ///< [m]
     double height;  ///< [m]
@@ -35,4 +36,4 @@ struct cylinder {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

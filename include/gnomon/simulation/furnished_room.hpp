@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Rooms that nobody has drawn: as many as there are seeds, to test on more than one.
+/// Random furnished rooms, one for each seed.
 #pragma once
 
 #include <algorithm>
@@ -18,20 +18,21 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon::scenes {
+namespace gnomon::simulation::scenes {
 
-/// How to furnish.
+/// Options of furnished_room().
 struct room_options {
-    int pieces = 8;  ///< of furniture, fewer if there is no room for them
+    int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
 };
 
 /// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces from furniture_models(),
-/// none within another, turned at random. The sensor stands at a wall, 1.0 to 1.6 m high.
+/// placed without overlap at random positions and angles. The sensor is at a wall, 1.0 to 1.6 m
+/// above the floor.
 /// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
-    detail::require(options.pieces >= 0 && options.pieces <= 1000,
-                    "furnished_room: wants 0 to 1,000 pieces");
+    gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
+                            "furnished_room: requires 0 to 1,000 pieces");
     random_stream random(options.seed);
     const double length = random.uniform(4.0, 6.0);
     const double width = random.uniform(4.0, 6.0);
@@ -43,7 +44,8 @@ struct room_options {
     detail::add_block(world, "cupboard",
                       {{length - 0.55, side, 0.0}, {length, side + 0.9, random.uniform(1.2, 2.1)}});
 
-    // Each piece stands in a circle of its own, off the walls, the sensor and the cupboard.
+    // The circles about the pieces do not overlap each other, the walls, the sensor or the
+    // cupboard.
     struct circle {
         double x;
         double y;
@@ -79,4 +81,4 @@ struct room_options {
     return world;
 }
 
-}  // namespace gnomon::scenes
+}  // namespace gnomon::simulation::scenes

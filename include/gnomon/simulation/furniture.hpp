@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Twelve pieces of furniture to recognise: six chairs and six tables, in the spirit of Klasing
-/// 2010, Fig. 5.3.
+/// Twelve furniture models for recognition: six chairs and six tables, modelled after Klasing 2010,
+/// Fig. 5.3.
 #pragma once
 
 #include <cstdint>
@@ -14,15 +14,15 @@
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/table.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// A piece of furniture with the name of its kind.
+/// A furniture model and its name.
 struct furniture_model {
     std::string name;
     std::variant<chair, table> piece;
 };
 
-/// Adds a model as an object of its name.
+/// Adds a model as an object with the model's name.
 /// @return the number of the object
 inline std::int32_t add(scene& world, const furniture_model& model, const pose& at = {}) {
     return std::visit([&](const auto& piece) { return add(world, model.name, piece, at); },
@@ -31,7 +31,7 @@ inline std::int32_t add(scene& world, const furniture_model& model, const pose& 
 
 namespace detail {
 
-/// The one of Figs. 4.8 and 4.11, 0.75 m wide over its arms.
+/// The armchair of Figs. 4.8 and 4.11, 0.75 m wide including its arms.
 [[nodiscard]] inline chair armchair(double seat_height) {
     return {.width = 0.51,
             .depth = 0.75,
@@ -45,7 +45,7 @@ namespace detail {
 
 }  // namespace detail
 
-/// Six chairs, then six tables.
+/// The twelve models: six chairs, then six tables.
 [[nodiscard]] inline std::vector<furniture_model> furniture_models() {
     return {
         {"kitchen chair", chair{}},
@@ -94,4 +94,4 @@ namespace detail {
     };
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

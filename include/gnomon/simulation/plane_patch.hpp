@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A piece of a plane: a wall, a plate, a sheet of paper.
+/// A rectangle.
 #pragma once
 
 #include <array>
@@ -13,10 +13,10 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// A rectangle in z = 0, centered on its frame, seen from both sides. Rays that pass it by less
-/// than a billionth of its size meet it, so that none slips out between the walls of a room.
+/// A two-sided rectangle in the plane z = 0 about the origin of its frame. Its borders are extended
+/// by a billionth of its size, so that no ray passes between adjacent walls.
 struct plane_patch {
     double length;  ///< along x [m]
     double width;   ///< along y [m]
@@ -50,4 +50,4 @@ struct plane_patch {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Flat faces, as triangles: what shapes without a curve are exactly, and what ray casters for
-/// triangles want to have.
+/// Triangles with surface numbers: the exact representation of a shape with planar faces, and the
+/// input of triangle ray casters.
 #pragma once
 
 #include <array>
@@ -11,22 +11,26 @@
 
 #include <Eigen/Core>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Three vertices by number, in either sense of rotation.
+/// The indices of three vertices, in either orientation.
 using triangle = std::array<std::uint32_t, 3>;
 
-/// Triangles and the number of the surface that each belongs to.
+/// Triangles and, for each of them, the number of its surface.
 struct polyhedron {
     std::vector<Eigen::Vector3d> vertices;  ///< [m]
     std::vector<triangle> triangles;
-    std::vector<std::int32_t> surface_of_triangle;  ///< one for each, or none: all are surface 0
+    std::vector<std::int32_t> surface_of_triangle;  ///< one per triangle; empty: all are surface 0
 };
 
-/// A shape that can say so: s.triangles() is the same surface, numbered alike.
+namespace detail {
+
+/// A shape with planar faces: s.triangles() is the same surface with the same surface numbers.
 template <class S>
 concept flat_shape = requires(const S& s) {
     { s.triangles() } -> std::convertible_to<polyhedron>;
 };
 
-}  // namespace gnomon
+}  // namespace detail
+
+}  // namespace gnomon::simulation

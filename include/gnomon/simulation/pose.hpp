@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Where something is and how it is turned: a rigid motion from its own frame to the world's.
+/// Poses: rigid motions from a local frame to an outer frame.
 #pragma once
 
 #include <Eigen/Core>
@@ -9,35 +9,36 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/point.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// x in the own frame is rotation x + position in the outer one. Frames: x forward, y left, z up.
+/// A rigid motion: the point x of the local frame is rotation * x + position in the outer frame.
+/// Frames: x forward, y left, z up.
 struct pose {
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
 
-    /// A direction of the own frame, in the outer one.
+    /// A direction of the local frame, expressed in the outer frame.
     [[nodiscard]] Eigen::Vector3d direction_out(const Eigen::Vector3d& v) const {
         return {rotation(0, 0) * v.x() + rotation(0, 1) * v.y() + rotation(0, 2) * v.z(),
                 rotation(1, 0) * v.x() + rotation(1, 1) * v.y() + rotation(1, 2) * v.z(),
                 rotation(2, 0) * v.x() + rotation(2, 1) * v.y() + rotation(2, 2) * v.z()};
     }
-    /// A direction of the outer frame, in the own one.
+    /// A direction of the outer frame, expressed in the local frame.
     [[nodiscard]] Eigen::Vector3d direction_in(const Eigen::Vector3d& v) const {
         return {rotation(0, 0) * v.x() + rotation(1, 0) * v.y() + rotation(2, 0) * v.z(),
                 rotation(0, 1) * v.x() + rotation(1, 1) * v.y() + rotation(2, 1) * v.z(),
                 rotation(0, 2) * v.x() + rotation(1, 2) * v.y() + rotation(2, 2) * v.z()};
     }
-    /// A point of the own frame, in the outer one [m].
+    /// A point of the local frame, expressed in the outer frame [m].
     [[nodiscard]] Eigen::Vector3d point_out(const Eigen::Vector3d& p) const {
         return direction_out(p) + position;
     }
-    /// A point of the outer frame, in the own one [m].
+    /// A point of the outer frame, expressed in the local frame [m].
     [[nodiscard]] Eigen::Vector3d point_in(const Eigen::Vector3d& p) const {
         return direction_in(p - position);
     }
 
-    /// `inner`, given in the frame of this pose, in the outer frame.
+    /// The composition of two poses: `inner` is given in the local frame of this pose.
     [[nodiscard]] pose operator*(const pose& inner) const {
         pose result;
         for (int j = 0; j < 3; ++j) {
@@ -50,15 +51,15 @@ struct pose {
     }
 };
 
-/// At (x, y, z) [m], not turned.
+/// The translation to (x, y, z) [m].
 [[nodiscard]] inline pose at(double x, double y, double z) {
     pose result;
     result.position = Eigen::Vector3d(x, y, z);
     return result;
 }
 
-/// Whether a pose is a rigid motion: finite, its axes of unit length, at right angles and
-/// right-handed, all to 1e-9.
+/// Returns whether a pose is a rigid motion: finite, with orthonormal, right-handed axes, to a
+/// tolerance of 1e-9.
 [[nodiscard]] inline bool is_rigid(const pose& p) {
     constexpr double tolerance = 1e-9;
     const auto& m = p.rotation;
@@ -68,7 +69,7 @@ struct pose {
             if (!(std::abs(product - (i == j ? 1.0 : 0.0)) < tolerance)) return false;
         }
     }
-    // Of orthonormal axes the determinant is 1, or -1 if they are mirrored.
+    // The determinant of orthonormal axes is 1, or -1 if they are left-handed.
     const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) +
                                m(0, 1) * (m(1, 2) * m(2, 0) - m(1, 0) * m(2, 2)) +
                                m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
@@ -77,7 +78,7 @@ struct pose {
 
 namespace detail {
 
-/// A right-handed turn in the plane from axis i to axis j.
+/// The right-handed rotation from axis i towards axis j.
 [[nodiscard]] inline pose turn(int i, int j, angle a) {
     pose result;
     result.rotation(i, i) = result.rotation(j, j) = cos(a);
@@ -88,11 +89,11 @@ namespace detail {
 
 }  // namespace detail
 
-/// Turned about x: the left side up.
+/// The rotation about x; positive angles raise the left side.
 [[nodiscard]] inline pose roll(angle a) { return detail::turn(1, 2, a); }
-/// Turned about y: x, what looks forward, down.
+/// The rotation about y; positive angles lower the forward axis x.
 [[nodiscard]] inline pose pitch(angle a) { return detail::turn(2, 0, a); }
-/// Turned about z: to the left.
+/// The rotation about z; positive angles turn to the left.
 [[nodiscard]] inline pose yaw(angle a) { return detail::turn(0, 1, a); }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

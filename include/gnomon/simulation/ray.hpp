@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What light does in this floor: it leaves a place in a direction, and a surface stops it.
+/// Rays and their hits.
 #pragma once
 
 #include <cstdint>
@@ -8,9 +8,9 @@
 
 #include <Eigen/Core>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// All points origin + t direction with 0 < t <= reach.
+/// A ray: the points origin + t * direction with 0 < t <= reach.
 struct ray {
     Eigen::Vector3d origin;                                  ///< [m]
     Eigen::Vector3d direction;                               ///< unit length
@@ -21,11 +21,11 @@ struct ray {
     }
 };
 
-/// Where a ray first meets a surface.
+/// The first intersection of a ray with a surface.
 struct ray_hit {
     double range;            ///< from the ray's origin [m]
     Eigen::Vector3d normal;  ///< unit length, on the side that the ray comes from
-    std::int32_t surface;    ///< number of the surface: of the shape, or of the scene
+    std::int32_t surface;    ///< number of the surface, within the shape or the scene
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

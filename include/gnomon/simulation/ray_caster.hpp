@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What does a ray meet first? The `ray_caster` concept: caster(ray) gives the nearest hit within
-/// the ray's reach, the numbers of surfaces being those of a scene, or nothing. Const and
-/// thread-safe.
+/// The `ray_caster` concept: caster(ray) returns the nearest hit within the ray's reach, with the
+/// surface number of the scene, or nothing. Calls are const and thread-safe.
 ///
-/// Laws, checked in tests/laws/ray_caster_laws.hpp: the answer is that of asking all shapes of the
-/// scene one by one.
+/// Laws, checked in tests/laws/ray_caster_laws.hpp: the result is the nearest of the hits of all
+/// shapes, tested one by one.
 ///
 /// Models: `bvh_caster`; `embree_caster` of gnomon/adapters/embree_caster.hpp.
 #pragma once
@@ -15,12 +14,12 @@
 
 #include <gnomon/simulation/ray.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Whatever finds the first hit of a ray.
+/// A function object that finds the first hit of a ray in a scene.
 template <class C>
 concept ray_caster = requires(const C& caster, const ray& r) {
     { caster(r) } -> std::same_as<std::optional<ray_hit>>;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A 2D laser range finder: one scan line after another, each a fan of beams in the x-y plane of
-/// the sensor, x being its axis of sight.
+/// A 2D laser range finder. A scan line is a fan of beams in the x-y plane of the sensor; x is the
+/// optical axis.
 ///
 /// Klasing 2010, Sec. 2.4.3: a scan of t_s seconds has n = t_s f_s alpha_FoV / alpha_r beams.
 #pragma once
@@ -14,27 +14,28 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// The default is the scanner of the thesis: a UTM-30LX of which 180 degrees are used.
+/// A 2D laser range finder. The default is the scanner of the thesis: a UTM-30LX, restricted to 180
+/// degrees.
 struct scanner {
-    angle field_of_view = degrees(180);  ///< alpha_FoV, about the axis of sight
+    angle field_of_view = degrees(180);  ///< alpha_FoV, about the optical axis
     angle resolution = degrees(0.25);    ///< alpha_r, between beams
     double frequency = 40.0;             ///< f_s, scan lines per second [Hz]
-    double min_range = 0.1;              ///< nothing nearer is seen [m]
-    double max_range = 30.0;             ///< nothing farther is seen [m]
+    double min_range = 0.1;              ///< nearer surfaces give no reading [m]
+    double max_range = 30.0;             ///< farther surfaces give no reading [m]
 
-    /// Beams of a scan line. Precondition: the scanner is valid.
+    /// The number of beams of a scan line. Precondition: the scanner is valid.
     [[nodiscard]] std::size_t beams() const {
         return whole(field_of_view.radians() / resolution.radians());
     }
 
-    /// Scan lines in `seconds`. Precondition: fewer than 2^53.
+    /// The number of scan lines in `seconds`. Precondition: fewer than 2^53.
     [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
 
-    /// The direction of beam j in the sensor's frame: from right to left, as far to one side of the
-    /// axis of sight as to the other. The field of view is cut into parts of the resolution with a
-    /// beam in the middle of each; what does not make a whole part is left to both ends.
+    /// The direction of beam j in the sensor's frame, from right to left and symmetric about the
+    /// optical axis. The field of view is divided into sectors of the width `resolution` with a
+    /// beam in the middle of each; a remainder is split between both ends.
     [[nodiscard]] Eigen::Vector3d direction(std::size_t j) const {
         const double from_middle =
             static_cast<double>(j) + 0.5 - 0.5 * static_cast<double>(beams());
@@ -42,11 +43,11 @@ struct scanner {
         return {cos(a), sin(a), 0.0};
     }
 
-    /// @throws std::invalid_argument  unless 0 < resolution <= field of view <= 360 degrees, which
-    ///                                make 10,000,000 beams at most, the frequency is positive and
+    /// @throws std::invalid_argument  unless 0 < resolution <= field of view <= 360 degrees, with
+    ///                                at most 10,000,000 beams, the frequency is positive and
     ///                                finite, and 0 <= min_range < max_range, which is finite
     void require_valid() const {
-        using detail::require;
+        using gnomon::detail::require;
         require(
             resolution > radians(0) && resolution <= field_of_view && field_of_view <= degrees(360),
             "scanner: needs 0 < resolution <= field of view <= 360 degrees");
@@ -59,13 +60,13 @@ struct scanner {
     }
 
   private:
-    /// What is whole but for rounding counts as whole.
+    /// The largest integer not above x, with a tolerance of 1e-6 for rounding.
     static std::size_t whole(double x) { return static_cast<std::size_t>(std::floor(x + 1e-6)); }
 };
 
-/// Range finders of the thesis, by their data sheets. The standard deviations that those give hold
-/// for bright surfaces: 5 mm (LMS-200), 3 to 10 mm (LMS-400), 1 % of the range or 10 mm (URG-04LX),
-/// 10 to 30 mm (UTM-30LX); set them in the beam.
+/// The range finders of the thesis, with the figures of their data sheets. The data sheets give
+/// these standard deviations for bright surfaces: 5 mm (LMS-200), 3 to 10 mm (LMS-400), 1 % of the
+/// range or 10 mm (URG-04LX), 10 to 30 mm (UTM-30LX). They are set in the beam.
 namespace scanners {
 
 /// SICK LMS-200 at half a degree.
@@ -86,7 +87,7 @@ namespace scanners {
             .max_range = 3.0};
 }
 
-/// Hokuyo URG-04LX: 1,024 steps a turn.
+/// Hokuyo URG-04LX: 1,024 steps per revolution.
 [[nodiscard]] inline scanner hokuyo_urg_04lx() {
     return {.field_of_view = degrees(240),
             .resolution = degrees(360.0 / 1024.0),
@@ -115,4 +116,4 @@ namespace densities {
 
 }  // namespace densities
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A world to scan: shapes in their places, and what they are. Shapes have surfaces ("+z"), make up
-/// parts ("seat"), and parts make up objects ("chair 2"); all of them have numbers, which the
-/// ground truth of a scan speaks of, and names.
+/// Scenes: placed shapes with a hierarchy of names. An object ("chair 2") consists of parts
+/// ("seat"), a part of shapes, and a shape has surfaces ("+z"). Objects, parts and surfaces have
+/// numbers, which the ground truth of a scan uses, and names.
 #pragma once
 
 #include <cstddef>
@@ -25,14 +25,14 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// A number of an object, a part or a surface that is none.
+/// The number of an object, part or surface that does not exist.
 inline constexpr std::int32_t nothing = -1;
 
 /// A surface of a scene.
 struct scene_surface {
-    std::string name;   ///< as its shape calls it
+    std::string name;   ///< given by its shape
     std::int32_t part;  ///< that it belongs to
 };
 
@@ -44,7 +44,7 @@ struct scene_part {
 
 namespace detail {
 
-/// A shape of any kind.
+/// A type-erased shape.
 class any_shape {
   public:
     any_shape() = default;
@@ -53,7 +53,7 @@ class any_shape {
     virtual ~any_shape() = default;
 
     [[nodiscard]] virtual std::optional<ray_hit> first_hit(const ray& r) const = 0;
-    /// The shape as triangles, if it is one of flat faces.
+    /// The triangles of the shape, if its faces are planar.
     [[nodiscard]] virtual std::optional<polyhedron> triangles() const = 0;
 };
 
@@ -66,7 +66,7 @@ class any_shape_of final : public any_shape {
         return shape_.first_hit(r);
     }
     [[nodiscard]] std::optional<polyhedron> triangles() const override {
-        if constexpr (flat_shape<S>)
+        if constexpr (detail::flat_shape<S>)
             return shape_.triangles();
         else
             return std::nullopt;
@@ -78,14 +78,14 @@ class any_shape_of final : public any_shape {
 
 }  // namespace detail
 
-/// A shape in its place.
+/// A shape and its pose in a scene.
 struct placed_shape {
     std::shared_ptr<const detail::any_shape> shape;
-    gnomon::pose pose;
+    gnomon::simulation::pose pose;
     bounds extent;               ///< in the scene's frame
-    std::int32_t first_surface;  ///< its surfaces have this number and the ones that follow
+    std::int32_t first_surface;  ///< number of its surface 0; the others follow
 
-    /// In the scene's frame and numbers.
+    /// The first hit, in the scene's frame and with the scene's surface numbers.
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
         auto hit =
             shape->first_hit({pose.point_in(r.origin), pose.direction_in(r.direction), r.reach});
@@ -97,10 +97,10 @@ struct placed_shape {
     }
 };
 
-/// Objects of parts of shapes. Copies share the shapes.
+/// A scene: objects, their parts and the shapes of these. Copies share the shapes.
 class scene {
   public:
-    /// Where a sensor should stand to see the scene: in the origin, level, unless it is told.
+    /// The recommended sensor pose. By default the origin, level.
     pose sensor;
 
     /// A new object.
@@ -110,7 +110,7 @@ class scene {
         return static_cast<std::int32_t>(objects_.size() - 1);
     }
 
-    /// A new object of one part, "body", of one shape.
+    /// Adds an object with one part, "body", of one shape.
     /// @return the number of its first surface
     /// @throws std::invalid_argument  as add() does
     template <shape S>
@@ -118,25 +118,25 @@ class scene {
         return add(add_part(add_object(std::move(name)), "body"), std::move(shape), at);
     }
 
-    /// A new part of an object.
+    /// Adds a part to an object.
     /// @return its number, unique in the scene
     /// @throws std::invalid_argument  if there is no such object
     std::int32_t add_part(std::int32_t object, std::string name) {
-        detail::require(object >= 0 && static_cast<std::size_t>(object) < objects_.size(),
-                        "scene: a part of a missing object");
+        gnomon::detail::require(object >= 0 && static_cast<std::size_t>(object) < objects_.size(),
+                                "scene: a part of a missing object");
         parts_.push_back({std::move(name), object});
         return static_cast<std::int32_t>(parts_.size() - 1);
     }
 
-    /// A shape that belongs to a part.
+    /// Adds a shape to a part.
     /// @return the number of its first surface
     /// @throws std::invalid_argument  if there is no such part; if the shape's size is negative or
     ///                                not finite, or its pose no rigid motion
     template <shape S>
     std::int32_t add(std::int32_t part, S shape, const pose& at = {}) {
-        detail::require(part >= 0 && static_cast<std::size_t>(part) < parts_.size(),
-                        "scene: a shape of a missing part");
-        detail::require(is_rigid(at), "scene: a pose must be a rigid motion");
+        gnomon::detail::require(part >= 0 && static_cast<std::size_t>(part) < parts_.size(),
+                                "scene: a shape of a missing part");
+        gnomon::detail::require(is_rigid(at), "scene: a pose must be a rigid motion");
         const bounds extent = placed(shape.extent(), at);
         const auto first = static_cast<std::int32_t>(surfaces_.size());
         for (const auto& name : shape.surface_names())
@@ -151,22 +151,22 @@ class scene {
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
     [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
 
-    /// Bounds about all shapes [m]; empty without any. O(shapes).
+    /// The bounds of all shapes [m]; empty if there are none. O(shapes).
     [[nodiscard]] bounds extent() const {
         bounds all;
         for (const placed_shape& s : shapes_) all.extend(s.extent);
         return all;
     }
 
-    /// The whole name of a surface, "chair 2/seat/+z".
-    /// Precondition: there is one of this number.
+    /// The full name of a surface, such as "chair 2/seat/+z". Precondition: the surface exists.
     [[nodiscard]] std::string surface_name(std::int32_t surface) const {
         const scene_surface& s = surfaces_[static_cast<std::size_t>(surface)];
         const scene_part& p = parts_[static_cast<std::size_t>(s.part)];
         return objects_[static_cast<std::size_t>(p.object)] + "/" + p.name + "/" + s.name;
     }
 
-    /// The number of the first surface of this whole name; `nothing` if there is none. O(surfaces).
+    /// The number of the first surface with this full name; `nothing` if there is none.
+    /// O(surfaces).
     [[nodiscard]] std::int32_t find_surface(std::string_view whole_name) const {
         for (std::size_t i = 0; i < surfaces_.size(); ++i) {
             const auto number = static_cast<std::int32_t>(i);
@@ -176,9 +176,9 @@ class scene {
     }
 
   private:
-    /// Bounds about turned and moved ones.
+    /// The axis-aligned bounds of transformed bounds.
     static bounds placed(const bounds& own, const pose& at) {
-        using detail::require;
+        using gnomon::detail::require;
         bounds result;
         for (int i = 0; i < 3; ++i) {
             require(own.low[i] <= own.high[i],
@@ -189,7 +189,7 @@ class scene {
                 middle += at.rotation(i, j) * 0.5 * (own.low[j] + own.high[j]);
                 reach += std::abs(at.rotation(i, j)) * 0.5 * (own.high[j] - own.low[j]);
             }
-            // What rounding may have cut off.
+            // A margin for rounding.
             reach += 1e-12 * (std::abs(middle) + reach);
             result.low[i] = middle - reach;
             result.high[i] = middle + reach;
@@ -205,4 +205,4 @@ class scene {
     std::vector<placed_shape> shapes_;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

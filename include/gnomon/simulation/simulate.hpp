@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Scans a scene: the range finder goes along its trajectory, each beam is a ray, each ray a
-/// reading, each reading a point (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene: the range finder moves along its trajectory, and each beam gives
+/// a reading, each valid reading a point (Klasing 2010, Sec. 2.4.3).
 #pragma once
 
 #include <cstddef>
@@ -28,27 +28,27 @@
 #include <gnomon/simulation/trajectory.hpp>
 #include <gnomon/simulation/true_scan.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
 namespace detail {
 
-/// A reading that becomes a point, and the number of its ray.
+/// A reading that is kept as a point, and the number of its ray.
 template <ray_caster C>
 struct numbered_reading {
     std::size_t ray;
     typename instrument<C>::reading reading;
 };
 
-/// The readings of `rays` rays that are kept, chunk by chunk in order of the rays: ray_of(i) is
-/// number i. Memory grows with the readings kept, not with the rays.
+/// The kept readings of the rays ray_of(0) to ray_of(rays - 1), in chunks in the order of the rays.
+/// Memory is proportional to the kept readings, not to the rays.
 template <ray_caster C, execution X>
 [[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(const instrument<C>& read,
                                                                       const beam& b,
                                                                       std::size_t rays,
                                                                       auto&& ray_of, const X& run) {
-    std::vector<std::vector<numbered_reading<C>>> chunks(chunk_count(rays));
-    for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
-        auto& kept = chunks[begin / chunk_size];
+    std::vector<std::vector<numbered_reading<C>>> chunks(gnomon::detail::chunk_count(rays));
+    gnomon::detail::for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
+        auto& kept = chunks[begin / gnomon::detail::chunk_size];
         for (std::size_t i = begin; i < end; ++i) {
             auto reading = read(ray_of(i), random_stream(b.seed, i));
             if (reading.kind != echo::none || b.keep_failed) kept.push_back({i, reading});
@@ -58,7 +58,7 @@ template <ray_caster C, execution X>
     return chunks;
 }
 
-/// The points of the readings, and the truth about them.
+/// The points of the readings and their ground truth.
 /// @throws std::invalid_argument  for a hit on a surface that `world` does not have
 [[nodiscard]] true_scan points_of(const auto& chunks, const scene& world, auto&& ray_of) {
     std::size_t n = 0;
@@ -87,8 +87,9 @@ template <ray_caster C, execution X>
                 normal = reading.hit->normal;
                 range = reading.hit->range;
                 surface = reading.hit->surface;
-                require(surface >= 0 && static_cast<std::size_t>(surface) < world.surfaces().size(),
-                        "simulate: the caster is of another scene");
+                gnomon::detail::require(
+                    surface >= 0 && static_cast<std::size_t>(surface) < world.surfaces().size(),
+                    "simulate: the caster is of another scene");
                 part = world.surfaces()[static_cast<std::size_t>(surface)].part;
                 object = world.parts()[static_cast<std::size_t>(part)].object;
             }
@@ -104,32 +105,32 @@ template <ray_caster C, execution X>
 
 }  // namespace detail
 
-/// A scan of a scene, scan line by scan line, by a caster of your choice.
+/// Simulates a scan, scan line by scan line, with the given ray caster.
 ///
 /// The same seed gives the same bytes for every execution.
 /// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint; memory
-/// for the points, not for rays that meet nothing.
+/// is proportional to the points, not to the rays.
 ///
-/// @param world   names the truth. Precondition: it is what `caster` was made of
+/// @param world   source of the ground truth. Precondition: `caster` was built from it
 /// @param finder  gives n = lines(duration) * beams() rays
-/// @return the points of all readings that did not fail, and of those that did if the beam says
-///         keep_failed; view points one for all, or one per scan line if the sensor moves
+/// @return the points of all readings that did not fail, with keep_failed also of those that did;
+///         one view point for all points, or one per scan line if the sensor moves
 /// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
 ///                                finite, there are more rays than a point range may hold, a pose
-///                                of the trajectory is no rigid motion, or the caster tells of a
-///                                surface that `world` does not have
+///                                of the trajectory is no rigid motion, or the caster reports
+///                                a surface that `world` does not have
 template <ray_caster C, sensor_trajectory T, execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
                                  const scanner& finder = {}, const beam& b = {},
                                  const X& run = {}) {
     finder.require_valid();
     const double duration = trajectory.duration;
-    detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
-                    "simulate: the duration must be finite and not negative");
+    gnomon::detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
+                            "simulate: the duration must be finite and not negative");
     const std::size_t beams = finder.beams();
     const std::size_t lines = finder.lines(duration);
-    detail::require(lines < std::numeric_limits<point_index>::max() / beams,
-                    "simulate: more rays than a point range may hold");
+    gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / beams,
+                            "simulate: more rays than a point range may hold");
     const detail::instrument<C> read(caster, b, finder.min_range, finder.max_range);
 
     std::vector<pose> poses;
@@ -137,8 +138,8 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
     bool moves = false;
     for (std::size_t line = 0; line < lines; ++line) {
         poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
-        detail::require(is_rigid(poses.back()),
-                        "simulate: a pose of the trajectory is no rigid motion");
+        gnomon::detail::require(is_rigid(poses.back()),
+                                "simulate: a pose of the trajectory is no rigid motion");
         viewpoints.push_back(poses.back().position);
         moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
     }
@@ -165,7 +166,7 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
     return result;
 }
 
-/// The same by a `bvh_caster`.
+/// Simulates a scan, as above, with a `bvh_caster`.
 template <sensor_trajectory T, execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const T& trajectory,
                                  const scanner& finder = {}, const beam& b = {},
@@ -173,4 +174,4 @@ template <sensor_trajectory T, execution X = sequential>
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

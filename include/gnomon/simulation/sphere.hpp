@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A sphere: the shape whose normals and curvature everybody knows.
+/// A sphere.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Centered on its frame; one surface.
+/// A sphere about the origin of its frame; one surface.
 struct sphere {
     double radius;  ///< [m]
 
@@ -35,4 +35,4 @@ struct sphere {
     }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

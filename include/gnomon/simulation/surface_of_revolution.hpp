@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a potter's wheel makes: a profile turned about the z axis, smooth or with straight pieces.
+/// Surfaces of revolution: a profile rotated about the z axis, interpolated smoothly or piecewise
+/// linearly.
 ///
-/// The squared radius of the smooth profile is a quadratic spline of the height that keeps the rise
-/// and fall of its points (Schumaker 1983, with the slopes of Butland 1980: the harmonic means of
-/// the neighboring secants, at most twice the smaller one). So its pieces are quadrics, and rays
-/// meet them as exactly as they meet a sphere.
+/// The squared radius of the smooth profile is a monotonicity-preserving quadratic spline of the
+/// height (Schumaker 1983, with the slopes of Butland 1980: the harmonic means of the adjacent
+/// secants, at most twice the smaller one). Its pieces are quadrics, so that the intersection with
+/// a ray has a closed form.
 #pragma once
 
 #include <algorithm>
@@ -22,7 +23,7 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
 /// A point of a profile.
 struct profile_point {
@@ -30,27 +31,28 @@ struct profile_point {
     double height;  ///< [m]
 };
 
-/// How the points of a profile are joined, and which ends are closed.
+/// The interpolation of a profile, and which of its ends are closed.
 struct revolution_options {
     bool smooth = true;  ///< else by straight lines
     bool bottom = true;  ///< a disc at the first point
     bool top = false;    ///< a disc at the last point
 };
 
-/// Surfaces: 0 the mantle, 1 the bottom, 2 the top.
+/// A profile rotated about the z axis. Surfaces: 0 the mantle, 1 the bottom, 2 the top.
 class surface_of_revolution {
   public:
     /// @throws std::invalid_argument  unless there are two points or more, all finite, with radii
     ///                                that are not negative and heights that grow
     explicit surface_of_revolution(const std::vector<profile_point>& profile,
                                    const revolution_options& options = {}) {
-        detail::require(profile.size() >= 2, "surface_of_revolution: needs two points or more");
+        gnomon::detail::require(profile.size() >= 2,
+                                "surface_of_revolution: needs two points or more");
         for (std::size_t i = 0; i < profile.size(); ++i) {
-            detail::require(profile[i].radius >= 0.0 && std::isfinite(profile[i].radius),
-                            "surface_of_revolution: radii must be finite and not negative");
-            detail::require(std::isfinite(profile[i].height) &&
-                                (i == 0 || profile[i].height > profile[i - 1].height),
-                            "surface_of_revolution: heights must be finite and grow");
+            gnomon::detail::require(profile[i].radius >= 0.0 && std::isfinite(profile[i].radius),
+                                    "surface_of_revolution: radii must be finite and not negative");
+            gnomon::detail::require(std::isfinite(profile[i].height) &&
+                                        (i == 0 || profile[i].height > profile[i - 1].height),
+                                    "surface_of_revolution: heights must be finite and grow");
             widest_ = std::max(widest_, profile[i].radius);
         }
         if (options.bottom) discs_.bottom = profile.front().radius * profile.front().radius;
@@ -79,8 +81,8 @@ class surface_of_revolution {
     }
 
   private:
-    /// From `low` to `high` a squared radius that begins with `value` and `slope` and ends with
-    /// `last_slope`, heights being the profile's. Returns its last value.
+    /// Appends an arc between the profile heights `from` and `to`: the squared radius begins with
+    /// `value` and `slope` and ends with `last_slope`. Returns its last value.
     double append(double from, double to, double value, double slope, double last_slope) {
         const double low = from - base_;
         const double high = to - base_;
@@ -120,19 +122,19 @@ class surface_of_revolution {
             const auto [r, low] = profile[i];
             const double high = profile[i + 1].height;
             const double middle = 0.5 * (low + high);
-            // The slope half way that makes both halves end at the next point.
+            // The slope at the middle for which the second half ends at the next point.
             const double half_way = 2.0 * secants[i] - 0.5 * (slopes[i] + slopes[i + 1]);
             const double value = append(low, middle, r * r, slopes[i], half_way);
             append(middle, high, value, half_way, slopes[i + 1]);
         }
     }
 
-    /// Of the profile's first point. The arcs count their heights from here: in powers of a height
-    /// far from 0 they would cancel.
+    /// Height of the profile's first point. The arcs' heights are relative to it: polynomials in a
+    /// height far from 0 would suffer cancellation.
     double base_ = 0.0;
     std::vector<detail::revolved_arc> arcs_;  // lowest first
     detail::end_discs discs_;
     double widest_ = 0.0;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Tables by their measures.
+/// Tables, given by their dimensions.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// What a table stands on.
+/// The base of a table.
 enum class table_base : char {
     legs,      ///< four
     panels,    ///< two, across its ends
@@ -37,7 +37,7 @@ struct table {
     double foot_height = 0.03;      ///< of the foot of a pedestal
 };
 
-/// A table of all measures times `scale`.
+/// The table with all lengths multiplied by `scale`.
 [[nodiscard]] inline table scaled(table t, double scale) {
     for (double* measure : {&t.length, &t.width, &t.height, &t.thickness, &t.leg, &t.inset,
                             &t.shelf_height, &t.shelf_thickness, &t.foot_width, &t.foot_height}) {
@@ -47,10 +47,10 @@ struct table {
 }
 
 /// Adds a table with the parts "top", "leg 1" to "leg 4", "panel 1" and "panel 2", "column" and
-/// "foot", "trestle 1" and "trestle 2", "shelf", as far as it has them. If a measure is refused,
-/// what was added before it stays.
+/// "foot", "trestle 1" and "trestle 2", "shelf", if it has them. If a dimension is invalid, the
+/// scene keeps the parts that were added before.
 /// @return the number of the object
-/// @throws std::invalid_argument  if measures are negative, not finite, or do not fit together
+/// @throws std::invalid_argument  if dimensions are negative, not finite, or inconsistent
 inline std::int32_t add(scene& world, std::string name, const table& t, const pose& at = {}) {
     detail::object_builder b(world, std::move(name), at);
     const double below = t.height - t.thickness;
@@ -93,4 +93,4 @@ inline std::int32_t add(scene& world, std::string name, const table& t, const po
     return b.object();
 }
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

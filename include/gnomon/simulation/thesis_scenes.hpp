@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The worlds in which the thesis measured, as far as it tells, and surrogates of those it does not
-/// show. Metres, x forward, y left, z up; each scene knows where its sensor stood. The numbers that
-/// the thesis leaves open are ours.
+/// The scenes of the thesis's experiments, and surrogates for those that it does not specify. In
+/// metres, x forward, y left, z up; each scene includes its sensor pose. The dimensions that the
+/// thesis does not give were chosen once.
 ///
 /// Klasing 2010: Figs. 3.3, 3.4, 3.9, 4.8 and 4.11.
 #pragma once
@@ -23,9 +23,9 @@
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
 
-namespace gnomon::scenes {
+namespace gnomon::simulation::scenes {
 
-/// Fig. 3.3: a box and a cylinder, scaled about their places on the floor, and nothing else.
+/// Fig. 3.3: a box and a cylinder without a floor, scaled about their positions on it.
 [[nodiscard]] inline scene box_and_cylinder(double scale = 1.0) {
     scene world;
     world.sensor = at(0.0, 0.0, 0.8);
@@ -35,8 +35,8 @@ namespace gnomon::scenes {
     return world;
 }
 
-/// A surrogate of Fig. 3.4: two boxes and a bin, for a LMS-400 that looks down. A horizontal scan
-/// of 70 degrees in 0.455 s has about as many points as the figure's, 7,346.
+/// A surrogate of Fig. 3.4: two boxes and a bin below an LMS-400 that is pitched down. A horizontal
+/// scan of 70 degrees in 0.455 s has about 7,346 points, as in the figure.
 [[nodiscard]] inline scene boxes_and_bin() {
     scene world;
     world.sensor = at(0.0, 0.0, 1.0) * pitch(degrees(45));
@@ -46,8 +46,9 @@ namespace gnomon::scenes {
     return world;
 }
 
-/// Fig. 3.9: a plate of 30 x 30 cm, anywhere in a space of 2 x 2 x 1 m before the sensor and turned
-/// by any yaw and pitch, of equal chance each, that show it its face by 5 degrees at least.
+/// Fig. 3.9: a plate of 30 x 30 cm at a uniformly distributed position in a volume of 2 x 2 x 1 m
+/// in front of the sensor. Yaw and pitch are uniformly distributed; attitudes at which the ray to
+/// the middle meets the plate at less than 5 degrees are rejected.
 [[nodiscard]] inline scene plate(std::uint64_t seed) {
     random_stream random(seed);
     while (true) {
@@ -64,14 +65,14 @@ namespace gnomon::scenes {
     }
 }
 
-/// Fig. 4.8 (a): a table and four chairs, one of them with a lattice back, before a sink and a
+/// Fig. 4.8 (a): a table and four chairs, one of them with a lattice back, in front of a sink and a
 /// cupboard.
-/// @param scale  of all furniture, about its place on the floor
+/// @param scale  of all furniture, about its position on the floor
 [[nodiscard]] inline scene kitchen(double scale = 1.0) {
     scene world;
     world.sensor = at(0.3, 0.0, 1.2) * pitch(degrees(10));
     detail::add_room(world, {{0.0, -2.2, 0.0}, {4.2, 2.2, 2.5}});
-    // Along the wall: from it inwards, about the middle, from the floor up.
+    // A block on the floor at the far wall, centered at y.
     const auto cabinet = [&](const char* name, double y, double depth, double width,
                              double height) {
         detail::add_block(world, name,
@@ -94,7 +95,7 @@ namespace gnomon::scenes {
 }
 
 /// Fig. 4.8 (b): two armchairs, a table, a sideboard and a vase on a platform of three steps. The
-/// vase stands where no armchair hides it.
+/// vase is not occluded by an armchair.
 [[nodiscard]] inline scene living_room() {
     scene world;
     world.sensor = at(0.3, 0.0, 1.3) * pitch(degrees(10));
@@ -119,12 +120,12 @@ namespace gnomon::scenes {
     return world;
 }
 
-}  // namespace gnomon::scenes
+}  // namespace gnomon::simulation::scenes
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
-/// The room of Fig. 4.11, a column before its far wall. The sensor hangs from the ceiling, as in
-/// the experiments.
+/// The room of Fig. 4.11, with a column in front of its far wall. The sensor hangs from the
+/// ceiling, as in the experiments.
 [[nodiscard]] inline scene column_room() {
     scene world;
     world.sensor = at(0.4, 0.0, 1.6) * pitch(degrees(20));
@@ -133,9 +134,9 @@ namespace gnomon::detail {
     return world;
 }
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail
 
-namespace gnomon::scenes {
+namespace gnomon::simulation::scenes {
 
 /// A surrogate of Fig. 4.11 (a): two chairs in a room with a column.
 [[nodiscard]] inline scene two_chairs() {
@@ -162,4 +163,4 @@ namespace gnomon::scenes {
     return world;
 }
 
-}  // namespace gnomon::scenes
+}  // namespace gnomon::simulation::scenes

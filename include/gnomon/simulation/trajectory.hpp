@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How the range finder is moved to see in three dimensions: the `sensor_trajectory` concept, and
-/// the three trajectories that are common.
+/// The motion of a 2D range finder during a 3D scan: the `sensor_trajectory` concept and its
+/// models.
 ///
-/// A trajectory lasts `duration` seconds and tells the pose of the sensor at each time between.
+/// A trajectory has a `duration` [s] and gives the pose of the sensor at each time from 0 to it.
 /// Models: `horizontal`, `vertical`, `rotational`, `fixed`, and `along(duration, f)` for any
-/// function f of the time. Klasing 2010, Sec. 2.4.3, Fig. 2.14.
+/// function f of time. Klasing 2010, Sec. 2.4.3, Fig. 2.14.
 #pragma once
 
 #include <concepts>
@@ -14,9 +14,9 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/simulation/pose.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
-/// Const and thread-safe.
+/// The pose of the sensor as a function of time. Calls are const and thread-safe.
 template <class T>
 concept sensor_trajectory = requires(const T& trajectory, double seconds) {
     { trajectory.duration } -> std::convertible_to<double>;
@@ -25,14 +25,14 @@ concept sensor_trajectory = requires(const T& trajectory, double seconds) {
 
 namespace detail {
 
-/// From -sweep/2 to sweep/2 in the given time.
+/// The angle at a time: linear from -sweep/2 to sweep/2 over the duration.
 [[nodiscard]] inline angle swept(angle sweep, double seconds, double duration) {
     return radians(sweep.radians() * (seconds / duration - 0.5));
 }
 
 }  // namespace detail
 
-/// Yaws from right to left, the scan lines being upright.
+/// Yaws from right to left with vertical scan lines.
 struct horizontal {
     pose mount = {};             ///< the sensor when it looks straight ahead
     double duration = 4.0;       ///< t_s [s]
@@ -43,7 +43,7 @@ struct horizontal {
     }
 };
 
-/// Pitches from top to bottom, the scan lines being level.
+/// Pitches from top to bottom with horizontal scan lines.
 struct vertical {
     pose mount = {};             ///< the sensor when it looks straight ahead
     double duration = 4.0;       ///< t_s [s]
@@ -54,9 +54,9 @@ struct vertical {
     }
 };
 
-/// Rolls about the axis of sight: all scan lines cross there.
+/// Rolls about the optical axis, where all scan lines intersect.
 struct rotational {
-    pose mount = {};             ///< the sensor half way
+    pose mount = {};             ///< the sensor at half the duration
     double duration = 4.0;       ///< t_s [s]
     angle sweep = degrees(180);  ///< in all
 
@@ -65,7 +65,7 @@ struct rotational {
     }
 };
 
-/// Stands still.
+/// Does not move.
 struct fixed {
     pose mount = {};
     double duration = 1.0;  ///< t_s [s]
@@ -73,7 +73,7 @@ struct fixed {
     [[nodiscard]] pose operator()(double) const { return mount; }
 };
 
-/// Moves as a function of the time says: a robot that drives while it scans, a kinematic chain.
+/// Moves by a function of time, such as the odometry of a driving robot or a kinematic chain.
 template <class F>
 struct along {
     double duration;  ///< t_s [s]
@@ -84,4 +84,4 @@ struct along {
     [[nodiscard]] pose operator()(double seconds) const { return pose_at(seconds); }
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

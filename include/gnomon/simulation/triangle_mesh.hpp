@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Triangles: what CAD models and scanned rooms are made of.
+/// Triangle meshes, such as CAD models and scanned rooms.
 #pragma once
 
 #include <algorithm>
@@ -24,13 +24,13 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
 
-namespace gnomon {
+namespace gnomon::simulation {
 
 namespace detail {
 
-/// A ray, sheared so that it runs along an axis of its own; the same arithmetic on an edge for both
-/// triangles that share it, so that no ray slips through between them (Woop, Benthin and Wald
-/// 2013).
+/// A watertight ray-triangle intersection (Woop, Benthin and Wald 2013): the ray is sheared onto a
+/// coordinate axis, and both triangles of a shared edge use the same arithmetic, so that no ray
+/// passes between them.
 class triangle_probe {
   public:
     explicit triangle_probe(const ray& r) : origin_(r.origin) {
@@ -44,8 +44,8 @@ class triangle_probe {
         scale_ = 1.0 / r.direction[z_];
     }
 
-    /// The range at which the ray meets the triangle, from either side; NaN or not positive if it
-    /// does not.
+    /// The range at which the ray meets the triangle, from either side; NaN or not positive if
+    /// there is no intersection.
     [[nodiscard]] double range(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
                                const Eigen::Vector3d& c) const {
         const Eigen::Vector3d p = sheared(a);
@@ -59,8 +59,8 @@ class triangle_probe {
     }
 
   private:
-    /// Which way, seen along the ray, lies the edge from p to q? Exactly -turn(q, p): compilers may
-    /// fuse either product with the difference, but not if they are told which.
+    /// The signed area that p and q span in the plane normal to the ray. It is exactly -turn(q, p):
+    /// the explicit fma keeps compilers from contracting only one of the two products.
     [[nodiscard]] static double turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
 #if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
         return std::fma(p.x(), q.y(), -(p.y() * q.x())) - std::fma(q.x(), p.y(), -(q.y() * p.x()));
@@ -69,7 +69,7 @@ class triangle_probe {
 #endif
     }
 
-    /// `vertex` in the frame in which the ray is the third axis, and z its range.
+    /// `vertex` in the sheared frame: the ray is the third axis, and z is the range.
     [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
         const Eigen::Vector3d d = vertex - origin_;
         return {d[x_] - shear_x_ * d[z_], d[y_] - shear_y_ * d[z_], scale_ * d[z_]};
@@ -86,15 +86,14 @@ class triangle_probe {
 
 }  // namespace detail
 
-/// A mesh of one or more surfaces. Copies share the triangles.
+/// A triangle mesh of one or more surfaces. Copies share the triangles.
 class triangle_mesh {
   public:
-    /// Triangles may be there that are as thin as rounding, or thinner; no ray meets them.
-    /// O(n log n).
-    /// @param surface_names  one for each number of a surface
-    /// @throws std::invalid_argument  without triangles; for a vertex that is not finite; for a
-    ///                                triangle of a missing vertex; if the numbers of surfaces do
-    ///                                not fit triangles and names
+    /// Degenerate triangles are allowed; no ray meets them. O(n log n).
+    /// @param surface_names  one per surface number
+    /// @throws std::invalid_argument  if there are no triangles, a vertex is not finite, a triangle
+    ///                                refers to a missing vertex, or the surface numbers do not fit
+    ///                                triangles and names
     explicit triangle_mesh(polyhedron faces, std::vector<std::string> surface_names = {"mesh"})
         : content_(std::make_shared<const content>(std::move(faces), std::move(surface_names))) {}
 
@@ -116,8 +115,9 @@ class triangle_mesh {
             if (!(range > 0.0 && range <= r.reach)) return;
             const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
             const double length = std::sqrt(n.dot(n));
-            // Twice its area is the longest side times the width, whose rounding grows with the
-            // range: the range of a hit on a thinner triangle would be anything.
+            // `length` is twice the area: the longest side times the triangle's width. The rounding
+            // of the width grows with the range; on a thinner triangle the range would be
+            // arbitrary.
             const double longest =
                 std::sqrt(std::max({squared_distance(v[a], v[b]), squared_distance(v[b], v[c]),
                                     squared_distance(v[c], v[a])}));
@@ -138,7 +138,7 @@ class triangle_mesh {
 
         content(polyhedron given, std::vector<std::string> names)
             : faces(std::move(given)), surface_names(std::move(names)) {
-            using detail::require;
+            using gnomon::detail::require;
             const auto& [vertices, triangles, surfaces] = faces;
             require(!triangles.empty(), "triangle_mesh: there are no triangles");
             require(surfaces.empty() || surfaces.size() == triangles.size(),
@@ -161,7 +161,7 @@ class triangle_mesh {
                 extent.extend(box);
                 boxes.push_back(box);
             }
-            // The range of a hit carries rounding, so a flat box may be entered behind it.
+            // A margin for the rounding of ranges: a ray may enter a flat box behind its hit.
             double largest = 0.0;
             for (int a = 0; a < 3; ++a) {
                 largest = std::max({largest, std::abs(extent.low[a]), std::abs(extent.high[a])});
@@ -184,4 +184,4 @@ class triangle_mesh {
     std::shared_ptr<const content> content_;
 };
 
-}  // namespace gnomon
+}  // namespace gnomon::simulation

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 #include "shared.hpp"
 
-/// Each in its own vector instructions, and with the one copy of what the two share.
+/// The two translation units are compiled for different instruction sets; inline functions that
+/// both contain are linked once.
 bool find_the_same(const gnomon::scan& scan) {
     const auto neighbors = gnomon::knn{.k = 12}(scan);
     const auto normals = gnomon::estimate_normals(scan, gnomon::knn{.k = 12}, gnomon::plane_pca{});
@@ -20,9 +21,10 @@ int main() {
     for (const auto& point : scan) here.add(point);
     const gnomon::moments there = moments_made_there(scan);
 
-    const bool agree = layout_of_crossing_types() == layout_there() && here.count == there.count &&
-                       here.sum == there.sum && here.outer.isApprox(there.outer, 1e-12) &&
-                       gnomon::symmetric_eigen(there.covariance_of_neighbors()).values[0] >= 0 &&
-                       find_the_same(scan);
+    const bool agree =
+        layout_of_crossing_types() == layout_there() && here.count == there.count &&
+        here.sum == there.sum && here.outer.isApprox(there.outer, 1e-12) &&
+        gnomon::detail::symmetric_eigen(there.covariance_of_neighbors()).values[0] >= 0 &&
+        find_the_same(scan);
     return agree ? 0 : 1;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// Uses a small part of what the others use, so that they would share functions of this part only.
+// Uses few of the functions that main.cpp uses, so that only these are inline in both.
 #include "shared.hpp"
 
 double smallest_of_eight() {

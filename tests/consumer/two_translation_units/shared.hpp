@@ -18,7 +18,7 @@ constexpr layout layout_of() {
 
 constexpr layout layout_of_crossing_types() {
     return layout_of<gnomon::scan, gnomon::moments, gnomon::plane, gnomon::angle,
-                     gnomon::viewpoint_table, decltype(gnomon::symmetric_eigen({}))>();
+                     gnomon::viewpoint_table, decltype(gnomon::detail::symmetric_eigen({}))>();
 }
 
 layout layout_there();

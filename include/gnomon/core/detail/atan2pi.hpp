@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Angles of several directions at once: std::atan2, which has no vectors and cares for the last
-/// bit, takes longer than all else that is done with a ray.
+/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
+/// the last bit; its time would exceed that of all other steps of projecting a point to a range
+/// image.
 #pragma once
 
 #include <cstddef>
@@ -11,9 +12,9 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// atan2(y, x) / pi, from -1 to 1, to 2e-11, as C23 calls it; here zeros have no sign, atan2pi(0,
-/// 0) is 0, and where both are nearer to 0 than 1e-300 the angle is a rough one. Precondition: both
-/// are finite.
+/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
+/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
+/// both below 1e-300. Precondition: x and y are finite.
 template <std::size_t N>
 [[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
                                                             const pack_of<N>& x) {
@@ -22,8 +23,8 @@ template <std::size_t N>
     const pack_of<N> q = where_at_least(across, up, up, across) /
                          where_at_least(more, 1e-300, more, 1.0);  // within the first octant
     const pack_of<N> q2 = q * q;
-    // The polynomial of twelve terms that is closest to atan(q) / (pi q) for q in [0, 1], the
-    // largest error times q being least; from the exchange algorithm of Remez.
+    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
+    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
     constexpr double terms[] = {
         -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
         0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A random-access iterator for anything with `operator[]`: our views compute their elements, so
-/// the element's type is a value and not a reference.
+/// A random-access iterator over a view with `operator[]`. The views compute their elements, so
+/// dereferencing gives a value and not a reference.
 #pragma once
 
 #include <compare>
@@ -11,6 +11,8 @@
 
 namespace gnomon::detail {
 
+/// The iterator to element i of `*view`. Valid as long as the view. Models
+/// std::random_access_iterator.
 template <class View>
 class index_iterator {
   public:
@@ -18,7 +20,7 @@ class index_iterator {
     using reference = value_type;
     using pointer = void;
     using difference_type = std::ptrdiff_t;
-    using iterator_category = std::input_iterator_tag;  // C++17: references are not real ones
+    using iterator_category = std::input_iterator_tag;  // in C++17, since *it is no reference
     using iterator_concept = std::random_access_iterator_tag;
 
     index_iterator() = default;

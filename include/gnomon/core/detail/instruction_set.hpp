@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which vector instructions there are to be used in this translation unit: as many as the compiler
-/// was told of, none if GNOMON_PORTABLE_LANES is defined. Where it was told of none beyond those of
-/// every x86-64, some loops are compiled for AVX2 too, and the processor is asked when they run,
-/// unless GNOMON_COMPILED_LANES is defined. What depends on all that stands in the inline namespace
-/// GNOMON_LANES, so that translation units for which it differs do not share it. (The rest they
-/// share, as they share all inline functions: code for an older machine has its own program.)
+/// Selects the vector instructions of this translation unit: those that the compiler flags enable,
+/// or none if GNOMON_PORTABLE_LANES is defined. If the flags enable only the SSE2 of every x86-64,
+/// some loops are compiled for AVX2 as well and chosen at run time by the processor's features,
+/// unless GNOMON_COMPILED_LANES is defined.
+///
+/// Code that depends on the selection is in the inline namespace GNOMON_LANES, so that translation
+/// units with different flags can be linked into one program without violating the one-definition
+/// rule. All other inline functions are shared between them: a program for an older processor must
+/// be compiled as a whole for it.
 #pragma once
 
 #if defined(GNOMON_PORTABLE_LANES)
@@ -29,7 +32,7 @@
 #define GNOMON_LANE_BITS 0
 #endif
 
-/// The attribute of functions that use AVX2 and what comes with it.
+/// The attribute of functions that are compiled for AVX2 and chosen at run time.
 #if defined(GNOMON_LANES_UP_TO_AVX2)
 #define GNOMON_WITH_AVX2 gnu::target("avx2,fma,bmi,popcnt")
 #else

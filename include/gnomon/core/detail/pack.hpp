@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Several numbers that are calculated with as one, in the vectors that g++ and clang have built
-/// in: these need no optimiser to become vector instructions, and compile in no time, unlike
-/// templates of expressions.
+/// Arithmetic on several numbers at once, in the built-in vectors of g++ and clang: these become
+/// vector instructions without an optimiser, and compile faster than expression templates.
 #pragma once
 
 #include <cstddef>
@@ -16,10 +15,10 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The bytes of a vector: as many as the instructions have.
+/// The size of a vector of the instruction set [bytes].
 inline constexpr std::size_t vector_bytes = GNOMON_LANE_BITS == 0 ? 16 : GNOMON_LANE_BITS / 8;
 
-/// N numbers, a multiple of those of a vector.
+/// N numbers, a multiple of the numbers in a vector.
 template <std::size_t N>
 class pack_of {
   public:
@@ -81,7 +80,7 @@ class pack_of {
             return high.at_[v] < x ? high.at_[v] : x;
         });
     }
-    /// Bit l of the result tells whether a[l] <= limit.
+    /// Bit l of the result is set if a[l] <= limit.
     [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack_of& a, double limit) {
         std::uint32_t bits = 0;
 #pragma GCC unroll 4
@@ -145,8 +144,10 @@ class pack_of {
     vector at_[size / width];
 };
 
-using pack = pack_of<8>;
-/// As many as one vector has: where there are more sums than fit into the registers otherwise.
+/// The numbers of two vectors, at most 8: enough for divisions and roots to overlap. More would not
+/// fit into the 16 registers of SSE2 and would take longer to compile.
+using pack = pack_of<(vector_bytes > 32 ? 8 : 2 * vector_bytes / sizeof(double))>;
+/// The numbers of one vector: for more sums than would fit into the registers otherwise.
 using slim_pack = pack_of<vector_bytes / sizeof(double)>;
 
 }  // namespace GNOMON_LANES

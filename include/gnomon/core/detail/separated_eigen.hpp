@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Eigenvectors of symmetric 3x3 matrices whose smallest eigenvalue stands apart from the others,
-/// as that of a neighborhood on a surface does: faster than rotations, and as accurate. No step
-/// depends on a comparison, but for leaving early, so that the number type may as well be a vector
-/// of numbers, one for each of several matrices.
+/// Eigenvalues and eigenvectors of a symmetric 3x3 matrix whose smallest eigenvalue is well
+/// separated from the others, as that of the covariance of a surface patch is. Faster than Jacobi
+/// rotations and as accurate. The algorithm has no branches but early exits, so the number type can
+/// be a vector of numbers, one for each of several matrices.
 ///
-/// Newton's method finds the eigenvalue from below. The columns of the adjugate of A - x I are
-/// multiples of its eigenvector v, and v^T A v is a far better eigenvalue, so that two rounds reach
-/// the last bit. In the plane across v, the other two are a 2x2 problem. Whether all went well, the
-/// residual A v - x v tells.
+/// Newton's method on the characteristic polynomial converges to the smallest eigenvalue x from
+/// below. The columns of the adjugate of A - x I are multiples of its eigenvector v. The Rayleigh
+/// quotient v^T A v then improves x quadratically, so two rounds reach rounding error. The other
+/// two eigenvalues are those of the 2x2 matrix of A in the plane orthogonal to v. `is_accurate`
+/// decides by the residual A v - x v.
 #pragma once
 
 #include <cstddef>
@@ -19,42 +20,45 @@
 
 namespace gnomon::detail {
 
+// The operations of `pack`, for a single number.
 inline double root(double x) { return std::sqrt(x); }
 inline double magnitude(double x) { return std::abs(x); }
-/// a where x >= y, and b elsewhere.
+/// a if x >= y, else b.
 inline double where_at_least(double x, double y, double a, double b) { return x >= y ? a : b; }
-/// Whether no more steps are needed: of several numbers that is not asked.
+/// Returns whether an iteration can stop because |rest| <= limit. Packs run all iterations.
 inline bool is_settled(double rest, double limit) { return std::abs(rest) <= limit; }
 inline bool is_settled(const pack&, double) { return false; }
 
-/// A vector whose coordinates are T.
+/// A 3-vector of numbers of type T.
 template <class T>
 struct triple {
     T x, y, z;
 };
 
+/// The inner product a . b.
 template <class T>
 [[nodiscard]] T inner(const triple<T>& a, const triple<T>& b) {
     return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
-/// The symmetric matrices [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]], of which `trace` is one.
+/// A symmetric matrix [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]] of trace one.
 template <class T>
 struct symmetric_3x3 {
     T xx, yy, zz, xy, xz, yz;
 
+    /// The product of the matrix and v.
     [[nodiscard]] triple<T> times(const triple<T>& v) const {
         return {xx * v.x + xy * v.y + xz * v.z, xy * v.x + yy * v.y + yz * v.z,
                 xz * v.x + yz * v.y + zz * v.z};
     }
 };
 
-/// Eigenvalues, descending, and eigenvectors of such matrices.
+/// The eigenvalues and unit eigenvectors of a `symmetric_3x3`. Valid if `is_accurate`.
 template <class T>
 struct separated_eigen {
-    T values[3];
-    triple<T> vectors[3];
-    T squared_residual;  ///< of the smallest
+    T values[3];           ///< eigenvalues, descending
+    triple<T> vectors[3];  ///< unit eigenvectors in the order of the values
+    T squared_residual;    ///< |A v - x v|^2 of the smallest eigenvalue x
 
     explicit separated_eigen(const symmetric_3x3<T>& a) {
         T x = smallest_root(a);
@@ -65,18 +69,23 @@ struct separated_eigen {
             x = inner(v, p);
             const triple<T> r{p.x - x * v.x, p.y - x * v.y, p.z - x * v.z};
             squared_residual = inner(r, r);
-            if (is_settled(squared_residual, 1e-31)) break;
+            if (is_settled(squared_residual, settled_residual)) break;
         }
         values[2] = x;
         decompose_across(a);
     }
 
   private:
+    // Iterations: performance only, since `is_accurate` rejects what has not converged. A single
+    // matrix stops early and then affords more rounds for elongated neighborhoods.
     static constexpr bool one = std::is_same_v<T, double>;
     static constexpr int newton_steps = one ? 6 : 8;
     static constexpr int rounds = one ? 4 : 2;
+    static constexpr double settled_step = 1e-6;       // one quadratic step from rounding error
+    static constexpr double settled_residual = 1e-31;  // squared; below that of `is_accurate`
 
-    /// The smallest root of x^3 - x^2 + c1 x - c0, from where all are above.
+    /// The smallest root of the characteristic polynomial x^3 - x^2 + c1 x - c0, by Newton's method
+    /// from a lower bound of all roots.
     static T smallest_root(const symmetric_3x3<T>& a) {
         const T c1 =
             a.xx * a.yy + a.yy * a.zz + a.zz * a.xx - a.xy * a.xy - a.xz * a.xz - a.yz * a.yz;
@@ -88,13 +97,13 @@ struct separated_eigen {
             const T slope = (3.0 * x - 2.0) * x + c1;
             const T step = value / slope;
             x = x - step;
-            if (is_settled(step, 1e-6)) break;
+            if (is_settled(step, settled_step)) break;
         }
         return x;
     }
 
-    /// A unit vector that A - x I all but annihilates: of the columns of the adjugate, which is
-    /// v v^T but for a factor, the one with the largest element on the diagonal.
+    /// The unit vector v with (A - x I) v nearly zero. The adjugate of A - x I is a multiple of
+    /// v v^T; v is its column with the largest diagonal entry, normalized.
     static triple<T> null_vector(const symmetric_3x3<T>& a, const T& x) {
         const T ax = a.xx - x, ay = a.yy - x, az = a.zz - x;
         const T xx = ay * az - a.yz * a.yz, yy = ax * az - a.xz * a.xz, zz = ax * ay - a.xy * a.xy;
@@ -109,7 +118,8 @@ struct separated_eigen {
         return {v.x * norm, v.y * norm, v.z * norm};
     }
 
-    /// The other two, in an orthonormal basis u, w of the plane across v (Duff et al. 2017).
+    /// The other two eigenvalues and eigenvectors, in an orthonormal basis u, w of the plane
+    /// orthogonal to v (T. Duff et al., Building an orthonormal basis, revisited, 2017).
     void decompose_across(const symmetric_3x3<T>& a) {
         const triple<T>& v = vectors[2];
         const T zero = T(v.z * 0.0);
@@ -122,7 +132,8 @@ struct separated_eigen {
         const T half = 0.5 * (uu - ww), radius = root(T(half * half + uw * uw));
         values[0] = 0.5 * (uu + ww) + radius;
         values[1] = 0.5 * (uu + ww) - radius;
-        // Half the angle of (half, uw), without loss of digits; none if they are zero.
+        // (c, s) is the direction at half the angle of (half, uw), without cancellation; (1, 0) if
+        // both are zero.
         const T tiny = T(zero + 1e-300);
         const T t = magnitude(half) + radius + tiny;
         const T norm = 1.0 / root(T(t * t + uw * uw) + tiny);
@@ -135,13 +146,15 @@ struct separated_eigen {
     }
 };
 
-/// Whether eigenvalues and residual, of a matrix of trace one, are as good as rotations would make
-/// them: not if the smallest does not stand apart, nor for NaN.
+/// Returns whether a decomposition of a matrix of trace one is as accurate as Jacobi rotations
+/// would make it. False if the smallest eigenvalue is not well separated, and for NaN.
 [[nodiscard]] inline bool is_accurate(double middle, double smallest, double squared_residual) {
-    return middle - smallest > 1e-4 && squared_residual < 1e-30;
+    constexpr double min_gap = 1e-4;  // eigenvector error about residual / gap, at most 1e-11
+    constexpr double max_squared_residual = 1e-30;  // some rounding errors of numbers up to 1
+    return middle - smallest > min_gap && squared_residual < max_squared_residual;
 }
 
-/// Whether a matrix of this trace can be brought to trace one.
+/// Returns whether a matrix of this trace can be scaled to trace one without over- or underflow.
 [[nodiscard]] inline bool has_scale(double trace) { return trace > 1e-290 && trace < 1e290; }
 
 }  // namespace gnomon::detail

@@ -1,23 +1,64 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Threads that stay between one step of an algorithm and the next. To start a thread, or to wake
-/// one, takes as long as many a step; so a thread without work looks out for some for a while
-/// before it falls asleep, and nobody waits for one that comes when the work is done.
+/// All use of threads in gnomon: the number of hardware threads, a mutex, and a team of threads
+/// that stays alive between the steps of an algorithm. On platforms without threads, and where
+/// GNOMON_NO_THREADS is defined, the calling thread does all work.
+///
+/// To start a thread, or to wake one, takes as long as many a step; so a thread without work polls
+/// for a millisecond before it sleeps, and the caller does not wait for threads that have not yet
+/// begun when the work is done.
 #pragma once
 
 #include <algorithm>
-#include <atomic>
 #include <concepts>
 #include <cstddef>
 #include <exception>
-#include <memory>
+
+#if !defined(GNOMON_NO_THREADS) && (defined(__wasi__) || defined(_LIBCPP_HAS_NO_THREADS) || \
+                                    (defined(__GLIBCXX__) && !defined(_GLIBCXX_HAS_GTHREADS)))
+#define GNOMON_NO_THREADS
+#endif
+
+#if !defined(GNOMON_NO_THREADS)
+#include <atomic>
 #include <mutex>
 #include <thread>  // has the clocks of <chrono> without its calendars, which take long to read
 #include <vector>
+#endif
 
 namespace gnomon::detail {
 
-/// The calling thread, and helpers, which are started when there first is work for them.
+#if defined(GNOMON_NO_THREADS)
+
+[[nodiscard]] inline unsigned hardware_threads() { return 1; }
+
+/// Nothing to be guarded from.
+struct mutex {};
+struct guard_of {
+    explicit guard_of(mutex&) {}
+};
+
+/// The calling thread alone.
+class thread_team {
+  public:
+    explicit thread_team(std::size_t) {}
+
+    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) {
+        for (std::size_t c = 0; c < chunks; ++c) work(c);
+    }
+};
+
+#else
+
+/// At least 1.
+[[nodiscard]] inline unsigned hardware_threads() {
+    return std::max(1u, std::thread::hardware_concurrency());
+}
+
+using mutex = std::mutex;
+using guard_of = std::lock_guard<std::mutex>;
+
+/// The calling thread and helpers, which start with the first work.
 class thread_team {
   public:
     /// A team of at most `size` threads, the calling one among them.
@@ -27,21 +68,22 @@ class thread_team {
     ~thread_team() {
         stopping_ = true;
         call();
+        for (std::thread& helper : helpers_) helper.join();
     }
 
-    /// Calls work(c) once for each c in 0, ..., chunks - 1, as `threads` says. While the team is at
-    /// work, another call, be it from within that work, is done by the thread that makes it.
+    /// Calls work(c) once for each c in 0, ..., chunks - 1, as `threads` does. While the team
+    /// is at work, another call, also a nested one, runs on the thread that makes it.
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) {
         std::atomic<std::size_t> next{0};
         std::atomic<std::size_t> failed{chunks};
         std::exception_ptr failure;
-        std::mutex guard;
+        mutex guard;
         const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
                 try {
                     work(c);
                 } catch (...) {
-                    const std::lock_guard lock(guard);
+                    const guard_of locked(guard);
                     if (c < failed) {
                         failed = c;
                         failure = std::current_exception();
@@ -60,8 +102,9 @@ class thread_team {
     }
 
   private:
-    /// Where the machine refuses threads or memory, the team stays as small as it is.
-    void grow_to(std::size_t size) noexcept {
+    /// Where the machine refuses threads or memory, the team stays as small as it is. (A template,
+    /// so that only users of threads compile it.)
+    void grow_to(std::integral auto size) noexcept {
         try {
             while (helpers_.size() + 1 < size)
                 helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
@@ -70,7 +113,7 @@ class thread_team {
     }
 
     /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all
-    /// of them have left: from then on it may be gone.
+    /// of them have left: from then on `work` may be destroyed.
     template <class Work>
     void share(const Work& work) noexcept {
         work_ = &work;
@@ -118,20 +161,9 @@ class thread_team {
     std::atomic<bool> stopping_{false};
     const void* work_ = nullptr;
     void (*do_)(const void*) = nullptr;
-    std::vector<std::jthread> helpers_;  // last: joined before what they use is gone
+    std::vector<std::thread> helpers_;
 };
 
-/// The execution by a team that stays as long as this and its copies do.
-class staying_threads {
-  public:
-    explicit staying_threads(std::size_t size) : team_(std::make_shared<thread_team>(size)) {}
-
-    void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
-        (*team_)(chunks, work);
-    }
-
-  private:
-    std::shared_ptr<thread_team> team_;
-};
+#endif
 
 }  // namespace gnomon::detail

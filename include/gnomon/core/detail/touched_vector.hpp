@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Large results, whose memory all threads fetch.
+/// Large arrays whose memory pages are first written by all threads. The operating system maps a
+/// page at its first write, which for large results takes longer than computing them; here each
+/// thread maps its share.
 #pragma once
 
 #include <algorithm>
@@ -13,37 +15,45 @@
 
 namespace gnomon::detail {
 
-/// Writes to each page from `begin` to `end`. The memory may be a vector's that has not begun to
-/// use it, which some standard libraries report to AddressSanitizer: here it is meant.
+/// Writes one byte to each page from `begin` to `end`. The memory can be the unused capacity of a
+/// vector; some standard libraries would have AddressSanitizer report the write, so it is off here.
 [[gnu::no_sanitize_address]] inline void touch(volatile std::byte* begin,
                                                const volatile std::byte* end) {
-    constexpr std::ptrdiff_t page = 4096;  // [bytes]
+    constexpr std::ptrdiff_t page = 4096;  // [bytes], of x86-64; performance only
     for (; begin < end; begin += std::min(page, end - begin)) *begin = std::byte{};
 }
 
-/// Touches the memory of n values. The system hands out memory when it is first written to, page
-/// after page, which for large results takes longer than the writing: here each thread asks for its
-/// part.
+/// Writes to each page of the memory of n values, in parallel. Overwrites them. O(n).
 template <class T, execution X>
 void touch_all(T* values, std::size_t n, const X& run) {
-    constexpr std::size_t chunk = 1 << 20;  // [bytes]
+    constexpr std::size_t chunk = 1 << 20;  // [bytes]; performance only
     auto* const bytes = reinterpret_cast<volatile std::byte*>(values);
     const std::size_t size = n * sizeof(T);
     run((size + chunk - 1) / chunk,
         [&](std::size_t c) { touch(bytes + c * chunk, bytes + std::min(size, (c + 1) * chunk)); });
 }
 
-/// A vector of n values T{}.
+/// Gives a vector n values, anything of which may be left over from its last use; allocates only to
+/// grow.
+template <class T, class Allocator, execution X>
+void resize_touched(std::vector<T, Allocator>& values, std::size_t n, const X& run) {
+    if (values.capacity() < n) {
+        values = {};  // first, so that old and new memory do not add up
+        values.reserve(n);
+        touch_all(values.data(), n, run);
+    }
+    values.resize(n);
+}
+
+/// A vector of n values T{}, its pages mapped by all threads. O(n).
 template <class T, execution X>
 [[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
     std::vector<T> values;
-    values.reserve(n);
-    touch_all(values.data(), n, run);
-    values.resize(n);
+    resize_touched(values, n, run);
     return values;
 }
 
-/// An array of n numbers, or the like, with anything in it.
+/// An array of n uninitialized values, its pages mapped by all threads. O(n).
 template <class T, execution X>
 [[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
     static_assert(std::is_trivially_default_constructible_v<T>);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The few operations on 3-vectors and 3x3 matrices that inline functions need, spelt out. As Eigen
-/// expressions, each new combination costs everybody who includes it some 50 ms of compile time.
+/// Operations on 3-vectors and 3x3 matrices, written out by coordinates. Each Eigen expression of a
+/// new form in a header adds about 50 ms to the compile time of every including file.
 #pragma once
 
 #include <algorithm>
@@ -12,23 +12,26 @@
 
 namespace gnomon::detail {
 
+/// a . b
 [[nodiscard]] inline double dot(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
+/// The Euclidean norm of a.
 [[nodiscard]] inline double length(const Eigen::Vector3d& a) { return std::sqrt(dot(a, a)); }
 
+/// a - b
 [[nodiscard]] inline Eigen::Vector3d difference(const Eigen::Vector3d& a,
                                                 const Eigen::Vector3d& b) {
     return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
 }
 
+/// a x b
 [[nodiscard]] inline Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
     return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// The power of two that brings x > 0 to between 1/2 and 1, but no more than 2^1000: multiplying by
-/// it rounds nothing.
+/// The power of two that scales x > 0 to [1/2, 1), at most 2^1000. Multiplication by it is exact.
 [[nodiscard]] inline double power_to_one(double x) {
     int exponent = 0;
     std::frexp(x, &exponent);
@@ -53,7 +56,7 @@ namespace gnomon::detail {
     return combined(1.0, combined(s, a, t, b), u, c);
 }
 
-/// The unit vector along a, however long: the squares of its coordinates need not be numbers.
+/// The unit vector along a, also if the squares of its coordinates over- or underflow.
 /// Precondition: a is finite and not zero.
 [[nodiscard]] inline Eigen::Vector3d direction_of(const Eigen::Vector3d& a) {
     const double largest = std::max({std::abs(a[0]), std::abs(a[1]), std::abs(a[2])});
@@ -62,7 +65,7 @@ namespace gnomon::detail {
     return {b[0] / size, b[1] / size, b[2] / size};
 }
 
-/// Whether the length of a can be calculated from its square, which neither under- nor overflows.
+/// Returns whether the squared norm of a neither over- nor underflows.
 [[nodiscard]] inline bool has_length(const Eigen::Vector3d& a) { return std::isnormal(dot(a, a)); }
 
 /// M a
@@ -72,6 +75,7 @@ namespace gnomon::detail {
     return r;
 }
 
+/// Returns whether no entry is NaN or infinite.
 [[nodiscard]] inline bool all_finite(const Eigen::Vector3d& a) {
     return std::isfinite(a[0]) && std::isfinite(a[1]) && std::isfinite(a[2]);
 }
@@ -81,7 +85,7 @@ namespace gnomon::detail {
     return true;
 }
 
-/// The diagonal matrix of a, b and c.
+/// The matrix with the diagonal a, b, c.
 [[nodiscard]] inline Eigen::Matrix3d diagonal(double a, double b, double c) {
     Eigen::Matrix3d m;
     std::fill_n(m.data(), 9, 0.0);
@@ -91,7 +95,7 @@ namespace gnomon::detail {
     return m;
 }
 
-/// The inverse of a symmetric matrix, by its cofactors; not finite if there is none.
+/// The inverse of a symmetric matrix by cofactors; entries are not finite if it is singular.
 [[nodiscard]] inline Eigen::Matrix3d inverse_of_symmetric(const Eigen::Matrix3d& m) {
     Eigen::Matrix3d inverse;
     for (int i = 0; i < 3; ++i) {
@@ -121,7 +125,7 @@ inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
 
 /// A unit vector orthogonal to the unit vector n.
 [[nodiscard]] inline Eigen::Vector3d orthogonal(const Eigen::Vector3d& n) {
-    // The coordinate axis farthest from n, less its part along n.
+    // The projection of the coordinate axis at the largest angle to n.
     int axis = 0;
     for (int i = 1; i < 3; ++i) {
         if (std::abs(n[i]) < std::abs(n[axis])) axis = i;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The frame in which a surface near a point is a height over its tangent plane: z along the
-/// normal, x and y along the principal components of the neighbors across it (Klasing 2010,
-/// Sec. 3.3.2). Plain sums: once per point, and nothing on the heap.
+/// The local frame in which a surface near a point is a height field over its tangent plane: z
+/// along the normal, x and y along the principal components of the neighbors in the tangent plane
+/// (Klasing 2010, Sec. 3.3.2).
 #pragma once
 
 #include <algorithm>
@@ -23,20 +23,24 @@
 
 namespace gnomon::detail {
 
-/// A right-handed frame at a point. Its numbers hold for the ring that it was made of.
+/// A right-handed orthonormal frame at a point, and statistics of the neighbors in it.
 struct height_frame {
-    Eigen::Vector3d origin;
-    Eigen::Vector3d x;  ///< the direction of larger spread
-    Eigen::Vector3d y;
-    Eigen::Vector3d z;          ///< the normal, of unit length
-    double rms_x = 0.0;         ///< root of the mean square of the neighbors' x [m]
-    double rms_y = 0.0;         ///< the same of y [m]
+    Eigen::Vector3d origin;     ///< the point [m]
+    Eigen::Vector3d x;          ///< tangent direction of larger variance, unit length
+    Eigen::Vector3d y;          ///< tangent direction of smaller variance, unit length
+    Eigen::Vector3d z;          ///< the normal, unit length
+    double rms_x = 0.0;         ///< root mean square of the neighbors' x [m]
+    double rms_y = 0.0;         ///< root mean square of the neighbors' y [m]
     double aspect_ratio = 0.0;  ///< sigma_ar in the tangent plane, Eq. (3.19)
-    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< usable, or there is no frame
+    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< no frame unless usable
 
-    /// @param min_aspect_ratio  below which the trust is weak
-    height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal, ring_view ring,
-                 std::size_t min_neighbors, double min_aspect_ratio)
+    /// Trust: `not_finite` if point, normal or a neighbor is not finite; `degenerate` if the normal
+    /// is missing, or if the projections of the neighbors to the tangent plane are collinear.
+    /// @param min_neighbors     number of neighbors below which the trust is `too_few_neighbors`
+    /// @param min_aspect_ratio  sigma_ar below which the trust is `weak`
+    /// Complexity: O(k).
+    height_frame(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                 neighborhood_view neighbors, std::size_t min_neighbors, double min_aspect_ratio)
         : origin(p) {
         if (!is_finite(p) || !all_finite(normal)) {
             trust = gnomon::trust::not_finite;
@@ -46,29 +50,30 @@ struct height_frame {
             trust = gnomon::trust::degenerate;
             return;
         }
-        if (ring.size() < min_neighbors) return;
+        if (neighbors.size() < min_neighbors) return;
         z = direction_of(normal);
         x = orthogonal(z);
         y = cross(z, x);
-        trust = align(ring, min_aspect_ratio);
+        trust = align(neighbors, min_aspect_ratio);
     }
 
-    /// The coordinates of q [m].
+    /// The coordinates [m] of the point q [m] in the frame.
     [[nodiscard]] std::array<double, 3> operator()(const Eigen::Vector3d& q) const {
         const Eigen::Vector3d d = difference(q, origin);
         return {dot(x, d), dot(y, d), dot(z, d)};
     }
 
-    /// The direction of (a, b, c), not normalised.
+    /// The vector a x + b y + c z, not normalized.
     [[nodiscard]] Eigen::Vector3d direction(double a, double b, double c) const {
         return combined(a, x, b, y, c, z);
     }
 
   private:
-    /// Turns x and y to the principal components of Q+, the ring and the point, in their plane.
-    gnomon::trust align(ring_view ring, double min_aspect_ratio) {
+    /// Rotates x and y to the principal components of Q+, the neighbors and the point, in the
+    /// tangent plane.
+    gnomon::trust align(neighborhood_view neighbors, double min_aspect_ratio) {
         double sum_x = 0.0, sum_y = 0.0, xx = 0.0, xy = 0.0, yy = 0.0, zz = 0.0;
-        for (const Eigen::Vector3d& q : ring) {
+        for (const Eigen::Vector3d& q : neighbors) {
             const auto [a, b, c] = (*this)(q);
             sum_x += a;
             sum_y += b;
@@ -78,8 +83,8 @@ struct height_frame {
             zz += c * c;
         }
         if (!std::isfinite(xx + yy + zz)) return gnomon::trust::not_finite;
-        // A radius whose square's inverse is no number has no curvature.
-        const double k = static_cast<double>(ring.size());
+        // Curvatures of a smaller neighborhood would overflow.
+        const double k = static_cast<double>(neighbors.size());
         constexpr double epsilon = std::numeric_limits<double>::epsilon();
         if (xx + yy < k * std::numeric_limits<double>::min() / epsilon) {
             return gnomon::trust::degenerate;
@@ -88,7 +93,7 @@ struct height_frame {
         const eigen_2x2 spread(w * xx - (w * sum_x) * (w * sum_x),
                                w * xy - (w * sum_x) * (w * sum_y),
                                w * yy - (w * sum_y) * (w * sum_y));
-        // On one line, up to the same gap as in plane_pca.
+        // The neighbors are collinear, by the same threshold as in plane_pca.
         if (spread.smaller <= smallest_gap * spread.larger) return gnomon::trust::degenerate;
         aspect_ratio = std::sqrt(spread.smaller / spread.larger);
 

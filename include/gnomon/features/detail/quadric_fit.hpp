@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Quadratics fitted to heights z over a plane, by sums of products in fixed arrays: as Eigen
-/// expressions the compiler takes ten times as long to read them.
+/// Fits quadrics to heights z over a plane, by normal equations in fixed-size arrays. Plain arrays
+/// take a tenth of the compile time of Eigen expressions.
 #pragma once
 
 #include <algorithm>
@@ -10,12 +10,12 @@
 #include <optional>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/square_array.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/detail/jacobi_eigen.hpp>
+#include <gnomon/core/detail/square_array.hpp>
 
 namespace gnomon::detail {
 
-/// z = a x^2 + b x y + c y^2 + e x + f y + constant.
+/// The quadric z = a x^2 + b x y + c y^2 + e x + f y + constant. Units: a, b, c [1/m]; e, f [1].
 struct quadric {
     double a = 0.0;
     double b = 0.0;
@@ -24,9 +24,11 @@ struct quadric {
     double f = 0.0;
 };
 
-/// All six coefficients by least squares of z. Normal equations, so x and y should be of order one.
+/// Least-squares fit of all six coefficients. Solves the normal equations, so x and y should be of
+/// order 1. Needs six points.
 class least_squares_quadric {
   public:
+    /// Adds the point (x, y, z). O(1).
     void add(double x, double y, double z) {
         const std::array<double, 6> row{1.0, x, y, x * x, x * y, y * y};
         for (std::size_t i = 0; i < 6; ++i) {
@@ -35,8 +37,10 @@ class least_squares_quadric {
         }
     }
 
-    /// Solves by L D L^T, in place. Returns the least share of a column that the columns before it
-    /// do not explain, D_j / A_jj, in [0, 1]; there is no solution if it is zero up to rounding.
+    /// Solves the normal equations A c = r by the decomposition A = L D L^T, in place. O(1).
+    /// @return the minimum of D_j / A_jj over all columns j, in [0, 1]: the fraction of a column
+    ///         that the preceding columns do not explain. The system is singular if it is zero up
+    ///         to rounding.
     double solve() {
         double least = 1.0;
         for (std::size_t j = 0; j < 6; ++j) {
@@ -63,21 +67,22 @@ class least_squares_quadric {
         return least;
     }
 
-    /// The solution, for coordinates that were multiplied by sx and sy before they were added.
+    /// The quadric in coordinates x, y if (sx x, sy y, z) were added. Precondition: solved.
     [[nodiscard]] quadric solution(double sx, double sy) const {
         return {right_[3] * sx * sx, right_[4] * sx * sy, right_[5] * sy * sy, right_[1] * sx,
                 right_[2] * sy};
     }
 
   private:
-    square_array<6> left_ = {};  // its lower half
-    std::array<double, 6> right_ = {};
+    square_array<6> left_ = {};         // A, then L and D; lower triangle
+    std::array<double, 6> right_ = {};  // r, then the coefficients
 };
 
-/// The unit vector [a' b' c' d'] for which the sum of squares of a' x^2 + b' x y + c' y^2 + d' z is
-/// least, Eq. (3.25).
+/// Fit by the unit vector [a' b' c' d'] that minimizes the sum of squares of
+/// a' x^2 + b' x y + c' y^2 + d' z, Klasing 2010, Eq. (3.25). Needs three points.
 class homogeneous_quadric {
   public:
+    /// Adds the point (x, y, z). O(1).
     void add(double x, double y, double z) {
         const std::array<double, 4> row{x * x, x * y, y * y, z};
         for (std::size_t i = 0; i < 4; ++i) {
@@ -85,17 +90,18 @@ class homogeneous_quadric {
         }
     }
 
-    /// The quadric z = a x^2 + b x y + c y^2 with a = -a'/d' and so on; nothing if there is none,
-    /// or more than one.
+    /// The quadric z = a x^2 + b x y + c y^2 with a = -a'/d', b = -b'/d', c = -c'/d'; none if the
+    /// smallest eigenvalue of R^T R is double, if d' is zero, or if a sum is not finite. O(1).
     [[nodiscard]] std::optional<quadric> solve() const {
         double trace = 0.0;
         for (std::size_t i = 0; i < 4; ++i) trace += products_[i][i];
         if (!(trace > 0.0) || !std::isfinite(trace)) return std::nullopt;
-        const auto [values, vectors] = symmetric_eigen<4>(products_);
-        constexpr double rounding = 1e-14;
+        const auto [values, vectors] = jacobi_eigen<4>(products_);
+        constexpr double rounding = 1e-14;  // of eigenvalues, relative to the trace
         if (values[2] - values[3] <= rounding * trace) return std::nullopt;
         const double d = vectors[3][3];
-        if (std::abs(d) < 1e-12) return std::nullopt;
+        constexpr double negligible = 1e-12;  // rounding error of an eigenvector, times a margin
+        if (std::abs(d) < negligible) return std::nullopt;
         return quadric{-vectors[0][3] / d, -vectors[1][3] / d, -vectors[2][3] / d, 0.0, 0.0};
     }
 

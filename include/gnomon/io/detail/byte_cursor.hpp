@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A place in binary data: hands out bytes that are really there, and says at which byte something
-/// was wrong.
+/// A cursor in binary data. Access is bounds-checked, and errors name the byte.
 #pragma once
 
 #include <algorithm>
@@ -17,13 +16,14 @@
 
 namespace gnomon::io::detail {
 
-/// Reads an input as bytes, from `offset` on; refers to it.
+/// Reads an input as bytes. Refers to the input.
 class byte_cursor {
   public:
+    /// @param offset  position of the first byte
     byte_cursor(const input& file, std::size_t offset) : file_(&file), offset_(offset) {}
 
-    /// The next `count` bytes.
-    /// @throws gnomon::error  if fewer are left
+    /// Returns the next `count` bytes and advances.
+    /// @throws gnomon::error  if fewer bytes are left
     [[nodiscard]] std::string_view take(std::size_t count) {
         if (count > remaining()) fail("the file ends too early");
         const std::string_view result = std::string_view(file_->bytes).substr(offset_, count);
@@ -31,25 +31,25 @@ class byte_cursor {
         return result;
     }
 
-    /// The next number.
+    /// Returns the next number and advances.
     /// @throws gnomon::error  if too few bytes are left
     [[nodiscard]] double number(scalar_layout layout, std::endian order) {
         return decode(take(layout.size).data(), layout, order);
     }
 
-    /// Refuses a count of rows that the rest of the file cannot hold, before memory is asked for.
-    /// @param size  at least so many bytes per row
-    /// @throws gnomon::error  if the rows would not fit
+    /// Checks that the rest of the file can hold `rows` rows, before memory is allocated for them.
+    /// @param size  minimum number of bytes per row
+    /// @throws gnomon::error  if it cannot
     void require_rows(std::uint64_t rows, std::size_t size) const {
         if (rows > remaining() / std::max<std::size_t>(size, 1))
             fail(std::to_string(rows) + " points or elements are declared, but only " +
                  std::to_string(remaining()) + " bytes are left");
     }
 
-    /// Bytes to the end of the file.
+    /// The number of bytes to the end of the file.
     [[nodiscard]] std::size_t remaining() const { return file_->bytes.size() - offset_; }
 
-    /// Complains about what comes next.
+    /// Throws an error at the current byte.
     [[noreturn]] void fail(const std::string& message) const {
         throw error(file_->name, "byte " + std::to_string(offset_), message);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which file a name stands for, before something is written under it.
+/// Resolves the name of a file that is to be written.
 #pragma once
 
 #include <string>
@@ -16,8 +16,9 @@
 
 namespace gnomon::io::detail {
 
-/// The file that `path` leads to, links followed; `path` itself if there is none yet.
-/// @throws gnomon::error  for a device, a pipe or a directory, which no file may replace
+/// Returns the file of the name `path` with symbolic links resolved; `path` itself if the file does
+/// not exist.
+/// @throws gnomon::error  if `path` is a device, a pipe or a directory, which must not be replaced
 [[nodiscard]] inline std::string file_target(const std::string& path) {
 #ifdef _WIN32
     return path;

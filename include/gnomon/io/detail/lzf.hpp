@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Decompression of Marc Lehmann's LZF, in which PCL packs the points of binary_compressed files.
+/// Decompression of LZF (Marc Lehmann, LibLZF), the format of points in binary_compressed PCD
+/// files.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,11 @@
 
 namespace gnomon::io::detail {
 
-/// LZF never packs better: three bytes stand for at most 264.
+/// The upper bound of the compression ratio: three bytes encode at most 264.
 inline constexpr std::size_t lzf_best_ratio = 88;
 
-/// Unpacks `packed` into exactly `size` bytes; none if it does not hold these.
+/// Decompresses `packed`. O(size).
+/// @return `size` bytes; none if the data are damaged or decompress to another size
 [[nodiscard]] inline std::optional<std::string> unpack_lzf(std::string_view packed,
                                                            std::size_t size) {
     if (size / lzf_best_ratio > packed.size()) return std::nullopt;
@@ -22,12 +24,12 @@ inline constexpr std::size_t lzf_best_ratio = 88;
     std::size_t i = 0;
     while (i < packed.size()) {
         const std::size_t control = static_cast<unsigned char>(packed[i++]);
-        if (control < 32) {  // a run of bytes as they are
+        if (control < 32) {  // literal run
             const std::size_t length = control + 1;
             if (length > packed.size() - i || length > size - result.size()) return std::nullopt;
             result.append(packed.substr(i, length));
             i += length;
-        } else {  // a repetition of bytes that went before
+        } else {  // back reference
             std::size_t length = control / 32 + 2;
             const bool is_long = length == 9;
             if (packed.size() - i < (is_long ? 2U : 1U)) return std::nullopt;
@@ -35,7 +37,7 @@ inline constexpr std::size_t lzf_best_ratio = 88;
             const std::size_t distance =
                 control % 32 * 256 + static_cast<unsigned char>(packed[i++]) + 1;
             if (distance > result.size() || length > size - result.size()) return std::nullopt;
-            // Byte by byte: the repetition may overlap what it writes.
+            // Byte by byte, since source and destination can overlap.
             for (std::size_t k = 0; k < length; ++k)
                 result.push_back(result[result.size() - distance]);
         }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What the operating system says when it refuses a file.
+/// Errors of the operating system as `gnomon::error`.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace gnomon::io::detail {
 
-/// The error for `path` with the text of the errno value `code`.
+/// Returns the error for the file `path` with the message of the errno value `code`.
 [[nodiscard]] inline error os_error(const std::string& path, int code) {
     return {path, "", std::generic_category().message(code)};
 }

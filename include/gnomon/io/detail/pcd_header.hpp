@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The header of a PCD file (Rusu and Cousins 2011, the PCD v0.7 format of PCL, and the sloppier
-/// ones before it): which fields there are, how many points, and how they are encoded.
+/// The header of a PCD file: fields, number of points and encoding. Accepts the PCD v0.7 format of
+/// PCL (Rusu and Cousins 2011) and its less strict predecessors.
 #pragma once
 
 #include <algorithm>
@@ -24,40 +24,44 @@
 
 namespace gnomon::io::detail {
 
+/// A field of the points: one or several values.
 struct pcd_field {
     std::string name;
-    scalar_layout type{'F', 4};  // what files mean that say nothing
-    std::size_t count = 1;
+    scalar_layout type{'F', 4};  // the default of files without TYPE and SIZE
+    std::size_t count = 1;       // number of values
 
-    /// The size of one point's values [bytes].
+    /// The size of the field of one point [bytes].
     [[nodiscard]] std::size_t size() const { return type.size * count; }
 };
 
+/// The contents of the header.
 struct pcd_header {
     std::vector<pcd_field> fields;
-    std::uint64_t points = 0;
-    viewpoint_table viewpoints;
-    std::string data;  // "ascii", "binary" or "binary_compressed"
+    std::uint64_t points = 0;    // as declared
+    viewpoint_table viewpoints;  // one viewpoint, or none
+    std::string data;            // "ascii", "binary" or "binary_compressed"
 };
 
-/// The words with which a line of the header begins.
+/// The keywords of the header, at the beginning of a line.
 inline constexpr std::array<std::string_view, 11> pcd_keywords = {
     "VERSION", "FIELDS", "COLUMNS",   "SIZE",   "TYPE", "COUNT",
     "WIDTH",   "HEIGHT", "VIEWPOINT", "POINTS", "DATA"};
 
+/// Returns whether `word` is a keyword of the header.
 [[nodiscard]] inline bool is_pcd_keyword(std::string_view word) {
     return std::find(pcd_keywords.begin(), pcd_keywords.end(), word) != pcd_keywords.end();
 }
 
-/// What the lines of a header say, before it is put together.
+/// The lines of the header, by keyword, before they are checked against each other.
 struct pcd_lines {
     splitter fields, size, type, count, viewpoint, data;
     std::optional<std::uint64_t> width, height, points;
     bool has_size = false, has_type = false, has_count = false, has_viewpoint = false;
 };
 
-/// Reads up to and including the line "DATA". Before the first keyword any line is a comment, with
-/// '#' or without: a comment that was broken over two lines does no harm.
+/// Reads up to and including the line "DATA". Lines before the first keyword are comments, also
+/// without '#': some writers break a comment over two lines.
+/// @throws gnomon::error  for an unknown keyword, or if the file ends
 [[nodiscard]] inline pcd_lines read_pcd_lines(text_cursor& text) {
     pcd_lines lines;
     bool begun = false;
@@ -95,9 +99,9 @@ struct pcd_lines {
     }
 }
 
-/// Reads the header; leaves `text` before the data.
-/// @throws gnomon::error  if it is damaged or contradicts itself
-template <class = void>  // as read_ply and read_pcd are
+/// Reads the header and leaves `text` at the first byte of the data.
+/// @throws gnomon::error  if the header is damaged or inconsistent
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] pcd_header read_pcd_header(text_cursor& text) {
     pcd_lines lines = read_pcd_lines(text);
     pcd_header header;
@@ -115,15 +119,15 @@ template <class = void>  // as read_ply and read_pcd are
         if (lines.has_count) field.count = text.size(lines.count);
         if (!visit_type(field.type, [](auto) {}))
             text.fail("TYPE and SIZE of " + in_quotes(*name) + " do not go together");
-        // No descriptor is that long; a damaged header must not cost gigabytes.
-        constexpr std::size_t most_values = 1 << 16;
-        if (field.count == 0 || field.count > most_values - values)
+        // Bounds the memory for a damaged header; far above the length of any descriptor.
+        constexpr std::size_t max_values = 1 << 16;
+        if (field.count == 0 || field.count > max_values - values)
             text.fail("COUNT of " + in_quotes(*name) + " is impossible");
         values += field.count;
         header.fields.push_back(std::move(field));
     }
     if (lines.size.next() || lines.type.next() || lines.count.next())
-        text.fail("SIZE, TYPE or COUNT speaks of more fields than FIELDS");
+        text.fail("SIZE, TYPE or COUNT lists more fields than FIELDS");
 
     if (lines.width) {
         const std::uint64_t height = lines.height.value_or(1);
@@ -133,11 +137,11 @@ template <class = void>  // as read_ply and read_pcd are
             text.fail("WIDTH * HEIGHT is not POINTS");
         lines.points = *lines.width * height;
     }
-    if (!lines.points) text.fail("the header says neither WIDTH nor POINTS");
+    if (!lines.points) text.fail("the header has neither WIDTH nor POINTS");
     header.points = *lines.points;
 
     if (lines.has_viewpoint) {
-        // The orientation that follows is that of the sensor; the points are in its frame already.
+        // The orientation after the position is ignored: the points stay in the frame of the file.
         Eigen::Vector3d viewpoint;
         for (double& coordinate : viewpoint) coordinate = text.number(lines.viewpoint);
         header.viewpoints = viewpoint;

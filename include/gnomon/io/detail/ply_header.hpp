@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The header of a PLY file: which elements follow, and how their properties are encoded.
+/// The header of a PLY file: encoding, elements and their properties.
 #pragma once
 
 #include <algorithm>
@@ -24,19 +24,20 @@
 
 namespace gnomon::io::detail {
 
-/// A number, or a list of numbers that is preceded by its length.
+/// A property of an element: a number, or a list of numbers preceded by its length.
 struct ply_property {
     std::string name;
-    scalar_layout type;
-    std::optional<scalar_layout> length;  // of a list
+    scalar_layout type;                   // of the number or of the numbers of the list
+    std::optional<scalar_layout> length;  // type of the length of a list; none for a number
 };
 
+/// An element, such as "vertex": a table with one row per instance.
 struct ply_element {
     std::string name;
-    std::uint64_t count;
+    std::uint64_t count;  // number of rows, as declared
     std::vector<ply_property> properties;
 
-    /// The size of a row whose lists are all empty [bytes].
+    /// The size of a binary row if all its lists are empty [bytes].
     [[nodiscard]] std::size_t smallest_row() const {
         std::size_t size = 0;
         for (const ply_property& p : properties) size += p.length.value_or(p.type).size;
@@ -44,12 +45,15 @@ struct ply_element {
     }
 };
 
+/// The contents of the header.
 struct ply_header {
     std::optional<ply_format> format;
-    std::vector<ply_element> elements;
-    viewpoint_table viewpoints;
+    std::vector<ply_element> elements;  // in the order of the file
+    viewpoint_table viewpoints;         // of the comment "viewpoint x y z"
 };
 
+/// Reads the name of a scalar type.
+/// @throws gnomon::error  if there is no such type
 [[nodiscard]] inline scalar_layout read_ply_type(splitter& words, const text_cursor& text) {
     const std::string_view name = words.next().value_or("");
     for (const ply_type& type : ply_types)
@@ -57,7 +61,8 @@ struct ply_header {
     text.fail(in_quotes(name) + " is not a type of PLY");
 }
 
-/// Reads what follows "property".
+/// Reads a line after its keyword "property".
+/// @throws gnomon::error  if it is damaged
 [[nodiscard]] inline ply_property read_ply_property(splitter words, const text_cursor& text) {
     ply_property result{};
     splitter ahead = words;
@@ -72,7 +77,9 @@ struct ply_header {
     return result;
 }
 
-/// Reads what follows "comment": `write_ply` notes the view point there, as PLY has no word for it.
+/// Reads a line after its keyword "comment". `write_ply` writes the viewpoint as a comment, since
+/// PLY has no keyword for it.
+/// @return the viewpoint [m]; none if the comment is another one
 [[nodiscard]] inline std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
     if (words.next() != "viewpoint") return std::nullopt;
     Eigen::Vector3d result;
@@ -82,9 +89,9 @@ struct ply_header {
     return result;
 }
 
-/// Reads the header; leaves `text` before the first element.
-/// @throws gnomon::error  if it is damaged or not the header of a PLY file
-template <class = void>  // as read_ply and read_pcd are
+/// Reads the header and leaves `text` at the first byte of the first element.
+/// @throws gnomon::error  if the header is damaged or not that of a PLY file
+template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] ply_header read_ply_header(text_cursor& text) {
     ply_header header;
     if (text.words().next() != "ply") text.fail("not a PLY file");

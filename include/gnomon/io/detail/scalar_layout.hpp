@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How a number lies in a binary file, and how to take it out and put it in.
+/// Binary representation of numbers in files: types, decoding and encoding.
 #pragma once
 
 #include <algorithm>
@@ -13,17 +13,16 @@
 
 namespace gnomon::io::detail {
 
-/// Kind ('I' signed, 'U' unsigned, 'F' floating-point, as PCD says) and size in bytes: the
-/// combinations of `visit_type`.
+/// A binary number type: kind and size. `visit_type` lists the valid combinations.
 struct scalar_layout {
-    char kind;
-    std::size_t size;
+    char kind;         ///< as in PCD: 'I' signed, 'U' unsigned, 'F' floating-point
+    std::size_t size;  ///< [bytes]
 
     friend bool operator==(scalar_layout, scalar_layout) = default;
 };
 
-/// Calls `f` with a zero of the C++ type that `layout` describes.
-/// @return whether there is such a type
+/// Calls `f` with a zero of the C++ type of `layout`.
+/// @return false, without a call, if there is no such type
 template <class F>
 constexpr bool visit_type(scalar_layout layout, F f) {
     if (layout.size > 8) return false;
@@ -63,8 +62,8 @@ constexpr bool visit_type(scalar_layout layout, F f) {
     }
 }
 
-/// The number at `bytes`; 64-bit integers beyond 2^53 are rounded.
-/// Precondition: layout.size bytes can be read, and the layout has a type.
+/// Returns the number at `bytes` as a double; 64-bit integers above 2^53 are rounded.
+/// Precondition: layout.size bytes can be read, and `layout` is valid.
 [[nodiscard]] inline double decode(const char* bytes, scalar_layout layout, std::endian order) {
     double result = 0;
     visit_type(layout, [&](auto zero) {
@@ -76,7 +75,7 @@ constexpr bool visit_type(scalar_layout layout, F f) {
     return result;
 }
 
-/// Appends `value` to `bytes`.
+/// Appends the bytes of `value` in the given byte order.
 template <class T>
 void encode(std::string& bytes, T value, std::endian order) {
     auto copy = std::bit_cast<std::array<char, sizeof(T)>>(value);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Rows of numbers to a scan: which column is x, which is a field that the caller asked for.
+/// Assembles a scan from rows of numbers: selects the columns of the coordinates, of the viewpoint
+/// and of the requested fields.
 #pragma once
 
 #include <algorithm>
@@ -16,12 +17,14 @@
 
 namespace gnomon::io::detail {
 
+/// Builds a scan row by row. Columns viewpoint_x, viewpoint_y, viewpoint_z, if the file has all
+/// three, become viewpoints.
 class scan_builder {
   public:
     /// @param columns  the names of the columns in the file; "_" is padding
-    /// @param wanted   the names of those that shall become fields
-    /// @param text     where the file names its columns, for the error
-    /// @throws gnomon::error  if x, y, z or a wanted column is missing
+    /// @param wanted   the names of the columns that become fields
+    /// @param text     position of the column names, for the error message
+    /// @throws gnomon::error  if x, y, z or a requested column is missing
     scan_builder(const std::vector<std::string>& columns, const std::vector<std::string>& wanted,
                  const text_cursor& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
@@ -37,7 +40,8 @@ class scan_builder {
         }
     }
 
-    /// Precondition: the caller has checked that the file really holds about so many points.
+    /// Allocates memory for `points` points. Precondition: the caller has checked that the file is
+    /// large enough to hold them.
     void reserve(std::size_t points) {
         result_.points.reserve(points);
         for (scalar_field& field : result_.fields) field.values.reserve(points);
@@ -53,7 +57,7 @@ class scan_builder {
             viewpoints_.emplace_back(row[viewpoint_[0]], row[viewpoint_[1]], row[viewpoint_[2]]);
     }
 
-    /// What was built, seen from where each row says, else from `viewpoints`.
+    /// Returns the scan. Its viewpoints are those of the rows, or else `viewpoints`.
     [[nodiscard]] scan finish(viewpoint_table viewpoints = {}) && {
         result_.viewpoints = viewpoint_.size() == 3 ? viewpoint_table(std::move(viewpoints_))
                                                     : std::move(viewpoints);
@@ -61,6 +65,8 @@ class scan_builder {
     }
 
   private:
+    /// The index of the column `name`.
+    /// @throws gnomon::error  with the list of all columns, if it is missing
     [[nodiscard]] static std::size_t column(const std::vector<std::string>& columns,
                                             const std::string& name, const text_cursor& text) {
         const auto found = std::find(columns.begin(), columns.end(), name);
@@ -73,9 +79,9 @@ class scan_builder {
         text.fail("there is no field " + in_quotes(name) + "; there are: " + there);
     }
 
-    std::array<std::size_t, 3> axes_;
-    std::vector<std::size_t> sources_;
-    std::vector<std::size_t> viewpoint_;  // columns of the view point, if the file has all three
+    std::array<std::size_t, 3> axes_;     // columns of x, y and z
+    std::vector<std::size_t> sources_;    // columns of the fields
+    std::vector<std::size_t> viewpoint_;  // columns of the viewpoint; used if all three exist
     std::vector<Eigen::Vector3d> viewpoints_;
     scan result_;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The words of a line.
+/// Splits a line into words.
 #pragma once
 
 #include <algorithm>
@@ -10,17 +10,18 @@
 
 namespace gnomon::io::detail {
 
-/// Hands out the words of a line one by one. Blanks separate words; so does, once, a separator
-/// like ',', with or without blanks around it: "1,,2" holds an empty word in the middle.
+/// Splits a line into words, one at a time. Words are separated by blanks, or by one separator such
+/// as ',' with optional blanks around it: the second word of "1,,2" is empty. Refers to the line.
 class splitter {
   public:
     splitter() = default;
+    /// @param separator  a character in addition to blanks
     explicit splitter(std::string_view line, char separator = ' ')
         : rest_(line), separator_(separator) {
         skip_blanks();
     }
 
-    /// The next word; none at the end of the line.
+    /// Returns the next word and advances; none at the end of the line.
     [[nodiscard]] std::optional<std::string_view> next() {
         if (rest_.empty()) return std::nullopt;
         const char ends[] = {' ', '\t', '\v', '\f', '\r', separator_};
@@ -35,7 +36,7 @@ class splitter {
         return word;
     }
 
-    /// Whether no word is left.
+    /// Returns whether no word is left.
     [[nodiscard]] bool empty() const { return rest_.empty(); }
 
   private:

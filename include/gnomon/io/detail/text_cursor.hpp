@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A place in a text: hands out lines and words, and says on which line something was wrong.
+/// A cursor in a text. Gives lines, words and numbers; errors name the line.
 #pragma once
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 
 namespace gnomon::io::detail {
 
-/// `word` fit for an error message: in quotes, short and printable.
+/// Returns `word` for an error message: in quotes, shortened, and without unprintable characters.
 [[nodiscard]] inline std::string in_quotes(std::string_view word) {
     constexpr std::size_t longest = 32;
     std::string result = "\"";
@@ -26,12 +26,13 @@ namespace gnomon::io::detail {
     return result + (word.size() > longest ? "...\"" : "\"");
 }
 
-/// Reads an input as text; refers to it.
+/// Reads an input as text. Refers to the input.
 class text_cursor {
   public:
     explicit text_cursor(const input& file) : file_(&file) {}
 
-    /// The next line without its end ("\n" or "\r\n"); none at the end of the file.
+    /// Returns the next line without its end ("\n" or "\r\n") and advances; none at the end of the
+    /// file.
     [[nodiscard]] std::optional<std::string_view> line() {
         line_ = next_line_;
         if (remaining() == 0) return std::nullopt;
@@ -47,7 +48,7 @@ class text_cursor {
         return result;
     }
 
-    /// The words of the next line that has any.
+    /// Returns the words of the next line that is not blank, and advances.
     /// @throws gnomon::error  at the end of the file
     [[nodiscard]] splitter words() {
         while (const auto text = line())
@@ -56,44 +57,45 @@ class text_cursor {
         fail("the file ends too early");
     }
 
-    /// Goes past `prefix` if the text continues with it.
+    /// Skips `prefix` if the text continues with it.
     void skip(std::string_view prefix) {
         if (std::string_view(file_->bytes).substr(offset_).starts_with(prefix))
             offset_ += prefix.size();
     }
 
-    /// The next word of `words` as a number.
-    /// @throws gnomon::error  if there is none, or it is not a number or not a double's
+    /// Returns the next word of `words` as a number.
+    /// @throws gnomon::error  if there is none, if it cannot be parsed, or if a double overflows
     [[nodiscard]] double number(splitter& words) const { return parse<double>(words, "a number"); }
 
-    /// The next word of `words` as a count.
-    /// @throws gnomon::error  if there is none, or it is not one
+    /// Returns the next word of `words` as a count.
+    /// @throws gnomon::error  if there is none, or if it is no count
     [[nodiscard]] std::uint64_t count(splitter& words) const {
         return parse<std::uint64_t>(words, "a count");
     }
 
-    /// The next word of `words` as a size in memory.
-    /// @throws gnomon::error  if there is none, or it is not one
+    /// Returns the next word of `words` as a size in memory.
+    /// @throws gnomon::error  if there is none, or if it is no size
     [[nodiscard]] std::size_t size(splitter& words) const {
         return parse<std::size_t>(words, "a count");
     }
 
-    /// Refuses a count of rows that the rest of the text cannot hold, before memory is asked for.
-    /// @param values  at least so many per row
-    /// @throws gnomon::error  if even rows of one-digit numbers would not fit
+    /// Checks that the rest of the text can hold `rows` rows of one-digit numbers, before memory is
+    /// allocated for them.
+    /// @param values  minimum number of values per row
+    /// @throws gnomon::error  if it cannot
     void require_rows(std::uint64_t rows, std::size_t values) const {
         if (rows > (std::uint64_t{remaining()} + 1) / (2 * std::max<std::size_t>(values, 1)))
             fail(std::to_string(rows) + " points or elements are declared, but only " +
                  std::to_string(remaining()) + " bytes are left");
     }
 
-    /// Bytes from the beginning of the file to what comes next.
+    /// The number of bytes before the cursor.
     [[nodiscard]] std::size_t offset() const { return offset_; }
 
-    /// Bytes to the end of the file.
+    /// The number of bytes to the end of the file.
     [[nodiscard]] std::size_t remaining() const { return file_->bytes.size() - offset_; }
 
-    /// Complains about the line handed out last.
+    /// Throws an error at the line returned last.
     [[noreturn]] void fail(const std::string& message) const {
         throw error(file_->name, "line " + std::to_string(line_), message);
     }
@@ -112,8 +114,8 @@ class text_cursor {
 
     const input* file_;
     std::size_t offset_ = 0;
-    std::size_t line_ = 1;       // of what was handed out last
-    std::size_t next_line_ = 1;  // of what comes next
+    std::size_t line_ = 1;       // number of the line returned last
+    std::size_t next_line_ = 1;  // number of the next line
 };
 
 }  // namespace gnomon::io::detail

@@ -20,7 +20,7 @@
 
 namespace gnomon::detail {
 
-/// A point of the plane, relative to the origin of the star, and who it is.
+/// A point of the plane, relative to the origin of the star, and its index in the cloud.
 struct planar_point {
     double x, y;
     point_index index;

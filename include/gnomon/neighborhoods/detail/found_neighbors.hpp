@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a sweep has found of one point: where its neighbors lie in the tree. From there come their
-/// moments and mean distance, in one pass over vectors of neighbors that stores nothing, and the
-/// ring in canonical order if somebody asks.
+/// The neighbors that a sweep found for one point, by their places in the tree: their moments and
+/// mean distance, in one pass over vectors of neighbors that stores nothing, and, on request, the
+/// neighbors in canonical order.
 #pragma once
 
 #include <algorithm>
@@ -14,19 +14,21 @@
 
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/moments.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/neighbor_order.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
 /// Sums over the neighbors of a point.
-struct ring_sums {
+struct neighborhood_sums {
     moments about_point;
     double mean_distance = 0.0;  // from it [m]; 0 if there are none
 };
 
-/// A view of the neighbors of one point, in no particular order, until the search goes on to the
-/// next. (A template, so that only who searches compiles it.)
+/// A view of the neighbors of one point, in no particular order; valid until the search goes on to
+/// the next point. (A template, so that only users of a search compile it.)
 template <class Tree>
 class found_neighbors {
   public:
@@ -36,8 +38,8 @@ class found_neighbors {
 
     [[nodiscard]] std::size_t size() const { return places_.size(); }
 
-    /// Their moments [m], [m^2] about the point, and how far they are on average. O(k).
-    [[nodiscard]] ring_sums summed() const {
+    /// The moments [m], [m^2] of the neighbors about the point, and their mean distance. O(k).
+    [[nodiscard]] neighborhood_sums summed() const {
         vector_sums all;
         const std::size_t whole = size() / slim_pack::size * slim_pack::size;
         for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
@@ -48,7 +50,7 @@ class found_neighbors {
                       last.begin());
             add(all, last.data());
         }
-        ring_sums r;
+        neighborhood_sums r;
         r.about_point.count = size();
         r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
         r.about_point.outer(0, 0) = all.xx.sum();
@@ -61,20 +63,33 @@ class found_neighbors {
         return r;
     }
 
-    /// Replaces the content of `ring` by them in canonical order. O(k log k), of a few O(k^2).
-    void sort_into(std::vector<neighbor>& ring) const {
-        ring.resize(size());
-        if (size() <= few) {
-            rank_into(ring);
+    /// Replaces the content of `sorted` by the neighbors in canonical order. O(k log k), for few
+    /// neighbors O(k log^2 k).
+    template <class Allocator>
+    void sort_into(std::vector<neighbor, Allocator>& sorted) const {
+        sorted.resize(size());
+        if (size() <= order::most) {
+            in_order([&](std::size_t rank, const neighbor& q) { sorted[rank] = q; });
         } else {
-            for (std::size_t j = 0; j < size(); ++j) ring[j] = at(j);
-            std::sort(ring.begin(), ring.end());
+            for (std::size_t j = 0; j < size(); ++j) sorted[j] = at(j);
+            std::sort(sorted.begin(), sorted.end());
+        }
+    }
+
+    /// Writes the indices of the neighbors in canonical order; `buffer` is memory for the sorting
+    /// of many neighbors. As long as sort_into(sorted).
+    template <class Allocator>
+    void sort_into(point_index* indices, std::vector<neighbor, Allocator>& buffer) const {
+        if (size() <= order::most) {
+            in_order([&](std::size_t rank, const neighbor& q) { indices[rank] = q.index; });
+        } else {
+            sort_into(buffer);
+            for (const neighbor& q : buffer) *indices++ = q.index;
         }
     }
 
   private:
-    /// Beyond so many, comparing all with all takes longer than sorting.
-    static constexpr std::size_t few = 128;
+    using order = neighbor_order<>;
 
     struct vector_sums {
         slim_pack x = 0.0, y = 0.0, z = 0.0;
@@ -82,7 +97,7 @@ class found_neighbors {
         slim_pack distance = 0.0;
     };
 
-    /// As many neighbors as a vector has numbers.
+    /// Adds as many neighbors as a vector has numbers.
     [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
         const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
         const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
@@ -104,28 +119,16 @@ class found_neighbors {
         return {tree_.squared_distance(from_, places_[j]), tree_.index()[places_[j]]};
     }
 
-    /// Puts each where as many are nearer, for which all are compared with all, eight at a time;
-    /// then sets ties right.
-    void rank_into(std::vector<neighbor>& ring) const {
-        std::array<double, few> squared;  // distances
+    /// Calls write(rank, neighbor) for all neighbors.
+    /// Precondition: there are at most order::most.
+    void in_order(auto&& write) const {
+        std::array<double, order::most> squared;
         for (std::size_t j = 0; j < size(); ++j)
             squared[j] = tree_.squared_distance(from_, places_[j]);
-        const std::size_t filled = (size() + pack::size - 1) / pack::size * pack::size;
-        const std::size_t not_there = filled - size();  // zeros, as near as anything
-        std::fill_n(squared.data() + size(), not_there, 0.0);
-        std::array<std::uint8_t, few> ties{};  // found up to now, by their last place
-        for (std::size_t j = 0; j < size(); ++j) {
-            const pack d2(squared[j]);
-            pack not_farther(0.0);
-            for (std::size_t i = 0; i < filled; i += pack::size)
-                not_farther += where_at_least(d2, pack(squared.data() + i), 1.0, 0.0);
-            const auto last = static_cast<std::size_t>(not_farther.sum()) - not_there - 1;
-            ring[last - ties[last]++] = {squared[j], tree_.index()[places_[j]]};
-        }
-        for (std::size_t last = 0; last < size(); ++last) {
-            const auto end = ring.begin() + static_cast<std::ptrdiff_t>(last) + 1;
-            if (ties[last] > 1) std::sort(end - ties[last], end);
-        }
+        const auto index_of = [&](std::size_t j) { return tree_.index()[places_[j]]; };
+        const order sorted({squared.data(), size()}, index_of);
+        for (std::size_t rank = 0; rank < size(); ++rank)
+            write(rank, neighbor{squared[sorted[rank]], index_of(sorted[rank])});
     }
 
     const Tree& tree_;

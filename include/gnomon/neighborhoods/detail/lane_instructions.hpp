@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which of 32 numbers are within a limit, as the bits of a number, and keeping those: what
-/// compilers do not find instructions for by themselves. There is a class for each set of
-/// instructions, and with_widest() runs a loop with the widest that there is: what the compiler was
-/// told of, and on x86-64 AVX2 too, if the processor has it, whatever the compiler was told.
+/// Comparison of 32 numbers with a limit, with a bit mask as the result, and compression of the
+/// numbers in a mask: compilers do not generate the instructions for these by themselves. Each
+/// instruction set has a class, and with_widest() runs a loop with the widest set available: that
+/// of the compiler's flags, and on x86-64 AVX2 as well if the processor has it, whatever the flags.
 #pragma once
 
 #include <array>
@@ -20,7 +20,9 @@ inline namespace GNOMON_LANES {
 
 /// Plain loops.
 struct plain_instructions {
-    /// Bit l of the result tells whether a[l] <= limit.
+    using integers [[gnu::vector_size(16), gnu::may_alias]] = int;
+
+    /// Bit l of the result is set if a[l] <= limit.
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
         std::uint32_t bits = 0;
         for (std::size_t l = 0; l < lane_count; ++l)
@@ -35,9 +37,10 @@ struct plain_instructions {
         return n;
     }
 
-    /// Writes those of 32 numbers, of 32 bits each, that bits are set for, one after the other.
-    /// What follows them, up to 32 in all, may be overwritten; `out` may be `numbers`, or before.
-    /// @return the end of what was written
+    /// Writes the numbers whose bits are set, one after the other, out of 32 numbers of 32 bits
+    /// each. Memory after them, up to 32 numbers in total, may be overwritten; `out` may be
+    /// `numbers` or lie before it.
+    /// @return the end of the numbers written
     template <class T>
         requires(sizeof(T) == 4)
     static T* compress(const T* numbers, std::uint32_t bits, T* out) {
@@ -45,7 +48,7 @@ struct plain_instructions {
         return out;
     }
 
-    /// The same of 32 values and of the numbers first, first + 1, ... beside them.
+    /// The same for 32 values and for the numbers first, first + 1, ... that belong to them.
     /// @return how many were written
     static std::size_t compress(const lanes& values, std::uint32_t first, std::uint32_t bits,
                                 float* out, std::uint32_t* out_numbers) {
@@ -76,9 +79,11 @@ struct sse2_instructions : plain_instructions {
 
 #if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
 /// By the compilers' built-in vectors and functions: the header of these instructions takes long to
-/// read.
+/// compile.
 class avx2_instructions {
   public:
+    using integers [[gnu::vector_size(32), gnu::may_alias]] = int;
+
     [[nodiscard, GNOMON_WITH_AVX2]] static std::uint32_t at_most(const lanes& a, float limit) {
         const floats t = limit - floats{};
         std::uint32_t bits = 0;
@@ -89,7 +94,14 @@ class avx2_instructions {
     }
 
     [[nodiscard, GNOMON_WITH_AVX2]] static std::size_t count_at_most(const lanes& a, float limit) {
-        return static_cast<std::size_t>(std::popcount(at_most(a, limit)));
+        // Bytes of a packed mask are in another order, which does not matter for their number.
+        const floats t = limit - floats{};
+        const auto* const all = reinterpret_cast<const floats*>(a.at);
+        const auto first = __builtin_ia32_packssdw256(all[0] <= t, all[1] <= t);
+        const auto second = __builtin_ia32_packssdw256(all[2] <= t, all[3] <= t);
+        const auto mask = __builtin_ia32_packsswb256(first, second);
+        return static_cast<std::size_t>(
+            std::popcount(static_cast<std::uint32_t>(__builtin_ia32_pmovmskb256(mask))));
     }
 
     template <class T>
@@ -125,7 +137,6 @@ class avx2_instructions {
 
   private:
     using floats [[gnu::vector_size(32), gnu::may_alias]] = float;
-    using integers [[gnu::vector_size(32)]] = int;
 
     [[GNOMON_WITH_AVX2]] static std::uint32_t bits_of(const integers& all_or_none) {
         return static_cast<std::uint32_t>(
@@ -154,6 +165,8 @@ class avx2_instructions {
 
 #if GNOMON_LANE_BITS == 512
 struct avx512_instructions {
+    using integers [[gnu::vector_size(32), gnu::may_alias]] = int;  // of which few fill one
+
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
         const __m512 t = _mm512_set1_ps(limit);
         const unsigned low = _mm512_cmp_ps_mask(_mm512_load_ps(a.at), t, _CMP_LE_OQ);
@@ -196,7 +209,7 @@ struct avx512_instructions {
 };
 #endif
 
-/// What the compiler was told of.
+/// The instruction set of the compiler's flags.
 #if GNOMON_LANE_BITS == 512
 using compiled_instructions = avx512_instructions;
 #elif GNOMON_LANE_BITS == 256

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Thirty-two points, or boxes, side by side, and their distances from a point: plain loops of
-/// fixed length, which compilers turn into vector instructions at -O2 already. And which of a few
-/// distances is the k-th, which they would not.
+/// Thirty-two points, or boxes, as a structure of arrays, and their distances from a point: loops
+/// of fixed length, which compilers vectorise at -O2 already. And the k-th least of few distances,
+/// which compilers do not vectorise.
 #pragma once
 
 #include <algorithm>
@@ -26,7 +26,7 @@ struct alignas(64) lanes {
     [[nodiscard]] const float& operator[](std::size_t l) const { return at[l]; }
 };
 
-/// The positions of 32 points. Where there are fewer, infinity fills up.
+/// The positions of 32 points; with fewer points, the rest is infinity.
 struct lane_points {
     lanes x, y, z;
 
@@ -45,7 +45,7 @@ struct lane_points {
     }
 };
 
-/// Thirty-two boxes, by their middles and half their sides.
+/// Thirty-two boxes, as their centers and half their side lengths.
 struct lane_boxes {
     lanes x, y, z, half_x, half_y, half_z;
 
@@ -70,9 +70,8 @@ struct lane_boxes {
     }
 };
 
-/// The k-th least of n numbers: compares all with all, in vectors of eight that compilers have
-/// built in. O(n^2). Precondition: 0 < k <= n; `a` is aligned for such vectors, and in its last one
-/// infinity follows.
+/// The k-th least of n numbers: compares each number with all numbers, eight at a time. O(n^2).
+/// Precondition: 0 < k <= n; `a` is aligned for vectors of eight, and infinity fills the last one.
 [[nodiscard, gnu::always_inline]] inline float kth_least(const float* a, std::size_t n,
                                                          std::size_t k) {
     constexpr std::size_t width = 8;

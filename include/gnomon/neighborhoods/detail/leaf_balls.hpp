@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// All neighbors within a radius, of all points of a group of leaves at once: as leaf_search.hpp,
-/// but that the limit is known. Every point may have a radius of its own; points of like radii
-/// share a list of leaves.
+/// All neighbors within a radius, for all points of a group of leaves at once: as leaf_search.hpp,
+/// with a limit that is known in advance. Each point may have its own radius; points of similar
+/// radii share a list of leaves.
 #pragma once
 
 #include <algorithm>
@@ -11,34 +11,37 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/place_set.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Searches group by group: one for each thread. (A template, so that only who searches compiles
-/// it.)
+/// Searches group by group; each thread has its own object. (A template, so that only users of a
+/// search compile it.)
 template <class Tree, class Radius>
 class leaf_balls {
   public:
-    /// The radius of the point of a certain index is radius_of(index) [m]. Precondition: the tree
-    /// is not empty.
-    leaf_balls(const Tree& tree, Radius radius_of)
-        : tree_(tree), radius_of_(std::move(radius_of)), list_(tree) {}
+    /// @param radius_of  radius_of(place) is the radius of the point at a place [m]; of those that
+    ///                   find nothing, it is negative
+    /// @param among      only these places are found; all, if null
+    /// Precondition: the tree is not empty, and places with a radius are among these.
+    leaf_balls(const Tree& tree, Radius radius_of, const place_set* among = nullptr)
+        : tree_(tree), radius_of_(std::move(radius_of)), list_(tree, among) {}
 
-    /// Calls visit(place, places of all others within its radius) for each point of the group
-    /// number `group` whose radius is not negative. The radius itself is within.
+    /// Calls visit(place, places of all other points within its radius) for each point of the group
+    /// number `group` whose radius is not negative. The ball is closed.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t begin = group * Tree::points_per_group;
         const std::size_t end = std::min(begin + Tree::points_per_group, tree_.size());
         balls_.clear();
         for (std::size_t p = begin; p < end; ++p) {
-            const double radius = radius_of_(tree_.index()[p]);
+            const double radius = radius_of_(p);
             if (radius >= 0.0) balls_.push_back({radius, p});
         }
         std::sort(balls_.begin(), balls_.end());
@@ -60,8 +63,8 @@ class leaf_balls {
         friend auto operator<=>(const ball&, const ball&) = default;
     };
 
-    /// Makes the list one for these balls.
-    /// @return how many they are
+    /// Makes the list that of these balls.
+    /// @return the number of balls
     std::size_t enclose(std::span<const ball> balls) {
         places_.clear();
         for (const ball& b : balls) places_.push_back(b.place);
@@ -69,8 +72,8 @@ class leaf_balls {
         return balls.size();
     }
 
-    /// Whether floats can tell much of these balls seen from their middle; if so, they are
-    /// enclosed.
+    /// Makes the list that of these balls.
+    /// @return whether they are close enough together for one list, see leaf_list::widest
     bool is_compact(std::span<const ball> balls) {
         enclose(balls);
         return list_.half_diagonal() <= list_.widest * balls.back().radius;
@@ -89,8 +92,8 @@ class leaf_balls {
     const Tree& tree_;
     Radius radius_of_;
     leaf_list<Tree> list_;
-    std::vector<ball> balls_;
-    std::vector<std::size_t> places_;
+    scratch<ball> balls_;
+    scratch<std::size_t> places_;
 };
 
 }  // namespace GNOMON_LANES

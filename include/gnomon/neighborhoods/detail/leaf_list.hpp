@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The leaves of a tree that matter for some points that lie together, made ready for looking at
-/// all their points from each of these: in floats from the middle between them, 32 side by side, in
-/// the nearest cache. Floats cannot always tell which of two points is nearer; how far they may err
-/// is known, and what is nearer than that to the limit is told by the tree's doubles.
+/// The leaves of a tree within reach of some adjacent query points, prepared for distances from
+/// these: coordinates in float relative to their center, 32 points in a structure of arrays. Where
+/// the rounding of floats could decide, distances are compared in double.
 #pragma once
 
 #include <algorithm>
@@ -14,33 +13,35 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/place_set.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Lengths are in units of the list, in which it reaches to 1, unless in metres. (A template, so
-/// that only who searches compiles it.)
+/// Lengths are in units of the list, whose reach is at most 1, unless in metres. (A template for
+/// compile time only.)
 template <class Tree>
 class leaf_list {
   public:
-    /// Farther than all that is within reach of all.
+    /// Farther than every point within reach of a query point.
     static constexpr float everything = 4.0f;
-    /// How many times the reach half the diagonal should be at most: beyond, floats tell too
-    /// little.
+    /// The largest ratio of half the diagonal to the reach, for which floats decide enough.
     static constexpr double widest = 256.0;
-
     /// Precondition: the tree is not empty.
-    explicit leaf_list(const Tree& tree)
-        : tree_(tree), diagonal_(std::sqrt(tree.box().squared_diagonal())) {}
+    /// @param among  only these places are listed; all, if null
+    explicit leaf_list(const Tree& tree, const place_set* among = nullptr)
+        : tree_(tree), among_(among), diagonal_(std::sqrt(tree.box().squared_diagonal())) {
+        points_.reserve(std::min(tree.leaves() + lane_count, 4 * lane_count));  // performance only
+    }
 
-    /// Makes it a list for the points at some places of one group, and an empty one.
+    /// Makes it an empty list for the query points at some places of one group.
     void enclose(std::span<const std::size_t> places) {
         group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
@@ -49,10 +50,9 @@ class leaf_list {
         half_ = 0.5 * std::sqrt(box_.squared_diagonal());
     }
 
-    /// Half the diagonal of the box of the points that it is for [m].
+    /// Half the diagonal of the box of the query points [m].
     [[nodiscard]] double half_diagonal() const { return half_; }
-
-    /// Lists the leaves within `reach` [m], greater than 0, of that box, and the points' own.
+    /// Lists the leaves within `reach` [m], greater than 0, of that box, and the query points' own.
     void extend_to(double reach) {
         reach_ = std::clamp(reach, least_reach, std::max(diagonal_, least_reach));
         scale_ = half_ + reach_ > 0.0 ? 1.0 / (half_ + reach_) : 1.0;
@@ -71,15 +71,14 @@ class leaf_list {
         }
     }
 
-    /// All that is nearer than that is listed [m].
+    /// All points nearer than this are listed [m].
     [[nodiscard]] double reach() const { return reach_; }
-    /// Whether that is all there is.
+    /// Whether all points are listed.
     [[nodiscard]] bool complete() const { return reach_ >= diagonal_; }
     /// [1/m]
     [[nodiscard]] double scale() const { return scale_; }
-
-    /// Squared distances between which floats cannot tell whether a point is within d, which is
-    /// counted as `everything` if it is more.
+    /// The squared distances between which floats leave undecided whether a point is within d,
+    /// which is `everything` at most.
     [[nodiscard]] std::pair<float, float> doubt_about(double d) const {
         const auto limit = static_cast<float>(std::min<double>(d, everything));
         // Floats are off by 2^-24 of each coordinate, which is at most half + d, and of each sum of
@@ -91,9 +90,9 @@ class leaf_list {
         return {below, (limit + error) * (limit + error)};
     }
 
-    /// Makes candidates of all listed points within a limit of the one at place p, one of those
-    /// that the list is for, but not of that itself. The limit is a squared distance.
-    /// @return how many
+    /// Makes the listed points within a limit, a squared distance, of the query point at place p
+    /// candidates, except the query point itself.
+    /// @return the number of candidates
     std::size_t collect(std::size_t p, float limit) {
         const std::size_t own = own_[p % Tree::points_per_group / lane_count];
         const std::size_t lane = p % lane_count;
@@ -125,8 +124,7 @@ class leaf_list {
     [[nodiscard]] std::span<const float> squared_distances() const {
         return {distance_[0].at, candidates_};
     }
-
-    /// How many of the candidates are within each of two limits.
+    /// The numbers of candidates within each of two limits.
     [[nodiscard, gnu::always_inline]] std::pair<std::size_t, std::size_t> count(auto instructions,
                                                                                 float a,
                                                                                 float b) const {
@@ -138,8 +136,8 @@ class leaf_list {
         return {within_a, within_b};
     }
 
-    /// The squared distances of those beyond `below` and within `above`, and after them infinity.
-    /// Precondition: there are at most 32.
+    /// The squared distances of the candidates beyond `below` and within `above`, which are at most
+    /// 32, followed by infinity.
     [[nodiscard, gnu::always_inline]] const float* between(auto instructions, float below,
                                                            float above) {
         float* end = few_.data();
@@ -151,7 +149,7 @@ class leaf_list {
         return few_.data();
     }
 
-    /// Calls visit(candidate) for those beyond `below` and within `above`.
+    /// Calls visit(candidate) for the candidates beyond `below` and within `above`.
     void for_each_between(float below, float above, auto&& visit) const {
         constexpr compiled_instructions instructions;
         for (std::size_t b = 0; b * lane_count < candidates_; ++b) {
@@ -163,15 +161,14 @@ class leaf_list {
 
     /// The place of a candidate.
     [[nodiscard]] std::uint32_t place(std::size_t candidate) const { return candidate_[candidate]; }
-
     /// Puts a candidate beyond all limits.
     void dismiss(std::size_t candidate) {
         distance_[candidate / lane_count][candidate % lane_count] = far_;
     }
 
-    /// The places of those candidates that are within a limit, in their order. Ends the candidacy
-    /// of all.
-    [[nodiscard]] std::span<std::uint32_t> take_within(float limit) {
+    /// The places of the candidates within a limit. Removes all candidates. (Not inline, as it is
+    /// called in several places: for compile time only.)
+    [[nodiscard, gnu::noinline]] std::span<std::uint32_t> take_within(float limit) {
         std::uint32_t* const taken = with_widest([&](auto instructions) {
             std::uint32_t* end = candidate_.data();
             for (std::size_t b = 0; b * lane_count < candidates_; ++b)
@@ -198,9 +195,9 @@ class leaf_list {
             starts_.resize(listed_ + lane_count);
             boxes_.emplace_back();
         }
+        constexpr double beyond = 64.0;  // every point within reach
         std::array<float, 3> middle{}, half{};
         for (std::size_t a = 0; a < 3; ++a) {
-            constexpr double beyond = 64.0;  // all that matters
             const double low = std::max(-beyond, (box.low[a] - origin_[a]) * scale_);
             const double high = std::min(beyond, (box.high[a] - origin_[a]) * scale_);
             middle[a] = static_cast<float>(0.5 * (low + high));
@@ -214,35 +211,36 @@ class leaf_list {
         for (std::size_t l = 0; l < lane_count; ++l) block.x[l] = scaled(tree_.at(0)[start + l], 0);
         for (std::size_t l = 0; l < lane_count; ++l) block.y[l] = scaled(tree_.at(1)[start + l], 1);
         for (std::size_t l = 0; l < lane_count; ++l) block.z[l] = scaled(tree_.at(2)[start + l], 2);
-        for (std::size_t l = std::min(lane_count, tree_.size() - start); l < lane_count; ++l)
-            block.set(l, {far_, far_, far_});
+        const std::size_t size = std::min(lane_count, tree_.size() - start);
+        std::uint32_t missing = ~(~std::uint32_t{0} >> (lane_count - size));
+        if (among_ != nullptr) missing |= ~among_->of_leaf(leaf);
+        for (; missing != 0; missing &= missing - 1)
+            block.set(static_cast<std::size_t>(std::countr_zero(missing)), {far_, far_, far_});
     }
 
-    /// A coordinate from the middle.
+    /// A coordinate relative to the center, in units of the list.
     [[nodiscard]] float scaled(double coordinate, std::size_t axis) const {
         return static_cast<float>((coordinate - origin_[axis]) * scale_);
     }
 
     static constexpr float far_ = std::numeric_limits<float>::infinity();
-    /// The square of `scale_` must not overflow [m].
-    static constexpr double least_reach = 1e-150;
+    static constexpr double least_reach = 1e-150;  // the square of `scale_` must not overflow [m]
 
     const Tree& tree_;
-    double diagonal_;  // of all [m]
-    std::size_t group_ = 0;
+    const place_set* among_;
+    double diagonal_;                     // of all [m]
+    std::size_t group_ = 0, listed_ = 0;  // number of the group; how many leaves are listed
     leaf_box box_{};
     std::array<double, 3> origin_{};                         // its middle
-    double half_ = 0.0;                                      // of its diagonal [m]
-    double reach_ = 0.0;                                     // [m]
+    double half_ = 0.0, reach_ = 0.0;                        // of its diagonal; of the list [m]
     double scale_ = 1.0;                                     // [1/m]
-    std::size_t listed_ = 0;                                 // how many leaves
     std::array<std::size_t, Tree::leaves_per_group> own_{};  // where the group's leaves are listed
-    std::vector<lane_boxes> boxes_;                          // of the leaves, 32 in each
-    std::vector<lane_points> points_;                        // of each leaf
-    std::vector<std::uint32_t> starts_;                      // their first places
+    scratch<lane_boxes> boxes_;                              // of the leaves, 32 in each
+    scratch<lane_points> points_;                            // of each leaf
+    scratch<std::uint32_t> starts_;                          // their first places
     std::size_t candidates_ = 0;                             // how many points
-    std::vector<lanes> distance_;                            // squared ones of the candidates
-    std::vector<std::uint32_t> candidate_;                   // their places
+    scratch<lanes> distance_;                                // squared ones of the candidates
+    scratch<std::uint32_t> candidate_;                       // their places
     alignas(lanes) std::array<float, 2 * lane_count> few_;   // of the distances, with room to write
 };
 

@@ -1,19 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The k nearest neighbors of all points of a group of leaves at once. Their neighborhoods overlap,
-/// so one walk through the tree lists the leaves that matter for any of them (leaf_list.hpp), and
-/// what follows is done 32 points at a time:
+/// The k nearest neighbors of all points of a group of leaves at once: one traversal of the tree
+/// lists the leaves within reach of any of them (leaf_list.hpp), then 32 points at a time:
 ///
-///  1. Which listed leaves, and which of their points, are within a guess of the k-th distance (a
-///     bit more than that of the points before)? About twice as many points as needed pass.
-///  2. Which is the k-th? Distances on surfaces are nearly evenly spread in their squares, so two
-///     limits are soon found between which it is with a few others, and these are compared all with
-///     all, without a branch.
-///  3. Are the floats precise enough to tell the k-th from the next? If not, as with tied
-///     distances, those in doubt are told apart by their canonical distances in double.
+///  1. Collect the points of the listed leaves within an estimate of the k-th distance.
+///  2. Select the k-th distance. Squared distances on surfaces are nearly uniform, so an
+///     interpolation search finds two limits with few distances between them; these are ranked.
+///  3. Compare points that the rounding of floats leaves undecided by canonical distances.
 ///
-/// A guess never decides: too few points, and it is raised; a k-th neighbor farther than the list
-/// reaches, and the list is made longer. So the neighbors are exactly those of the canonical order.
+/// The estimate is raised if too few points pass, the list extended if the k-th is beyond its
+/// reach.
 #pragma once
 
 #include <algorithm>
@@ -23,29 +19,23 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/nearest_wanted.hpp>
+#include <gnomon/neighborhoods/detail/place_set.hpp>
 #include <gnomon/neighborhoods/detail/size_with_ties.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// What is looked for: the k nearest, and those that the rule adds to them, none beyond a radius.
-struct nearest_wanted {
-    std::size_t k;
-    tie_rule ties = tie_rule::by_index;
-    double radius = std::numeric_limits<double>::infinity();  // [m]
-    const std::vector<bool>* of = nullptr;  // the points whose neighbors are looked for; of all
-};
-
-/// Searches group by group. It learns from one what to expect of the next: one for each thread. (A
-/// template, so that only who searches compiles it.)
+/// Searches group by group; each thread has its own object, which estimates distances in a group by
+/// those in the group before. (A template, so that only users of a search compile it.)
 template <class Tree>
 class leaf_search {
   public:
@@ -58,15 +48,14 @@ class leaf_search {
           of_(wanted.of),
           list_(tree) {}
 
-    /// Calls visit(place, places of its k nearest) for each point of the group number `group` whose
-    /// neighbors are looked for.
+    /// Calls visit(place, places of its k nearest neighbors) for each query point in a group.
     template <class Visit>
     void operator()(std::size_t group, Visit&& visit) {
         const std::size_t first = group * Tree::points_per_group;
         const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
         for (std::size_t p = first; p < last; ++p)
-            if (of_ == nullptr || (*of_)[tree_.index()[p]]) waiting_.push_back(p);
+            if (of_ == nullptr || of_->contains(p)) waiting_.push_back(p);
         if (waiting_.empty()) return;
         list_.enclose(waiting_);
         // The box of these, with its diagonal, holds that many neighbors of each.
@@ -75,7 +64,7 @@ class leaf_search {
         if (list_.half_diagonal() <= list_.widest * reach_ || !(reach_ > 0.0)) {
             find_waiting(visit);
         } else {
-            // Far apart for what is near them, as where the group holds a stray: one by one.
+            // The box is large relative to the reach, as with an outlier: point by point.
             alone_ = waiting_;
             for (const std::size_t p : alone_) {
                 waiting_.assign(1, p);
@@ -84,17 +73,16 @@ class leaf_search {
                 find_waiting(visit);
             }
         }
-        // Stragglers would make the next list too long for all the others.
         const auto most = reached_.begin() + std::ssize(reached_) * 15 / 16;
         std::nth_element(reached_.begin(), most, reached_.end());
-        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);
+        reach_ = 1.1 * std::min(*std::max_element(most, reached_.end()), 1.5 * *most);  // robust
     }
 
   private:
-    /// So many are sooner compared with each other than narrowed down.
+    /// Up to this number, ranking is faster than a further interpolation. Performance only.
     static constexpr std::size_t few = 16;
 
-    /// Visits all that are waiting.
+    /// Visits all query points that wait.
     template <class Visit>
     void find_waiting(Visit&& visit) {
         if (!(reach_ > 0.0))
@@ -116,17 +104,17 @@ class leaf_search {
                 }
             }
             if (left == 0) return;
-            waiting_.resize(left);
+            waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(left), waiting_.end());
             reach_ = std::min(1.001 * farther, 4.0 * list_.reach());
             list_.enclose(waiting_);
         }
     }
 
-    /// Selects the k nearest of the group's point at place p, of those that are listed.
-    /// @return how far the k-th is [m]; infinity if fewer are listed
+    /// Selects the k nearest listed points of the query point at place p.
+    /// @return the distance of the k-th [m]; infinity if fewer are listed
     double select(std::size_t p) {
         selected_ = {};
-        if (k_ == 0) return 0.0;  // a lonely point
+        if (k_ == 0) return 0.0;  // the only point
         const double scale = list_.scale();
         const float most = list_.doubt_about(radius_ * scale).second;
         auto limit = static_cast<float>(guess_ * scale * scale);
@@ -155,7 +143,7 @@ class leaf_search {
         }
     }
 
-    /// Deselects what is beyond the radius.
+    /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
         if (radius_ == std::numeric_limits<double>::infinity()) return;
         const auto is_farther = [&](std::uint32_t at) {
@@ -165,8 +153,7 @@ class leaf_search {
         selected_ = selected_.first(selected_.size() - farther.size());
     }
 
-    /// Guesses the next squared k-th distance from this one and that before, lest a straggler makes
-    /// the next one sift through too much.
+    /// Estimates the next squared k-th distance by the lesser of the last two.
     /// @return the distance
     double learn(double squared) {
         guess_ = (1.0 + 2.0 / std::sqrt(static_cast<double>(k_))) * std::min(squared, last_);
@@ -177,11 +164,26 @@ class leaf_search {
     /// The k-th of the candidates' squared distances.
     /// Precondition: there are k, and all are within `high`.
     [[nodiscard]] float kth(float high) {
-        return with_widest([&](auto instructions) { return kth(instructions, high); });
+        const enclosure e = with_widest([&](auto i) { return enclosure_of_kth(i, high); });
+        if (e.within - e.below <= lane_count) return e.kth;
+        between_.clear();
+        const auto candidates = list_.squared_distances();
+        list_.for_each_between(e.low, e.high,
+                               [&](std::size_t c) { between_.push_back(candidates[c]); });
+        const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - e.below) - 1;
+        std::nth_element(between_.begin(), nth, between_.end());
+        return static_cast<float>(*nth);
     }
-    [[nodiscard, gnu::always_inline]] float kth(auto instructions, float high) {
+
+    /// Limits of the k-th squared distance: it is beyond `low` and within `high`.
+    struct enclosure {
+        float low, high;
+        std::size_t below, within;  // the numbers of candidates within `low` and `high`
+        float kth;                  // itself, if at most `lane_count` candidates are between
+    };
+
+    [[nodiscard, gnu::always_inline]] enclosure enclosure_of_kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
-        // It is beyond `low` and within `high`, with some others.
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {
             // If they are evenly spread, it lies between these two, nine times in ten.
@@ -202,42 +204,29 @@ class leaf_search {
                     low = b, below = within_b;
             }
         }
-        if (within - below <= lane_count)
-            return kth_least(list_.between(instructions, low, high), within - below, k_ - below);
-        // Many are about as far.
-        between_.clear();
-        const auto candidates = list_.squared_distances();
-        list_.for_each_between(low, high,
-                               [&](std::size_t c) { between_.push_back(candidates[c]); });
-        const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - below) - 1;
-        std::nth_element(between_.begin(), nth, between_.end());
-        return *nth;
+        if (within - below > lane_count) return {low, high, below, within, high};
+        const float* const between = list_.between(instructions, low, high);
+        return {low, high, below, within, kth_least(between, within - below, k_ - below)};
     }
 
-    /// The k nearest, and ties if the rule says so: those within `below`, and of those up to
-    /// `above`, among which floats cannot tell the k-th from the next, the `wanted` nearest by
-    /// canonical distances.
+    /// The k nearest points, and ties if the rule adds them: the candidates within `below`, and of
+    /// the others up to `above` the `wanted` nearest by canonical distances.
     std::span<std::uint32_t> settle(std::size_t from, std::size_t wanted, float below,
                                     float above) {
         doubtful_.clear();
+        candidates_.clear();
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
-            doubtful_.push_back({{tree_.squared_distance(from, at), tree_.index()[at]}, c});
+            doubtful_.push_back({tree_.squared_distance(from, at), tree_.index()[at]});
+            candidates_.push_back(c);
         });
-        const std::size_t most = ties_ == tie_rule::all ? k_ + wanted : wanted;
-        const auto nearer = [](const auto& a, const auto& b) { return a.first < b.first; };
-        if (most < doubtful_.size()) {
-            std::nth_element(doubtful_.begin(),
-                             doubtful_.begin() + static_cast<std::ptrdiff_t>(most), doubtful_.end(),
-                             nearer);
-        }
-        std::size_t kept = wanted;
-        if (ties_ == tie_rule::all) {
-            const auto nearest = std::span(doubtful_).first(std::min(most, doubtful_.size()));
-            std::sort(nearest.begin(), nearest.end(), nearer);
-            kept = size_with_ties(nearest, wanted, most, [](const auto& d) { return d.first; });
-        }
-        for (std::size_t d = kept; d < doubtful_.size(); ++d) list_.dismiss(doubtful_[d].second);
+        // As in tree_query, whose sort this shares: for compile time only.
+        sorted_ = doubtful_;
+        std::sort(sorted_.data(), sorted_.data() + sorted_.size());
+        const std::size_t kept =
+            ties_ == tie_rule::all ? size_with_ties(sorted_, wanted, k_ + wanted) : wanted;
+        for (std::size_t d = 0; d < doubtful_.size(); ++d)
+            if (sorted_[kept - 1] < doubtful_[d]) list_.dismiss(candidates_[d]);
         return list_.take_within(above);
     }
 
@@ -245,16 +234,16 @@ class leaf_search {
     std::size_t k_;
     tie_rule ties_;
     double radius_;
-    const std::vector<bool>* of_;
+    const place_set* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
-    double guess_ = 0.0;                                     // of the next one
-    double reach_ = 0.0;                                     // within which leaves are listed [m]
-    std::vector<double> reached_;                            // the k-th distances in a group [m]
-    std::vector<std::size_t> waiting_, alone_;
+    double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
+    scratch<double> reached_;           // the k-th distances in a group [m]
+    scratch<std::size_t> waiting_, alone_;
     std::span<std::uint32_t> selected_;
-    std::vector<float> between_;
-    std::vector<std::pair<neighbor, std::size_t>> doubtful_;
+    scratch<double> between_;  // not of floats, to share a nth_element: for compile time only
+    scratch<neighbor> doubtful_, sorted_;
+    scratch<std::size_t> candidates_;  // numbers of the doubtful ones
 };
 
 }  // namespace GNOMON_LANES

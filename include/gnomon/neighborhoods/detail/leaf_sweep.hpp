@@ -6,13 +6,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <utility>
 
 #include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
+#include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
 namespace gnomon::detail {
@@ -61,13 +61,16 @@ void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&
     search_all_groups(tree, run, make_search, [&] { return place_visitor(tree, make_visitor()); });
 }
 
-/// A tree for searches of the k nearest; none where so many points coincide that one point after
-/// the other is faster.
-template <class Points, execution X>
-[[nodiscard]] std::optional<leaf_tree> tree_unless_crowded(const Points& points, const X& run) {
-    std::optional<leaf_tree> tree;
-    if (tree.emplace(points, run).crowded()) tree.reset();
-    return tree;
+/// The sweep of a search for the k nearest. Does nothing on a crowded tree, where the search for
+/// each leaf would read all coincident points.
+/// @return whether it swept
+template <execution X>
+[[nodiscard]] bool sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
+                                 auto&& make_visitor) {
+    if (tree.crowded()) return false;
+    const auto make_search = [&] { return leaf_search(tree, wanted); };
+    sweep_leaves(tree, run, make_search, make_visitor);
+    return true;
 }
 
 }  // namespace GNOMON_LANES

@@ -1,83 +1,90 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A kd-tree made for asking after the neighbors of all its points: balanced, its leaves exactly
-/// full with 32 points (but the last), points that are near in space near in memory. It has no
-/// pointers: nodes lie in preorder, so that the left child of a node, over m leaves, is next to it
-/// and the right one behind the 2 m - 1 nodes of the left.
+/// The kd-tree of `spatial_index`: a median split across the longest side of each box until leaves
+/// hold exactly 32 points (the last one fewer). Points of a leaf are adjacent in memory, coordinate
+/// by coordinate, so that vector instructions read them. There are no pointers: nodes lie in
+/// preorder; the left child of a node over m leaves follows it, and the right child follows the
+/// 2 m' - 1 nodes of a left subtree of m' leaves.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
-#include <memory>
-#include <numeric>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/touched_vector.hpp>
+#include <gnomon/core/detail/kept_array.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/finite_entries.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/neighborhoods/detail/leaf_box.hpp>
+#include <gnomon/neighborhoods/detail/leaf_subtree.hpp>
 
 namespace gnomon::detail {
 
-/// An axis-aligned box.
-struct leaf_box {
-    std::array<double, 3> low, high;
-
-    void add(const std::array<double, 3>& p) {
-        for (std::size_t a = 0; a < 3; ++a) {
-            low[a] = std::min(low[a], p[a]);
-            high[a] = std::max(high[a], p[a]);
-        }
-    }
-    [[nodiscard]] double squared_distance_to(const leaf_box& other) const {
-        double sum = 0.0;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const double gap = std::max({other.low[a] - high[a], low[a] - other.high[a], 0.0});
-            sum += gap * gap;
-        }
-        return sum;
-    }
-    [[nodiscard]] double squared_diagonal() const {
-        double sum = 0.0;
-        for (std::size_t a = 0; a < 3; ++a) sum += (high[a] - low[a]) * (high[a] - low[a]);
-        return sum;
-    }
-};
+#if defined(GNOMON_COUNT_TREES)
+/// The number of trees that were built, for tests of how often an algorithm builds one.
+inline std::atomic<std::size_t> trees_built{0};
+#endif
 
 /// The finite points of a position_view in such a tree.
 class leaf_tree {
   public:
     static constexpr std::size_t leaf_size = lane_count;
     /// Leaves 4 g to 4 g + 3 are a subtree, the group number g.
-    static constexpr std::size_t leaves_per_group = 4;
+    static constexpr std::size_t leaves_per_group = leaf_subtree::leaves_per_group;
     static constexpr std::size_t points_per_group = leaves_per_group * leaf_size;
+    /// The place of points that are not in the tree.
+    static constexpr point_index no_place = std::numeric_limits<point_index>::max();
+
+    leaf_tree() = default;
 
     /// O(n log n), on as many threads as `run` has.
     template <class Points, execution X>
     leaf_tree(const Points& points, const X& run) {
-        const auto entries = finite(points, run);
-        if (size_ == 0) return;
+        rebuild(points, run);
+        release_scratch();
+    }
+
+    /// Replaces the points, in the memory of the tree; allocates only to grow.
+    template <class Points, execution X>
+    void rebuild(const Points& points, const X& run) {
+        clear_unless_built guard{this};
+#if defined(GNOMON_COUNT_TREES)
+        ++trees_built;
+#endif
+        place_of_.resize(points.size(), run);
+        for_each_chunk(run, points.size(), [this](std::size_t begin, std::size_t end) {
+            std::fill(place_of_.data() + begin, place_of_.data() + end, no_place);
+        });
+        entries_.gather(points, run);
+        size_ = entries_.size();
         leaves_ = (size_ + leaf_size - 1) / leaf_size;
         const std::size_t places = leaves_ * leaf_size;
-        for (auto& c : at_) {
-            c = touched_array<double>(places, run);
-            std::fill(c.get() + size_, c.get() + places, 0.0);
-        }
-        index_ = touched_array<point_index>(places, run);
-        boxes_.resize(2 * leaves() - 1);
-        build({entries.get(), size_}, run);
-        for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) {
-            const std::size_t first = l * leaf_size;
-            crowded_ = std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
-                return std::all_of(c.get() + first, c.get() + first + leaf_size,
-                                   [&](double x) { return x == c[first]; });
-            });
-        }
+        for (auto& c : at_) c.resize(places, run);
+        index_.resize(places, run);
+        boxes_.resize(leaves_ > 0 ? 2 * leaves_ - 1 : 0);
+        crowded_ = false;
+        if (size_ == 0) return guard.dismiss();
+        for (auto& c : at_) std::fill(c.data() + size_, c.data() + places, 0.0);
+        build(entries_.all(), run);
+        for (std::size_t l = 0; l + 1 < leaves_ && !crowded_; ++l) crowded_ = is_at_one_position(l);
+        guard.dismiss();
     }
+
+    /// Makes it a tree of no points, which keeps its memory.
+    void clear() {
+        size_ = leaves_ = 0;
+        place_of_.resize(0, sequential{});
+    }
+
+    /// Gives back what only building needs.
+    void release_scratch() { entries_.release(); }
 
     /// The number of finite points.
     [[nodiscard]] std::size_t size() const { return size_; }
@@ -86,9 +93,13 @@ class leaf_tree {
         return (leaves_ + leaves_per_group - 1) / leaves_per_group;
     }
     /// Coordinate `axis` of all points; those of leaf l are the 32 from 32 l on.
-    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].get(); }
+    [[nodiscard]] const double* at(std::size_t axis) const { return at_[axis].data(); }
     /// The numbers of the points in the cloud, in the same order.
-    [[nodiscard]] const point_index* index() const { return index_.get(); }
+    [[nodiscard]] const point_index* index() const { return index_.data(); }
+    /// The number of all points of the cloud, finite or not.
+    [[nodiscard]] std::size_t points() const { return place_of_.size(); }
+    /// The place of point i of the cloud; `no_place` if it is not finite.
+    [[nodiscard]] point_index place_of(std::size_t i) const { return place_of_[i]; }
     [[nodiscard]] std::array<double, 3> position(std::size_t place) const {
         return {at_[0][place], at_[1][place], at_[2][place]};
     }
@@ -97,23 +108,13 @@ class leaf_tree {
         return gnomon::squared_distance({at_[0][p], at_[1][p], at_[2][p]},
                                         {at_[0][q], at_[1][q], at_[2][q]});
     }
-    /// Whether so many points coincide that they fill a leaf: looking at each of them from each of
-    /// them then takes too long.
+    /// Whether one leaf or more is filled by points at one position. A search of all points for all
+    /// points would then be quadratic in their number.
     [[nodiscard]] bool crowded() const { return crowded_; }
-    /// The box of all. Precondition: there are points.
+    /// The box of all points. Precondition: there are points.
     [[nodiscard]] const leaf_box& box() const { return boxes_[0]; }
 
-    /// A node, by its number in preorder, and the leaves that it is over.
-    struct subtree {
-        std::size_t node, first, last;
-
-        [[nodiscard]] bool is_leaf() const { return last - first == 1; }
-        /// Its children. Precondition: it is no leaf.
-        [[nodiscard]] std::array<subtree, 2> children() const {
-            const std::size_t middle = middle_of(first, last);
-            return {{{node + 1, first, middle}, {node + 2 * (middle - first), middle, last}}};
-        }
-    };
+    using subtree = leaf_subtree;
     /// All of it. Precondition: there are points.
     [[nodiscard]] subtree root() const { return {0, 0, leaves()}; }
     /// The number of nodes, leaves among them.
@@ -141,40 +142,25 @@ class leaf_tree {
     }
 
   private:
-    /// Where a node over the leaves from first to last is split: between groups, if it holds more
-    /// than one.
-    [[nodiscard]] static std::size_t middle_of(std::size_t first, std::size_t last) {
-        const std::size_t half = (last - first + 1) / 2;
-        if (last - first <= leaves_per_group) return first + half;
-        return first + (half + leaves_per_group - 1) / leaves_per_group * leaves_per_group;
-    }
+    /// A tree whose building ends by an exception is one of no points.
+    struct clear_unless_built {
+        leaf_tree* tree;
 
-    struct entry {
-        std::array<double, 3> at;
-        point_index index;
+        ~clear_unless_built() {
+            if (tree != nullptr) tree->clear();
+        }
+        void dismiss() { tree = nullptr; }
     };
 
-    /// Counts the finite points, and gathers them.
-    template <class Points, execution X>
-    std::unique_ptr<entry[]> finite(const Points& points, const X& run) {
-        std::vector<std::size_t> ends(chunk_count(points.size()));
-        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            std::size_t count = 0;
-            for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) ? 1 : 0;
-            ends[begin / chunk_size] = count;
+    [[nodiscard]] bool is_at_one_position(std::size_t leaf) const {
+        const std::size_t first = leaf * leaf_size;
+        return std::all_of(at_.begin(), at_.end(), [first](const auto& c) {
+            return std::all_of(c.data() + first, c.data() + first + leaf_size,
+                               [&](double x) { return x == c[first]; });
         });
-        std::inclusive_scan(ends.begin(), ends.end(), ends.begin());
-        size_ = ends.empty() ? 0 : ends.back();
-        auto entries = touched_array<entry>(size_, run);
-        for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            entry* to = entries.get() + (begin == 0 ? 0 : ends[begin / chunk_size - 1]);
-            for (std::size_t i = begin; i < end; ++i) {
-                const Eigen::Vector3d p = points[i];
-                if (is_finite(p)) *to++ = {{p[0], p[1], p[2]}, static_cast<point_index>(i)};
-            }
-        });
-        return entries;
     }
+
+    using entry = tree_entry;
 
     /// The upper levels one after the other, the subtrees on each side by side.
     template <execution X>
@@ -193,16 +179,18 @@ class leaf_tree {
         run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    /// A subtree on one thread. (This and split() are templates, so that only who builds a tree
-    /// compiles them.)
+    /// A subtree on one thread. (This and split() are templates, so that only code that builds a
+    /// tree compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
             boxes_[t.node] = box_of(entries);
+            if (boxes_[t.node].is_point()) sort_by_index(entries);
             for (std::size_t l = 0; l < entries.size(); ++l) {
                 const std::size_t to = t.first * leaf_size + l;
                 for (std::size_t a = 0; a < 3; ++a) at_[a][to] = entries[l].at[a];
                 index_[to] = entries[l].index;
+                place_of_[entries[l].index] = static_cast<point_index>(to);
             }
             return;
         }
@@ -229,6 +217,10 @@ class leaf_tree {
         for (std::size_t a = 1; a < 3; ++a)
             if (box.high[a] - box.low[a] > box.high[axis] - box.low[axis]) axis = a;
         const auto children = t.children();
+        if (box.is_point()) {
+            sort_by_index(entries);
+            return children;
+        }
         const auto at = static_cast<std::ptrdiff_t>((children[1].first - t.first) * leaf_size);
         std::nth_element(
             entries.begin(), entries.begin() + at, entries.end(),
@@ -236,12 +228,22 @@ class leaf_tree {
         return children;
     }
 
+    /// Points at one position are sorted by their index, so that a search for the k nearest stops
+    /// after k of them.
+    static void sort_by_index(std::span<entry> entries) {
+        const auto less = [](const entry& p, const entry& q) { return p.index < q.index; };
+        if (!std::is_sorted(entries.begin(), entries.end(), less))
+            std::partial_sort(entries.begin(), entries.end(), entries.end(), less);
+    }
+
     std::size_t size_ = 0;
     std::size_t leaves_ = 0;
     bool crowded_ = false;
-    std::array<std::unique_ptr<double[]>, 3> at_;
-    std::unique_ptr<point_index[]> index_;
+    std::array<kept_array<double>, 3> at_;
+    kept_array<point_index> index_;
+    kept_array<point_index> place_of_;
     std::vector<leaf_box> boxes_;  // of the nodes, in preorder
+    finite_entries entries_;       // while building
 };
 
 }  // namespace gnomon::detail

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// `tie_rule::all`, said once for all searches.
+/// The implementation of `tie_rule::all` that all searches share.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <functional>
 
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
-/// How many of a list in canonical order are kept by `tie_rule::all`: the k nearest, and those that
-/// are as far, as long as they are `most` together at most.
+/// The number of neighbors that `tie_rule::all` keeps of a list in canonical order: the k nearest
+/// and those at the distance of the k-th, but at most `most`.
 template <class Sorted, class Proj = std::identity>
 [[nodiscard]] std::size_t size_with_ties(const Sorted& found, std::size_t k, std::size_t most,
                                          Proj neighbor_of = {}) {

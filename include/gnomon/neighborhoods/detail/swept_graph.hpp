@@ -1,72 +1,117 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The stored graph of what a sweep finds, in whatever order it does.
+/// The stored graph of the neighborhoods that a sweep finds, in any order of the points.
 #pragma once
 
 #include <algorithm>
+#include <cassert>
 #include <cstddef>
 #include <cstdint>
-#include <mutex>
 #include <numeric>
+#include <optional>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/thread_team.hpp>
+#include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/scratch_graph.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
 
-/// The rings that the visitors of a sweep have seen.
-struct seen_rings {
-    struct part {
-        std::vector<point_index> points, indices;  // the rings of these, one after the other
-    };
-
-    std::vector<std::uint64_t> size_before;  // at i + 1 is the size of the ring of point i
-    std::vector<part> parts = {};
-    std::mutex guard = {};
-};
-
-/// Remembers what it is shown, and hands it over in the end.
-class ring_recorder {
+/// Writes the neighbors of each point to their place in the graph, which is known beforehand.
+class neighborhood_writer {
   public:
-    explicit ring_recorder(seen_rings& all) : all_(all) {}
+    /// The neighbors of point i begin at indices[begin[i]].
+    neighborhood_writer(const std::vector<std::uint64_t>& begin, point_index* indices)
+        : begin_(begin), indices_(indices) {}
 
     void operator()(std::size_t i, const auto& found) {
-        found.sort_into(ring_);
-        all_.size_before[i + 1] = ring_.size();
+        assert(found.size() == begin_[i + 1] - begin_[i]);
+        found.sort_into(indices_ + begin_[i], buffer_);
+    }
+
+  private:
+    const std::vector<std::uint64_t>& begin_;
+    point_index* indices_;
+    scratch<neighbor> buffer_;
+};
+
+/// The graph of a policy that finds `k` neighbors of every finite point; nothing if the policy does
+/// not sweep.
+template <class Policy, execution X>
+[[nodiscard]] std::optional<adjacency> graph_of_equal_sizes(const Policy& policy, std::size_t k,
+                                                            const spatial_index& index,
+                                                            const X& run) {
+    std::vector<std::uint64_t> begin(index.size() + 1, 0);
+    for (std::size_t i = 0; i < index.size(); ++i)
+        begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
+    auto indices = touched_vector<point_index>(begin.back(), run);
+    const auto make_writer = [&] { return neighborhood_writer(begin, indices.data()); };
+    if (!policy.sweep(index, run, make_writer)) return std::nullopt;
+    return adjacency(std::move(begin), std::move(indices));
+}
+
+/// The neighbors of all points that the visitors of a sweep have seen.
+template <class Graph>
+struct recorded_neighborhoods {
+    /// Those that one visitor has seen.
+    struct part {
+        scratch<point_index> points;
+        scratch<point_index> indices;  // the neighbors of these, one point after the other
+    };
+
+    typename vectors_of<Graph>::begins sizes;  // at i + 1 is the number of neighbors of point i
+    scratch<part> parts = {};
+    mutex guard = {};
+};
+
+/// A visitor that records the neighbors of each point.
+template <class Graph>
+class neighborhood_recorder {
+  public:
+    explicit neighborhood_recorder(recorded_neighborhoods<Graph>& all) : all_(all) {}
+
+    void operator()(std::size_t i, const auto& found) {
+        const std::size_t before = seen_.indices.size();
+        seen_.indices.resize(before + found.size());
+        found.sort_into(seen_.indices.data() + before, buffer_);
+        all_.sizes[i + 1] = found.size();
         seen_.points.push_back(static_cast<point_index>(i));
-        for (const neighbor& q : ring_) seen_.indices.push_back(q.index);
     }
 
     void finish() {
-        const std::lock_guard lock(all_.guard);
+        const guard_of locked(all_.guard);
         all_.parts.push_back(std::move(seen_));
     }
 
   private:
-    seen_rings& all_;
-    std::vector<neighbor> ring_;
-    seen_rings::part seen_;
+    recorded_neighborhoods<Graph>& all_;
+    scratch<neighbor> buffer_;
+    typename recorded_neighborhoods<Graph>::part seen_;
 };
 
-/// The stored graph of a `sweeping_neighborhood`. While building, the indices exist twice.
-template <class Policy, class R, execution X, class Proj>
-[[nodiscard]] adjacency swept_graph(const Policy& policy, const R& points, const X& run,
-                                    Proj projection) {
-    const std::size_t n = position_view<R, Proj>(points, projection).size();
-    const auto& team = detail::staying(run);
-    seen_rings all{.size_before = std::vector<std::uint64_t>(n + 1, 0)};
-    if (!policy.sweep(points, team, projection, [&] { return ring_recorder(all); }))
-        return adjacency(policy.search(points, std::move(projection)), team);
+/// The graph of a policy whose neighborhoods differ in size; nothing if the policy does not sweep.
+/// While building, the indices exist twice.
+/// @tparam Graph  `adjacency` or `scratch_graph`
+template <class Graph, class Policy, execution X>
+[[nodiscard]] std::optional<Graph> recorded_graph(const Policy& policy, const spatial_index& index,
+                                                  const X& run) {
+    recorded_neighborhoods<Graph> all;
+    all.sizes.assign(index.size() + 1, 0);
+    if (!policy.sweep(index, run, [&] { return neighborhood_recorder(all); })) return std::nullopt;
 
-    std::vector<std::uint64_t>& begin = all.size_before;
+    auto& begin = all.sizes;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    std::vector<point_index> indices(begin.back());
-    team(all.parts.size(), [&](std::size_t c) {
+    typename vectors_of<Graph>::indices indices;
+    resize_touched(indices, begin.back(), run);
+    run(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
         for (const point_index i : all.parts[c].points) {
             const auto size = static_cast<std::ptrdiff_t>(begin[i + 1] - begin[i]);
@@ -74,7 +119,20 @@ template <class Policy, class R, execution X, class Proj>
             from += size;
         }
     });
-    return adjacency(std::move(begin), std::move(indices));
+    return Graph(std::move(begin), std::move(indices));
+}
+
+/// The stored graph of a `sweeping_neighborhood`; nothing if the policy does not sweep. A policy
+/// that finds the same number of neighbors of every finite point returns it from
+/// neighbors_of_each(number of finite points), or nothing if the numbers may differ.
+template <class Policy, execution X>
+[[nodiscard]] std::optional<adjacency> swept_graph(const Policy& policy, const spatial_index& index,
+                                                   const X& run) {
+    if constexpr (requires { policy.neighbors_of_each(std::size_t{}); }) {
+        if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
+            return graph_of_equal_sizes(policy, *k, index, run);
+    }
+    return recorded_graph<adjacency>(policy, index, run);
 }
 
 }  // namespace gnomon::detail

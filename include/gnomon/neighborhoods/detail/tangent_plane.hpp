@@ -9,12 +9,12 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/neighborhoods/detail/delaunay_star.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
@@ -24,13 +24,14 @@ class tangent_plane {
   public:
     /// @param points  a position_view
     /// @param p       one of the points
-    /// @param ring    its neighbors
-    tangent_plane(const auto& points, const Eigen::Vector3d& p, const std::vector<neighbor>& ring)
+    /// @param neighbors    its neighbors
+    tangent_plane(const auto& points, const Eigen::Vector3d& p,
+                  const std::vector<neighbor>& neighbors)
         : origin_(p) {
-        rescale(points, ring);
+        rescale(points, neighbors);
         if (!exists_) return;
         moments m;
-        for (const neighbor& q : ring) m.add(scaled(scale_, difference(points[q.index], p)));
+        for (const neighbor& q : neighbors) m.add(scaled(scale_, difference(points[q.index], p)));
         const eigen_decomposition e = symmetric_eigen(m.covariance_with_point());
         x_axis_ = column(e.vectors, 0);
         y_axis_ = column(e.vectors, 1);
@@ -38,11 +39,11 @@ class tangent_plane {
         determined_ = e.values[1] > 0.01 * e.values[0] && e.values[1] > 2.0 * e.values[2];
     }
 
-    /// Keeps the plane, but scales projections for another ring: by a power of two, which rounds
-    /// nothing, so that products of four coordinates stay in range.
-    void rescale(const auto& points, const std::vector<neighbor>& ring) {
+    /// Keeps the plane, but scales projections for other neighbors, by a power of two, which is
+    /// exact, so that products of four coordinates stay in range.
+    void rescale(const auto& points, const std::vector<neighbor>& neighbors) {
         double largest = 0.0;
-        for (const neighbor& q : ring) {
+        for (const neighbor& q : neighbors) {
             const Eigen::Vector3d d = difference(points[q.index], origin_);
             for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(d[a]));
         }
@@ -51,20 +52,20 @@ class tangent_plane {
         scale_ = power_to_one(largest);
     }
 
-    /// False where all points are one place, or too far apart for numbers.
+    /// False where all points coincide, or where their distances overflow.
     [[nodiscard]] bool exists() const { return exists_; }
 
     /// Whether the neighbors spread in two directions, each more than across.
     [[nodiscard]] bool is_determined() const { return determined_; }
 
-    /// The projection of point q, scaled. What is directly above or below the origin is at the
-    /// origin, whatever rounding says.
+    /// The projection of point q, scaled. Points directly above or below the origin are projected
+    /// to the origin exactly, in spite of rounding.
     [[nodiscard]] planar_point project(const Eigen::Vector3d& q, point_index index) const {
         const Eigen::Vector3d d = scaled(scale_, difference(q, origin_));
         const double x = dot(d, x_axis_);
         const double y = dot(d, y_axis_);
         constexpr double rounding = 1e-14;
-        constexpr double smallest = 1e-60;  // of which products of four are numbers
+        constexpr double smallest = 1e-60;  // products of four do not underflow
         if (!(std::abs(x) + std::abs(y) > std::max(rounding * length(d), smallest)))
             return {0.0, 0.0, index};
         return {x, y, index};

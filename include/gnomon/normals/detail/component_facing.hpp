@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which side the components of a cloud face as a whole: that of their view points, or outwards.
+/// The sign of consistently oriented components of a cloud: towards their view points, or, without
+/// view points, outwards.
 #pragma once
 
 #include <algorithm>
@@ -18,8 +19,9 @@
 
 namespace gnomon::detail {
 
-/// For each component, a number that is negative if the component should be turned as a whole.
-/// component[i] is below `components`, or negative; normal_of(i) is consistent in a component.
+/// For each component, a number that is negative if the normals of the component are to be negated.
+/// component[i] is the component of point i, below `components`, or negative if it has none;
+/// normal_of(i) is oriented consistently within a component.
 template <class Points>
 [[nodiscard]] std::vector<double> component_facing(const Points& p,
                                                    const viewpoint_table& viewpoints,
@@ -52,9 +54,10 @@ template <class Points>
         radius[c] = std::max(radius[c], std::sqrt(squared_distance(p[i], center[c])));
     });
     // By the divergence theorem, the integral of <n, d> |d|^2 over a closed surface is five times
-    // that of |d|^2 over what it encloses, so positive if n looks outwards, whatever d = p - center
-    // is counted from. The square lets the outermost points speak loudest: they look outwards even
-    // where the sampling is not even. What is open and flat has no outside: it faces up.
+    // the integral of |d|^2 over the enclosed volume, for any center of d = p - center: it is
+    // positive if n points outwards. The factor |d|^2 gives the outermost points the largest
+    // weight; their sign is right also where the sampling density varies. An open and flat
+    // component has no outside: its normals point up.
     const Eigen::Vector3d faintly_up(1e-12, 1e-10, 1e-8);
     for_each_point([&](std::size_t c, std::size_t i) {
         const double scale = radius[c] > 0.0 ? 1.0 / radius[c] : 0.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The measurement of all filters of planes: the range at which a ray meets the plane
-/// n . (x - c) = distance, and how it changes with n, which may have any length.
+/// The measurement function of the filters of planes: the range at which a ray meets the plane
+/// n . (x - c) = distance, and its gradient with respect to n, which may have any length.
 ///
 /// Klasing 2010, Sec. 3.2.7, Eqs. (3.17) and (3.18), where the distance is zero.
 #pragma once

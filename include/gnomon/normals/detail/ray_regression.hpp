@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The regression behind `ray_ls` and `plane_eif`: the inverse depth of a plane is linear in the
-/// tangents of the rays that see it.
+/// The regression of `ray_ls` and `plane_eif`: the inverse depth of a plane is linear in the
+/// tangents of the rays.
 #pragma once
 
 #include <array>
@@ -14,14 +14,15 @@
 
 namespace gnomon::detail {
 
-/// Takes in points on rays near that of a point p, and regresses y = range / depth - 1 on the
-/// tangents (xi, eta) of the rays, range being the distance of p and depth that along the ray of p:
-/// y = M1 xi + M2 eta + (M3 - 1), where M = range / d * n for the plane n . x = d seen from the
-/// view point. In this frame nothing is ill-conditioned and no digits cancel, however small the
-/// patch. The point itself is counted in: y = xi = eta = 0.
+/// The regression of y = range / depth - 1 on the tangents (xi, eta) of rays near the ray of a
+/// point p, where range is the distance of p from the view point, and depth the coordinate of a
+/// neighbor along the ray of p. For the plane n . x = d in coordinates relative to the view point,
+/// y = M1 xi + M2 eta + (M3 - 1) with M = (range / d) n. In this frame the system is well
+/// conditioned for neighborhoods of any size. The point itself has y = xi = eta = 0 and the weight
+/// 1.
 class ray_regression {
   public:
-    /// The point at x [m] from the view point.
+    /// @param x  the point p relative to the view point [m]
     explicit ray_regression(const Eigen::Vector3d& x) : range_(length(x)) {
         status_ = std::isfinite(range_) ? trust::good : trust::not_finite;
         if (range_ == 0.0) status_ = trust::degenerate;
@@ -31,15 +32,15 @@ class ray_regression {
         e2_ = cross(e3_, e1_);
     }
 
-    /// A neighbor at the offset d [m] from the point.
+    /// Adds a neighbor at the offset d [m] from the point.
     void add(const Eigen::Vector3d& d) {
         const double depth = 1.0 + dot(d, e3_) / range_;
-        if (usable(status_) && !(depth > 0.0))  // beside or behind the view point
+        if (usable(status_) && !(depth > 0.0))  // not in front of the view point
             status_ = std::isnan(depth) ? trust::not_finite : trust::degenerate;
         const double xi = dot(d, e1_) / (range_ * depth);
         const double eta = dot(d, e2_) / (range_ * depth);
         const double y = 1.0 / depth - 1.0;
-        // The error sigma of the range r makes one of sigma / (range sqrt(w)) in y.
+        // An error sigma of the range is an error sigma / (range sqrt(w)) of y.
         const double w = depth * depth * depth * depth * (1.0 + xi * xi + eta * eta);
         w_ += w;
         xi_ += w * xi;
@@ -52,7 +53,7 @@ class ray_regression {
         ey_ += w * eta * y;
     }
 
-    /// Solves, if the regression is determined: see status().
+    /// Solves the regression, if it is determined: see status().
     void solve() {
         if (!usable(status_)) return;
         const double a = xx_ - xi_ * xi_ / w_;
@@ -81,13 +82,14 @@ class ray_regression {
         m_[2] = 1.0 + (y_ - m_[0] * xi_ - m_[1] * eta_) / w_;
     }
 
-    /// Good, unless there is no solution.
+    /// `good`, or why there is no solution.
     [[nodiscard]] trust status() const { return status_; }
 
     /// The distance of the point [m].
     [[nodiscard]] double range() const { return range_; }
 
-    /// sqrt of the ratio of the rays' smaller to their larger spread, 0 to 1. After solve().
+    /// The ratio of the standard deviations of the tangents along their principal directions, 0
+    /// to 1. After solve().
     [[nodiscard]] double aspect_ratio() const { return aspect_ratio_; }
 
     /// M in the coordinates of the cloud. After solve().

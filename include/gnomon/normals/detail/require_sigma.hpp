@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What every estimator with a noise model asks of its noise.
+/// The check of the parameter sigma, common to all estimators with a noise model.
 #pragma once
 
 #include <gnomon/core/detail/cmath.hpp>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The maximum spanning forest of a graph whose links tell whether their ends have the same sign,
-/// by the method of Kruskal 1956, in a form that remembers the sign of each point relative to the
-/// core of its tree and the weakest link on the way there.
+/// The maximum spanning forest of a graph whose links state whether their two points have equal or
+/// opposite signs (Kruskal 1956). It stores the sign of each point relative to the core of its
+/// tree, and the weakest link on the path between them.
 #pragma once
 
 #include <algorithm>
@@ -18,21 +18,23 @@ namespace gnomon::detail {
 
 /// A link between the points a < b.
 struct sign_link {
-    double relation = 0.0;  ///< > 0 for the same sign, < 0 for opposite ones; how surely
+    double relation = 0.0;  ///< positive for equal signs, negative for opposite ones
     point_index a = 0;
     point_index b = 0;
 
+    /// The certainty of the relation.
     [[nodiscard]] double strength() const { return std::abs(relation); }
 };
 
-/// The smaller of two joined trees is hung below the root of the larger one, as a hop that stands
-/// for the link between them: no path has more than log2(n) hops. Links are joined from the
-/// strongest to the weakest, so the weakest hop to the root of all, the core, is the weakest link
-/// of the strongest path there.
+/// A union-find structure without path compression. The root of the smaller of two joined trees
+/// becomes a child of the root of the larger one, by an edge with the relation of the link that
+/// joins them: no path has more than log2(n) edges. Links are processed from the strongest to the
+/// weakest, so that the weakest edge on the path to the root, the core, is the weakest link of the
+/// strongest path between the two points.
 class signed_forest {
   public:
-    /// Of n points. O(m log m) for m links, `Links` being a vector of them. (As a template, it
-    /// costs only those who use it the compilation of a sort.)
+    /// Of n points and m links, O(m log m); `Links` is a vector of sign_link. A template, so that
+    /// the sort is compiled only where it is used.
     template <class Links>
     signed_forest(std::size_t n, Links links) : nodes_(n) {
         for (std::size_t i = 0; i < n; ++i) nodes_[i].parent = static_cast<point_index>(i);
@@ -43,29 +45,29 @@ class signed_forest {
         for (const sign_link& l : links) join(l);
     }
 
-    /// The way from a point to the core of its tree.
+    /// The path from a point to the core of its tree.
     struct way_to_core {
         point_index core;
         double sign;  ///< 1 or -1, relative to the core
-        double
-            weakest;  ///< strength of the weakest link; at the core, of its strongest; 0: of none
+        /// The strength of the weakest link; at the core, that of its strongest link, or 0 without.
+        double weakest;
     };
 
-    /// That of point i. O(log n).
+    /// The path of point i. O(log n).
     [[nodiscard]] way_to_core way(std::size_t i) const {
         way_to_core w{static_cast<point_index>(i), 1.0, nodes_[i].strongest};
         while (nodes_[w.core].parent != w.core) {
             const node& hop = nodes_[w.core];
             w.sign *= hop.relation < 0.0 ? -1.0 : 1.0;
-            w.weakest = std::abs(hop.relation);  // no hop is stronger than the one before
+            w.weakest = std::abs(hop.relation);  // strengths decrease along the path
             w.core = hop.parent;
         }
         return w;
     }
 
-    /// Writes to number[i] the number of its tree, for each point that counts(i) accepts: from 0
-    /// on, the largest tree first, equal ones by their smallest point. Returns how many trees there
-    /// are.
+    /// Numbers the trees from 0, the largest first, equally large ones by their smallest point, and
+    /// writes to number[i] the number of the tree of each point for which counts(i) is true.
+    /// @return the number of trees with such a point
     std::size_t number_trees(auto&& counts, std::vector<std::int32_t>& number) const {
         std::vector<point_index> roots;
         std::vector<std::int32_t> number_of(nodes_.size(), -1);
@@ -92,7 +94,7 @@ class signed_forest {
         point_index parent = 0;
         point_index size = 1;    // of the tree, if this is a root
         double relation = 1.0;   // to the parent
-        double strongest = 0.0;  // of all links of this point: the first that came
+        double strongest = 0.0;  // of all links of this point: the first one
     };
 
     void join(const sign_link& l) {
@@ -103,8 +105,8 @@ class signed_forest {
             if (nodes_[i].strongest == 0.0) nodes_[i].strongest = l.strength();
         }
         const double relation = l.relation * a.sign * b.sign;
-        // Of equally large trees that whose core has the stronger link, for the order of the points
-        // must not matter.
+        // Of equally large trees, that whose core has the stronger link becomes the root, so that
+        // the result does not depend on the order of the points.
         const node& x = nodes_[a.core];
         const node& y = nodes_[b.core];
         if (x.size != y.size ? x.size < y.size : x.strongest < y.strongest) std::swap(a, b);

@@ -4,19 +4,18 @@
 /// others begin.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/point_range.hpp>
-#include <gnomon/core/subset_view.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/occlusion/detail/plane_comparison.hpp>
@@ -28,8 +27,8 @@ namespace gnomon::detail {
 /// segment is flat, and gaps begin there: the others may be round a corner, or what something in
 /// front has lent it.
 struct fragment {
-    std::vector<point_index> members;
-    std::vector<point_index> on_plane;  ///< of a flat one: of these, if three in four, else all
+    scratch<point_index> members;
+    scratch<point_index> on_plane;  ///< of a flat one: of these, if three in four, else all
     principal_frame frame;
     plane_sample plane;
     /// Of its plane, or else the sum of those of its points; of any length.
@@ -51,29 +50,32 @@ struct fragment {
     return sum;
 }
 
-/// @param points         a point range
-/// @param normals        theirs, towards their view points
+/// The fragment of some points of a position_view. O(n).
+/// @param normals        of all points, towards their view points
 /// @param members        the points of the segment
+/// @param positions      memory for the positions of the members
 /// @param max_variation  surface variation of a flat segment
-/// @param max_angle      by which planes may differ: a direction is known if it is known better
+/// @param max_angle      by which planes may differ: the direction of a plane is known if its
+///                       uncertainty is smaller
 /// @param sigma          the standard deviation of ranges [m]
-/// Complexity: O(n) for n points.
-template <class R, class Proj>
-[[nodiscard]] fragment fragment_of(const R& points, const Proj& projection, const auto& normals,
-                                   const viewpoint_table& viewpoints,
-                                   std::vector<point_index> members, double max_variation,
+template <class Points>
+[[nodiscard]] fragment fragment_of(const Points& points, const auto& normals,
+                                   const viewpoint_table& viewpoints, scratch<point_index> members,
+                                   std::span<Eigen::Vector3d> positions, double max_variation,
                                    angle max_angle, double sigma) {
-    const position_view<R, Proj> p(points, projection);
     fragment f;
     f.members = std::move(members);
-    f.frame = principal_frame_of(subset_view<R, Proj>(points, f.members, projection));
-    f.plane = plane_sample_of(p, f.members, viewpoints, sigma);
+    std::transform(f.members.begin(), f.members.end(), positions.begin(),
+                   [&points](point_index i) { return points[i]; });
+    const moments_about_first all(positions);
+    f.frame = principal_axes_of(all);
+    f.plane = plane_sample_of(positions, all, mean_viewpoint(f.members, viewpoints), sigma);
     const auto are_most = [&](std::size_t count) { return 4 * count >= 3 * f.members.size(); };
     const double thickness2 = symmetric_eigen(f.plane.covariance).values[2];
     f.is_flat =
         f.plane.count > 0 && (f.frame.spectrum.surface_variation() <= max_variation ||
                               (are_most(f.plane.count) && thickness2 <= 4.0 * sigma * sigma));
-    if (f.is_flat) f.on_plane = points_on_plane(p, f.members, f.plane, sigma);
+    if (f.is_flat) f.on_plane = points_on_plane(positions, f.members, f.plane, sigma);
     if (f.is_flat && !are_most(f.on_plane.size())) f.on_plane = f.members;
     const plane_knowledge known = knowledge_of(f.plane, sigma);
     f.is_known = known.uncertainty <= max_angle;
@@ -89,10 +91,10 @@ template <class R, class Proj>
     return {(first ? a : b).plane, (first ? b : a).plane, sigma};
 }
 
-/// Whether two that nothing hides between may go on in one another. What is hardly wider than noise
-/// tells too little of its plane for that: its normals must be like those of the other, and near a
-/// right angle are blended by half of it at most; those of a spot are noise, so that the other must
-/// be known.
+/// Whether two segments without anything in front of their gap may be parts of one surface. A
+/// segment hardly wider than the noise determines its plane poorly; its mean normal must then agree
+/// with that of the other within 45 degrees. The normals of a segment narrower than the noise are
+/// noise, so that the plane of the other must be known.
 [[nodiscard]] inline bool may_adjoin(const fragment& a, const fragment& b) {
     if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
     constexpr double blended = 0.5;  // the square of the cosine of 45 degrees

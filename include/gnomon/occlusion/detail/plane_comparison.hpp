@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Whether two segments are of one plane, of two, or noise lets nobody tell: their planes are
-/// compared as two regressions are (Chow 1960).
+/// The test whether two segments are coplanar, certainly not coplanar, or neither can be decided
+/// under the noise: a Chow test of two regressions (Chow 1960).
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace gnomon::detail {
 
-/// Two samples, and what noise lets them tell of whether they are of one plane.
+/// Two samples and the result of the test.
 class plane_comparison {
   public:
     /// With a sample of no points nothing is of one plane, nor of two.
@@ -32,8 +32,8 @@ class plane_comparison {
         turned_ = std::atan2(length(cross(normal, other)), dot(normal, other));
         turned_by_noise_ = std::atan(deviations * std::sqrt(spread.largest_eigenvalue()));
 
-        // The slope of parallel planes is that of both, as each knows it; else the wide one knows
-        // more.
+        // The common slope of parallel planes is the mean weighted by information; otherwise the
+        // slope of the wider segment is used.
         const matrix_across known_a = a.information(wide.count, sigma),
                             known_b = b.information(slim.count, sigma);
         const matrix_across sum = parallel_ ? known_a + known_b : known_a;
@@ -56,14 +56,15 @@ class plane_comparison {
             tolerated_offset_ = std::max(cosine * chosen * sigma, tolerated_offset_);
     }
 
-    /// How far the slim one is off the plane of both, or of the wide one [m].
+    /// The distance of the narrower segment from the common plane, or from that of the wider
+    /// segment [m].
     [[nodiscard]] double offset() const { return offset_; }
 
-    /// Their angle may be what noise makes of none in 997 of 1,000 cases, and of what is no noise,
-    /// such as round edges, a tenth of a standard deviation more; an angle that is well known may
-    /// be up to max_angle. Of their offset more is asked, that it be so small in 976 of 1,000: made
-    /// things are full of planes that are parallel, and a centimeter apart. Nothing is told if
-    /// noise would hide an offset of max_offset more often than one time in six.
+    /// Whether the segments are coplanar. Their angle must be below its 99.7 % quantile under the
+    /// null hypothesis, plus a tenth of a standard deviation for rounded edges; an angle that is
+    /// known well may be up to max_angle. The offset must be below its 97.6 % quantile, as parallel
+    /// planes a centimeter apart are common. False if the noise would hide an offset of max_offset
+    /// in more than one of six cases.
     [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
         constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
         return both_have_points_ &&

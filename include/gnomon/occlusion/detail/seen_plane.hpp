@@ -1,33 +1,34 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The plane of a segment, as ranges tell of it. Noise lies along the rays, not across the surface:
-/// so planes are found by regression of the depth along a ray on the place across it. Of what is
-/// narrower than noise, or seen at a grazing angle, the direction of least spread is that of
-/// nothing; the regression still knows how little it knows.
+/// The plane of a segment from its ranges. The noise is along the rays, not across the surface: the
+/// plane is the regression of the depth along a mean ray on the position across it. For segments
+/// narrower than the noise, or seen at a grazing angle, the direction of least variance is
+/// meaningless; the regression has a large covariance there.
 ///
-/// The rays to one segment count as parallel: those of a segment too wide for that tell so much
-/// that it does not matter.
+/// The rays to one segment are taken as parallel. Segments too wide for that have enough points
+/// that the error does not matter.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/features/principal_frame.hpp>
 
 namespace gnomon::detail {
 
-/// A direction of sight and two axes across it, all of unit length.
+/// A viewing direction and two axes across it, all of unit length.
 struct sight_axes {
     Eigen::Vector3d along, x, y;
 
@@ -36,7 +37,7 @@ struct sight_axes {
         : along(direction_of(d)), x(orthogonal(along)), y(cross(along, x)) {}
 };
 
-/// Two coordinates across a sight.
+/// Two coordinates across a viewing direction.
 using place_across = std::array<double, 2>;
 
 /// A symmetric matrix over them.
@@ -77,7 +78,8 @@ struct plane_sample {
     Eigen::Vector3d viewpoint{0.0, 0.0, 0.0};              ///< the mean of theirs [m]
 };
 
-/// The sight of a sample; of one about its own view point, that across its plane.
+/// The viewing direction of a sample; for a sample around its own view point, the normal of its
+/// plane.
 [[nodiscard]] inline sight_axes axes_towards(const plane_sample& sample) {
     const Eigen::Vector3d d = difference(sample.mean, sample.viewpoint);
     const double size = length(d);
@@ -113,7 +115,7 @@ struct depth_regression {
 
 /// What a sample tells of its plane by itself.
 struct plane_knowledge {
-    double squared_width;    ///< variance of the places across the sight, the way it is wider [m^2]
+    double squared_width;    ///< larger variance of the positions across the direction [m^2]
     angle uncertainty;       ///< of the direction of the plane, three standard deviations
     Eigen::Vector3d normal;  ///< towards the view point, not of unit length
 };
@@ -141,58 +143,60 @@ struct plane_knowledge {
     };
 }
 
-/// Those of some points that are on the plane of a sample of them.
-/// @param points   a position_view of the cloud
-/// @param members  indices of points of it
-/// Complexity: O(n).
-[[nodiscard]] std::vector<point_index> points_on_plane(const auto& points,
-                                                       std::span<const point_index> members,
-                                                       const plane_sample& sample, double sigma) {
+/// The indices of the points that are on the plane of a sample of them. O(n).
+/// @param positions  of the points [m]
+/// @param members    their indices
+[[nodiscard]] inline scratch<point_index> points_on_plane(
+    std::span<const Eigen::Vector3d> positions, std::span<const point_index> members,
+    const plane_sample& sample, double sigma) {
     const auto is_on_plane = is_on_plane_of(sample, sigma, sample.mean);
-    std::vector<point_index> on;
-    for (const point_index i : members)
-        if (is_on_plane(difference(points[i], sample.mean))) on.push_back(i);
+    scratch<point_index> on;
+    on.reserve(members.size());
+    for (std::size_t k = 0; k < members.size(); ++k)
+        if (is_on_plane(difference(positions[k], sample.mean))) on.push_back(members[k]);
     return on;
 }
 
-/// The points of a segment that are of its plane. What adjoins it may have lent it some of its own
-/// at the edges: what is off the plane is left out, again and again, unless that is most of what
-/// was left. Of none if no point is finite.
-/// @param points   a position_view of the cloud
-/// @param members  indices of the points of the segment
-/// Complexity: O(n).
-[[nodiscard]] plane_sample plane_sample_of(const auto& points, std::span<const point_index> members,
-                                           const viewpoint_table& viewpoints, double sigma) {
-    plane_sample sample;
-    moments seen_from;
-    for (const point_index i : members)
-        if (is_finite(viewpoints[i])) seen_from.add(viewpoints[i]);
-    if (seen_from.count > 0)
-        sample.viewpoint = scaled(1.0 / static_cast<double>(seen_from.count), seen_from.sum);
-    const auto first = std::find_if(members.begin(), members.end(),
-                                    [&](point_index i) { return is_finite(points[i]); });
-    if (first == members.end()) return sample;
-    const Eigen::Vector3d origin = points[*first];
-    std::vector<Eigen::Vector3d> offsets;
-    offsets.reserve(members.size());
-    moments all;
+/// The mean of the known view points of some points [m]; the origin if none is known.
+[[nodiscard]] inline Eigen::Vector3d mean_viewpoint(std::span<const point_index> members,
+                                                    const viewpoint_table& viewpoints) {
+    Eigen::Vector3d sum(0.0, 0.0, 0.0);
+    std::size_t count = 0;
     for (const point_index i : members) {
-        const Eigen::Vector3d p = points[i];
-        if (!is_finite(p)) continue;
-        offsets.push_back(difference(p, origin));
-        all.add(offsets.back());
+        const Eigen::Vector3d v = viewpoints[i];
+        if (!is_finite(v)) continue;
+        sum = combined(1.0, sum, 1.0, v);
+        ++count;
     }
+    return count > 0 ? scaled(1.0 / static_cast<double>(count), sum) : sum;
+}
+
+/// The points of a segment that are on its plane. The segment may contain points of adjacent
+/// surfaces at its edges: points off the plane are removed repeatedly, unless they are more than
+/// half of the points that were left. Of no points if none is finite. O(n).
+/// @param positions  of the points of the segment [m]
+/// @param all        of these
+/// @param viewpoint  the mean of their view points [m]
+[[nodiscard]] inline plane_sample plane_sample_of(std::span<const Eigen::Vector3d> positions,
+                                                  const moments_about_first& all,
+                                                  const Eigen::Vector3d& viewpoint, double sigma) {
+    plane_sample sample;
+    sample.viewpoint = viewpoint;
+    if (all.of_points.count == 0) return sample;
+    const Eigen::Vector3d origin = all.origin;
     const auto take = [&](const moments& m) {
         sample.count = m.count;
         sample.mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
         sample.covariance = m.covariance_of_neighbors();
     };
-    take(all);
+    take(all.of_points);
     for (int pass = 0; pass < 4; ++pass) {
         const auto is_on_plane = is_on_plane_of(sample, sigma, origin);
-        moments on = all;  // less what is off, which is little
-        for (const Eigen::Vector3d& d : offsets)
-            if (!is_on_plane(d)) on.remove(d);
+        moments on = all.of_points;  // less the points off the plane, which are few
+        for (const Eigen::Vector3d& p : positions) {
+            const Eigen::Vector3d offset = difference(p, origin);
+            if (!is_on_plane(offset) && is_finite(p)) on.remove(offset);
+        }
         if (2 * on.count >= sample.count) take(on);
     }
     return sample;

@@ -5,67 +5,103 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/union_find.hpp>
 #include <gnomon/features/principal_frame.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
+/// The pairs of each of some points with its k nearest ones, k less than their number minus 1.
+/// O(m log m) for m points, O(m^2) for few of them.
+/// @param number  what to call each point in the pairs
+inline void append_nearest_pairs(scratch<std::pair<point_index, point_index>>& pairs,
+                                 const scratch<Eigen::Vector3d>& points, std::size_t k,
+                                 const scratch<point_index>& number) {
+    constexpr std::size_t few = 2000;  // performance only: no index, thus no allocation
+    const std::size_t m = points.size();
+    const spatial_index index = m > few ? spatial_index(points) : spatial_index();
+    scratch<neighbor> nearest;
+    for (std::size_t f = 0; f < m; ++f) {
+        if (m > few) {
+            knn{.k = k}.find(index, f, nearest);
+        } else {
+            nearest.clear();
+            for (std::size_t g = 0; g < m; ++g)
+                if (g != f)
+                    nearest.push_back(
+                        {squared_distance(points[g], points[f]), static_cast<point_index>(g)});
+            std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(k),
+                             nearest.end());
+            nearest.resize(k);
+        }
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
+    }
+}
+
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// @param all      something of each segment
-/// @param is_flat  of that
-/// @param frame    the principal_frame of that
-template <class Segment, class Frame = std::identity>
-[[nodiscard]] std::vector<std::pair<point_index, point_index>> pairs_to_compare(
-    const std::vector<Segment>& all, std::size_t wanted, auto&& is_flat, Frame&& frame = {}) {
+/// @param all      an object for each segment
+/// @param is_flat  of that object
+/// @param frame    the principal_frame of that object
+template <class Frame = std::identity>
+[[nodiscard]] scratch<std::pair<point_index, point_index>> pairs_to_compare(const auto& all,
+                                                                            std::size_t wanted,
+                                                                            auto&& is_flat,
+                                                                            Frame&& frame = {}) {
     constexpr std::size_t not_many = 300, few = 20;
-    std::vector<point_index> flat;
-    std::vector<Eigen::Vector3d> centroids;
+    scratch<point_index> flat;
+    scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
         if (!std::invoke(is_flat, all[s])) continue;
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(std::invoke(frame, all[s]).centroid);
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
-    const kd_tree tree(centroids);
-    std::vector<neighbor> nearest;
-    std::vector<std::pair<point_index, point_index>> pairs;
-    for (std::size_t f = 0; f < flat.size(); ++f) {
-        tree.nearest(centroids[f], wanted, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    scratch<std::pair<point_index, point_index>> pairs;
+    if (wanted + 1 >= flat.size()) {
+        for (std::size_t f = 0; f < flat.size(); ++f)
+            for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
+        return pairs;
     }
+    append_nearest_pairs(pairs, centroids, wanted, flat);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 
-/// The segments of n points, numbered as usual. (As a template, it costs only those who use it the
-/// compilation of a sort.)
-/// @param groups   something of each segment
-/// @param members  the indices of its points, of that
+/// The labels of n points in disjoint groups, numbered as usual.
+/// @param groups   an object for each segment
+/// @param members  the indices of its points, of that object
 template <class Members = std::identity>
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups,
-                                          Members&& members = {}) {
-    union_find sets(n);
-    std::vector<bool> is_member(n, false);
+[[nodiscard]] scratch<std::int32_t> labels_of_groups(std::size_t n, const auto& groups,
+                                                     Members&& members = {}) {
+    scratch<std::int32_t> labels(n, unlabeled);
+    std::int32_t label = 0;
     for (const auto& group : groups) {
-        const auto& own = std::invoke(members, group);
-        for (const point_index i : own) {
-            sets.unite(own.front(), i);
-            is_member[i] = true;
-        }
+        for (const point_index i : std::invoke(members, group)) labels[i] = label;
+        ++label;
     }
-    return segments_of(sets, 1, [&](std::size_t i) { return bool{is_member[i]}; });
+    number_by_size(labels);
+    return labels;
+}
+
+/// The segments of n points in disjoint groups.
+[[nodiscard]] inline segments segments_of_groups(
+    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+    segments merged;
+    merged.assign(labels_of_groups(n, groups));
+    return merged;
 }
 
 }  // namespace gnomon::detail

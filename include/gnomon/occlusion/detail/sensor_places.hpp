@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// From where a sensor that moves has looked: view points nearer to each other than noise throws
-/// points are one place, as many as there may be.
+/// The places of a moving sensor: view points nearer to each other than the standard deviation of
+/// the ranges are one place.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/viewpoints.hpp>
@@ -21,7 +21,7 @@ namespace gnomon::detail {
 
 /// View points of a cube, and what was seen from there.
 struct sensor_place {
-    std::vector<point_index> seen = {};
+    scratch<point_index> seen = {};
     Eigen::Vector3d first{0.0, 0.0, 0.0};    // view point [m]
     Eigen::Vector3d from_it{0.0, 0.0, 0.0};  // the sum of the ways to the others [m]
 
@@ -41,9 +41,9 @@ struct sensor_place {
 /// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
 /// anything to sort or to look up.
 /// @param points  a position_view
-[[nodiscard]] std::vector<sensor_place> places_of_sensor(const auto& points,
-                                                         const viewpoint_table& viewpoints,
-                                                         double sigma) {
+[[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
+                                                     const viewpoint_table& viewpoints,
+                                                     double sigma) {
     constexpr double exact = 1e-6;  // [m]: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Eigen::Vector3d least(infinity, infinity, infinity);
@@ -54,7 +54,7 @@ struct sensor_place {
         const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
         return std::array{cell(0), cell(1), cell(2)};
     };
-    std::vector<std::array<double, 3>> cubes;
+    scratch<std::array<double, 3>> cubes;
     if (viewpoints.empty()) {
         least = Eigen::Vector3d(0.0, 0.0, 0.0);
         cubes.push_back(cube_of(least));
@@ -64,7 +64,7 @@ struct sensor_place {
             cubes.push_back(cube_of(v));
     std::sort(cubes.begin(), cubes.end());
     cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
-    std::vector<sensor_place> places(cubes.size());
+    scratch<sensor_place> places(cubes.size());
     std::size_t latest = 0;
     std::array<double, 3> before{infinity, infinity, infinity};
     for (std::size_t i = 0; i < points.size(); ++i) {

@@ -7,14 +7,13 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <utility>
-#include <vector>
+#include <span>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
 
 namespace gnomon::detail {
 
@@ -24,11 +23,11 @@ struct normal_line {
     Eigen::Vector3d place, normal;
 };
 
-/// The axis that some lines meet best, in the mean of squares.
+/// The axis that some lines meet best, in the least-squares sense.
 class axis_of_normals {
   public:
     /// Precondition: there are lines, and all of them are finite. O(n).
-    explicit axis_of_normals(const std::vector<normal_line>& lines) {
+    explicit axis_of_normals(std::span<const normal_line> lines) {
         const double each = 1.0 / static_cast<double>(lines.size());
         Eigen::Vector3d mean(0.0, 0.0, 0.0);
         for (const normal_line& l : lines) mean = combined(1.0, mean, each, l.place);
@@ -43,8 +42,8 @@ class axis_of_normals {
         }
         // The moment of a line about the axis (a, m) is a . x + m . n: for a given a, the best m
         // leaves a^T rest a of its square. A cylinder leaves open where along its axis m begins:
-        // by a slight pull, at the mean. A ball leaves open which axis it is, and of its front that
-        // of sight is best by a little: normals pull it across them.
+        // by a slight pull, at the mean. A ball leaves the axis undetermined; for its visible
+        // half, the viewing direction is slightly better: normals pull the axis across them.
         constexpr double pull = 0.01, turn = 0.1;
         Eigen::Matrix3d pulled = nn;
         for (int i = 0; i < 3; ++i) pulled(i, i) += pull;
@@ -81,7 +80,7 @@ class axis_of_normals {
     [[nodiscard]] double turning() const { return turning_; }
 
   private:
-    void measure(const std::vector<normal_line>& lines) {
+    void measure(std::span<const normal_line> lines) {
         const double each = 1.0 / static_cast<double>(lines.size());
         Eigen::Matrix3d spread = diagonal(0.0, 0.0, 0.0);
         double squares = 0.0;
@@ -102,19 +101,20 @@ class axis_of_normals {
     double rms_ = 0.0, radius_ = 0.0, across_ = 0.0, turning_ = 0.0;
 };
 
-/// The axis of all lines but those that miss it by far, and by 2.5 times as much as the others do.
-/// @param lines  loses those
-[[nodiscard]] inline axis_of_normals robust_axis_of(std::vector<normal_line>& lines) {
+/// The axis of the lines that miss it by at most 2.5 times the root mean square, or by a fifth of
+/// the radius.
+/// @param lines  the others are removed from the span, and their content is unspecified
+[[nodiscard]] inline axis_of_normals robust_axis_of(std::span<normal_line>& lines) {
     constexpr double at_most = 2.5, near = 0.2;  // times the root mean square, times the radius
     constexpr int passes = 5;
     axis_of_normals axis(lines);
     for (int pass = 0; pass < passes; ++pass) {
         const double limit = std::max(at_most * axis.rms(), near * axis.radius());
-        std::vector<normal_line> met;
-        for (const normal_line& l : lines)
-            if (axis.missed_by(l) <= limit) met.push_back(l);
-        if (met.size() == lines.size()) break;
-        lines = std::move(met);
+        const auto missing = std::remove_if(lines.begin(), lines.end(), [&](const normal_line& l) {
+            return !(axis.missed_by(l) <= limit);
+        });
+        if (missing == lines.end()) break;
+        lines = lines.first(static_cast<std::size_t>(missing - lines.begin()));
         axis = axis_of_normals(lines);
     }
     return axis;

@@ -19,18 +19,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/union_find.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// The walk through one tree. (A template, so that only who needs it compiles it.)
+/// The walk through one tree. (A template, so that only code that uses it compiles it.)
 template <class Tree>
 class component_walk {
   public:
@@ -220,22 +220,20 @@ class component_walk {
     const Tree& tree_;
     double limit_, certain_, possible_;  // squared: the radius, and what is within or beyond anyway
     union_find sets_;                    // of places in the tree
-    std::vector<lane_set> piece_;        // of its leaf that each is of
-    std::vector<char> whole_;            // nodes all of whose points are known to be connected
-    std::vector<subtree> parts_;
+    scratch<lane_set> piece_;            // of its leaf that each is of
+    scratch<char> whole_;                // nodes all of whose points are known to be connected
+    scratch<subtree> parts_;
 };
 
 /// The connected components of the finite points, where points at most `radius` [m] apart are
-/// joined; others stay on their own. O(n log n) for the tree; then next to O(n), unless many points
+/// joined; others stay on their own. Nearly O(n), unless many points
 /// are hardly farther than the radius from many of another component. Precondition: the radius is
 /// not negative.
-template <class Points, execution X>
-[[nodiscard]] union_find components_within(const Points& points, double radius, const X& run) {
-    const auto& team = detail::staying(run);
-    const leaf_tree tree(points, team);
-    union_find places = component_walk(tree, radius)(team);
-    union_find sets(points.size());
-    for_each_chunk(team, tree.size(), [&](std::size_t begin, std::size_t end) {
+template <execution X>
+[[nodiscard]] union_find components_within(const leaf_tree& tree, double radius, const X& run) {
+    union_find places = component_walk(tree, radius)(run);
+    union_find sets(tree.points());
+    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t p = begin; p < end; ++p)
             sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
     });

@@ -6,17 +6,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 
 namespace gnomon::detail {
 
 /// Counts the finite points whose height is at least `from`, in bins of `bin` metres, one of them
-/// about the plane itself. Keeps only bins that hold a point: a stray one kilometers away costs no
-/// memory. O(n log n).
+/// about the plane itself. Keeps only bins that hold a point: an outlier at a distance of
+/// kilometers costs no memory. O(n log n).
 class height_histogram {
   public:
     struct bin {
@@ -27,7 +27,7 @@ class height_histogram {
     template <class Points>
     height_histogram(const Points& points, const plane& ground, double width,
                      double from = -std::numeric_limits<double>::infinity()) {
-        std::vector<double> numbers;
+        scratch<double> numbers;
         numbers.reserve(points.size());
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (!is_finite(points[i])) continue;
@@ -44,13 +44,13 @@ class height_histogram {
     }
 
     /// From the lowest up; empty if no point is high enough.
-    [[nodiscard]] const std::vector<bin>& bins() const { return bins_; }
+    [[nodiscard]] const scratch<bin>& bins() const { return bins_; }
     /// All finite points, however low.
     [[nodiscard]] std::size_t points() const { return points_; }
 
   private:
     std::size_t points_ = 0;
-    std::vector<bin> bins_;
+    scratch<bin> bins_;
 };
 
 /// The lowest bin of those that hold most. Precondition: there are bins.

@@ -1,35 +1,37 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The loop that Alg. 4.2, Alg. 4.1 with normals and the greedy variants share: step through the
-/// points and join each with those neighbors within its search radius that a criterion accepts.
-/// What joins is kept by union-find, so that segments are the connected components of the relation
-/// "either point accepts the other", whatever the order (specification of Klasing 2010, Algs. 4.1
-/// and 4.2). Where the radius alone decides, components_within.hpp looks at less.
+/// The loop that Alg. 4.2, Alg. 4.1 with normals and the greedy variants share: each point is
+/// joined with those neighbors within its search radius that a criterion accepts, by union-find, so
+/// that segments are the connected components of the relation "either point accepts the other",
+/// whatever the order (Klasing 2010, Algs. 4.1 and 4.2). Where the radius alone decides,
+/// components_within.hpp reads fewer pairs.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/union_find.hpp>
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
-#include <gnomon/neighborhoods/kd_tree.hpp>
+#include <gnomon/neighborhoods/detail/place_set.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
-/// The radius of a point that joins nothing, be it as near as it may.
+/// The radius of a point that is not joined with any other, even at distance 0.
 inline constexpr double no_search = -1.0;
 
 /// Joins points to segments. Points that are not finite stay unlabeled.
@@ -39,13 +41,17 @@ class linker {
     explicit linker(const Points& points) : points_(points), sets_(points.size()) {}
 
     /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
-    /// q being the neighbor j with its squared distance. Where they are joined already, by whatever
-    /// way, link is not asked.
+    /// q being the neighbor j with its squared distance. Pairs that are joined already are not
+    /// tested. Precondition: the points are an index.
+    /// @param among  joins only these points; all, if null
     template <execution X>
-    void link_all(auto&& radius_of, auto&& link, const X& run) {
-        const auto& team = detail::staying(run);
-        const leaf_tree tree(points_, team);
-        const auto make_search = [&] { return leaf_balls(tree, std::cref(radius_of)); };
+    void link_all(auto&& radius_of, auto&& link, const X& run, const place_set* among = nullptr) {
+        const leaf_tree& tree = points_.tree();
+        const auto radius_of_place = [&](std::size_t place) {
+            if (among != nullptr && !among->contains(place)) return no_search;
+            return radius_of(tree.index()[place]);
+        };
+        const auto make_search = [&] { return leaf_balls(tree, radius_of_place, among); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
             const point_index i = tree.index()[place];
             point_index root = sets_.find(i);
@@ -55,22 +61,25 @@ class linker {
                     root = sets_.unite(i, j);
             }
         };
-        search_all_groups(tree, team, make_search, [&] { return join; });
+        search_all_groups(tree, run, make_search, [&] { return join; });
     }
 
     /// The greedy variant (Alg. 4.1, line 2): passes over points that already have a segment. Its
-    /// result depends on the order of the points, so it runs on one thread.
-    void link_greedily(const kd_tree& tree, auto&& radius_of, auto&& link) {
+    /// result depends on the order of the points, so it runs on one thread. Precondition: the
+    /// points are an index.
+    void link_greedily(auto&& radius_of, auto&& link) {
+        std::vector<neighbor> found;
         std::vector<bool> has_segment(points_.size(), false);
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double radius = has_segment[i] ? no_search : radius_of(i);
             if (!is_finite(p) || !(radius >= 0.0)) continue;
-            tree.for_each_within(p, radius, [&](const neighbor& q) {
-                if (q.index == i || !link(i, q)) return;
+            points_.within_into(found, p, radius);
+            for (const neighbor& q : found) {
+                if (q.index == i || !link(i, q)) continue;
                 has_segment[q.index] = true;
                 sets_.unite(static_cast<point_index>(i), q.index);
-            });
+            }
         }
     }
 
@@ -84,7 +93,7 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
-                    require(j < points_.size(), "the graph lists a neighbor of no point");
+                    require(j < points_.size(), "the graph has an index out of range");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);
@@ -94,9 +103,19 @@ class linker {
         });
     }
 
+    /// The smallest point that point i is joined with.
+    [[nodiscard]] point_index root_of(point_index i) { return sets_.find(i); }
+
+    /// The labels of the segments of at least `min_points` points.
+    [[nodiscard]] scratch<std::int32_t> labels(std::size_t min_points) {
+        return labels_of_sets(sets_, min_points,
+                              [&](std::size_t i) { return is_finite(points_[i]); });
+    }
     /// The segments of at least `min_points` points.
     [[nodiscard]] segments result(std::size_t min_points) {
-        return segments_of(sets_, min_points, [&](std::size_t i) { return is_finite(points_[i]); });
+        segments found;
+        found.assign(labels(min_points));
+        return found;
     }
 
   private:

@@ -1,26 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The plane of a flat segment, and how far noise throws points off it. Noise lies along the rays:
-/// the more these are slanted, the less of it is across the surface, and the better points tell
-/// which plane they are of.
+/// The plane of a flat segment, and how far noise displaces points from it. Noise acts along the
+/// rays: the more oblique these are, the smaller is its component across the surface.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <limits>
-#include <vector>
+#include <span>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/detail/weighted_moments.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
-#include <gnomon/core/subset_view.hpp>
-#include <gnomon/core/symmetric_eigen.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -32,36 +34,46 @@ namespace gnomon::detail {
     return viewpoints.empty() ? Eigen::Vector3d(unknown, unknown, unknown) : viewpoints[i];
 }
 
-/// The plane of the points of a segment. What it is the plane of is wide enough for the direction
-/// of least spread to be its normal; of what is slim, plane_sample tells more.
+/// A point of a segment, and the ray to it.
+struct observed_point {
+    Eigen::Vector3d position;  ///< [m]
+    Eigen::Vector3d ray;       ///< from its view point [m]; not finite where that is not known
+    double range;              ///< the length of the ray [m]
+
+    // Uninitialized, as Eigen's vectors are: arrays of these are written once.
+    observed_point() {}  // NOLINT(modernize-use-equals-default)
+    observed_point(const Eigen::Vector3d& p, const Eigen::Vector3d& viewpoint)
+        : position(p), ray(difference(p, viewpoint)), range(length(ray)) {}
+};
+
+/// The plane of the points of a segment that is wide enough for the direction of least variance to
+/// be its normal; plane_sample is for narrow ones.
 class noisy_plane {
   public:
-    /// So many standard deviations a point of the plane is off it at most.
+    /// A point of the plane is at most this number of standard deviations from it.
     static constexpr double at_most = 3.0;
 
-    /// That of what is not flat.
+    /// That of a segment that is not flat.
     noisy_plane() = default;
 
-    /// Flat are points that are no thicker than twice `sigma`, the standard deviation of ranges
-    /// [m], but wider. What adjoins may be among them: the farther off they are, the less they
-    /// count, and nothing beyond `at_most` (the biweight of Beaton and Tukey 1974). Points that are
-    /// not finite do not count. O(n).
-    /// @param points  a subset_view
-    noisy_plane(const auto& points, double sigma) : sigma_(sigma) {
-        const principal_frame frame = principal_frame_of(points);
+    /// A segment is flat if it is no thicker than twice `sigma`, the standard deviation of ranges
+    /// [m], but wider. It may contain points of adjacent surfaces: the weight of a point decreases
+    /// with its distance, and is zero beyond `at_most` (the biweight of Beaton and Tukey 1974).
+    /// Points that are not finite are ignored. O(n).
+    noisy_plane(std::span<const observed_point> points, double sigma) : sigma_(sigma) {
+        const principal_frame frame = principal_axes_of(moments_about_first(positions{points}));
         is_flat_ = frame.spectrum.lambda[1] >= sigma * sigma &&
                    frame.spectrum.lambda[2] <= 4.0 * sigma * sigma;
         take(frame.normal(), frame.centroid);
         constexpr int passes = 5;
         for (int pass = 0; is_flat_ && pass < passes; ++pass) {
             weighted_moments m;
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const Eigen::Vector3d p = points[i];
-                const double deviation = deviation_at(p, known_viewpoint(points.viewpoints, i));
-                const double off = distance(p) / (at_most * deviation);
+            for (const observed_point& p : points) {
+                const double deviation = deviation_at(p.ray, p.range);
+                const double off = distance(p.position) / (at_most * deviation);
                 if (!(std::abs(off) < 1.0)) continue;
                 const double root_of_weight = (1.0 - off * off) * (sigma / deviation);
-                m.add(difference(p, frame.centroid), root_of_weight * root_of_weight);
+                m.add(difference(p.position, frame.centroid), root_of_weight * root_of_weight);
             }
             is_flat_ = m.weight > 0.0;
             if (is_flat_)
@@ -85,17 +97,30 @@ class noisy_plane {
         return combined(1.0, p, -distance(p), plane_.normal);
     }
 
-    /// The standard deviation [m] that noise gives a point at p across the plane: that of ranges
-    /// where it is not known from where it was seen. Never less than a third of it, as no surface
-    /// is quite a plane.
+    /// The standard deviation [m] that noise gives a point at p across the plane; that of ranges if
+    /// the view point is not known. At least a third of that, as no surface is an exact plane.
     [[nodiscard]] double deviation_at(const Eigen::Vector3d& p,
                                       const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d ray = difference(p, viewpoint);
-        const double cosine = std::abs(dot(plane_.normal, ray)) / length(ray);
-        return std::isfinite(cosine) ? sigma_ * std::max(cosine, 1.0 / 3.0) : sigma_;
+        return deviation_at(ray, length(ray));
     }
 
   private:
+    /// The positions of points.
+    struct positions {
+        std::span<const observed_point> points;
+
+        [[nodiscard]] std::size_t size() const { return points.size(); }
+        [[nodiscard]] const Eigen::Vector3d& operator[](std::size_t i) const {
+            return points[i].position;
+        }
+    };
+
+    [[nodiscard]] double deviation_at(const Eigen::Vector3d& ray, double range) const {
+        const double cosine = std::abs(dot(plane_.normal, ray)) / range;
+        return std::isfinite(cosine) ? sigma_ * std::max(cosine, 1.0 / 3.0) : sigma_;
+    }
+
     void take(const Eigen::Vector3d& normal, const Eigen::Vector3d& through) {
         plane_ = {normal, dot(normal, through)};
     }
@@ -105,14 +130,31 @@ class noisy_plane {
     bool is_flat_ = false;
 };
 
+/// The plane of some points of an index. O(n).
+/// @param observed  memory for one observed_point each
+[[nodiscard]] inline noisy_plane noisy_plane_of(const spatial_index& points,
+                                                std::span<const point_index> members, double sigma,
+                                                std::span<observed_point> observed) {
+    std::transform(members.begin(), members.end(), observed.begin(), [&](point_index i) {
+        return observed_point(points[i], known_viewpoint(points.viewpoints, i));
+    });
+    return noisy_plane(observed, sigma);
+}
+
 /// The planes of all segments, in their order. O(n).
-template <class R, execution X, class Proj>
-[[nodiscard]] std::vector<noisy_plane> planes_of_segments(const R& points, const segments& parts,
-                                                          double sigma, const X& run,
-                                                          const Proj& projection) {
-    std::vector<noisy_plane> planes(parts.size());
+template <execution X>
+[[nodiscard]] scratch<noisy_plane> planes_of_segments(const spatial_index& points,
+                                                      const segments& parts, double sigma,
+                                                      const X& run) {
+    scratch<noisy_plane> planes(parts.size());
+    // One array for all threads: the memory in use does not depend on which segments are fitted at
+    // the same time.
+    scratch<observed_point> observed(points.size());
+    scratch<std::size_t> begin(parts.size(), 0);
+    for (std::size_t s = 1; s < parts.size(); ++s) begin[s] = begin[s - 1] + parts[s - 1].size();
     run(parts.size(), [&](std::size_t s) {
-        planes[s] = noisy_plane(subset_view<R, Proj>(points, parts[s], projection), sigma);
+        const auto own = std::span(observed).subspan(begin[s], parts[s].size());
+        planes[s] = noisy_plane_of(points, parts[s], sigma, own);
     });
     return planes;
 }

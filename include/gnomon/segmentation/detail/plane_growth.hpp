@@ -93,8 +93,8 @@ class plane_growth {
         return is_finite(points_[i]) && !is_missing(surface_[i].normal);
     }
 
-    /// Sets members_ to the region of a seed: grown while its plane becomes surer, then twice more
-    /// with the whole plane, for what an early plane refused or should not have taken.
+    /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
+    /// twice more with the final plane, which corrects the decisions of early planes.
     void grow(point_index seed) {
         gnomon::plane along{surface_[seed].normal, 0.0};
         double reach = rules_.deviations * rules_.noise;

@@ -14,13 +14,13 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/union_find.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_of_sums.hpp>
@@ -58,7 +58,7 @@ class plane_regions {
             std::pop_heap(heap.begin(), heap.end(), later);
             const candidate c = heap.back();
             heap.pop_back();
-            // Of regions that have changed since, there is a newer candidate, or they are gone.
+            // Regions that have changed since have a newer candidate, or were merged.
             if (at(c.a).age != c.age_of_a || at(c.b).age != c.age_of_b) continue;
             whole.unite(static_cast<point_index>(c.a), static_cast<point_index>(c.b));
             take_in(c.a, c.b);
@@ -192,7 +192,7 @@ class plane_regions {
     }
 
     /// The region among those of the neighbors that costs point i least: its squared distance in
-    /// variances, as a likelihood, and so much for each neighbor of another region, as of Potts.
+    /// variances (a likelihood), and a Potts term for each neighbor of another region.
     std::int32_t best_region(std::size_t i, std::vector<std::int32_t>& around) const {
         constexpr double all_others = 4.0;
         around.clear();
@@ -222,7 +222,7 @@ class plane_regions {
         return best;
     }
 
-    /// Sums and planes anew; regions that became too small are given up.
+    /// Computes sums and planes again; regions that became too small are removed.
     void refit() {
         for (region& r : regions_) r.sums = {};
         for (std::size_t i = 0; i < labels_.size(); ++i) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A bounding volume hierarchy: which of many things may a ray meet first? Built top-down with the
-/// surface area heuristic over bins of centers (Wald 2007), walked from near to far.
+/// A bounding volume hierarchy over axis-aligned boxes, built top-down with the binned surface area
+/// heuristic (Wald 2007) and traversed from near to far.
 #pragma once
 
 #include <algorithm>
@@ -18,9 +18,10 @@
 #include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/ray.hpp>
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
-/// Half the surface of bounds that are not empty [m^2]: proportional to the rays that meet them.
+/// Half the surface area of nonempty bounds [m^2], which is proportional to the probability of a
+/// hit.
 [[nodiscard]] inline double half_area(const bounds& b) {
     const double x = b.high.x() - b.low.x();
     const double y = b.high.y() - b.low.y();
@@ -28,7 +29,7 @@ namespace gnomon::detail {
     return x * y + y * z + z * x;
 }
 
-/// A tree over numbered boxes.
+/// A binary tree over numbered boxes.
 class bvh {
   public:
     bvh() = default;
@@ -42,11 +43,11 @@ class bvh {
         build(boxes, 0, 0, static_cast<std::uint32_t>(boxes.size()), 0);
     }
 
-    /// Calls visit(item) for each item whose box the ray meets within r.reach, near ones first. The
-    /// visitor shortens the reach to what it found.
+    /// Calls visit(item) for each item whose box the ray meets within r.reach, near boxes first.
+    /// The visitor shortens the reach to the nearest hit.
     void walk(ray& r, auto&& visit) const {
         if (nodes_.empty()) return;
-        r.reach = std::min(r.reach, std::numeric_limits<double>::max());  // a miss is beyond
+        r.reach = std::min(r.reach, std::numeric_limits<double>::max());  // infinity marks a miss
         const slopes s(r);
         std::array<pending, stack_size> stack;
         std::size_t height = 0;
@@ -73,7 +74,7 @@ class bvh {
   private:
     struct node {
         bounds box;
-        std::uint32_t first = 0;  // of its items; of its two children if it has no items itself
+        std::uint32_t first = 0;  // the first item of a leaf, else the first of the two children
         std::uint32_t items = 0;
     };
 
@@ -82,7 +83,7 @@ class bvh {
         std::uint32_t node;
     };
 
-    /// A ray, prepared for boxes.
+    /// A ray with its inverse direction, for slab tests.
     struct slopes {
         Eigen::Vector3d origin;
         std::array<double, 3> inverse;
@@ -98,7 +99,7 @@ class bvh {
 
         /// A lower bound of the range at which the ray enters the box; infinite if it does not
         /// within `reach`. The slab method with a margin for rounding (Ize 2013). A NaN, from a ray
-        /// within the plane of a side, fails the comparison and leaves the interval as it is.
+        /// within the plane of a side, fails the comparison and leaves the interval unchanged.
         [[nodiscard]] double entry(const bounds& box, double reach) const {
             constexpr double rounding = 4.0 * std::numeric_limits<double>::epsilon();
             double enter = 0.0;
@@ -119,7 +120,7 @@ class bvh {
 
     static constexpr std::uint32_t most_items = 4;  // in a leaf
     static constexpr std::size_t bins = 16;
-    // After so many splits of any kind come splits into halves, 32 at most.
+    // Below this depth the items are halved, at most 32 times.
     static constexpr std::size_t most_uneven_splits = 64;
     static constexpr std::size_t stack_size = most_uneven_splits + 34;
 
@@ -146,7 +147,7 @@ class bvh {
         build(boxes, children + 1, middle, last, depth + 1);
     }
 
-    /// Reorders the items and tells where the second part begins.
+    /// Partitions the items and returns where the second part begins.
     std::uint32_t split(const std::vector<bounds>& boxes, const bounds& centers,
                         std::uint32_t first, std::uint32_t last, std::size_t depth) {
         const std::uint32_t half = first + (last - first) / 2;
@@ -165,7 +166,7 @@ class bvh {
                 box[bin].extend(b);
                 ++count[bin];
             }
-            // Cost of the parts above each cut, then of those below it.
+            // The cost of the items above each split plane, then of those below it.
             std::array<double, bins> above{};
             bounds swept;
             std::uint32_t n = 0;
@@ -202,7 +203,7 @@ class bvh {
     }
 
     std::vector<node> nodes_;
-    std::vector<std::uint32_t> items_;  // of the leaves, side by side
+    std::vector<std::uint32_t> items_;  // of the leaves, contiguous
 };
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail

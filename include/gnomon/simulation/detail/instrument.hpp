@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The machine behind a beam: turns rays into readings. A footprint is sampled by sub-rays of equal
-/// energy, whose echoes come back in order of range; one of them, or their mean, is reported.
+/// The measurement model of a beam: converts rays to readings. A footprint is sampled by sub-rays
+/// of equal energy; their echoes, sorted by range, give one reading by the echo rule.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
-/// Turns rays into readings. Const calls, thread-safe.
+/// Converts rays to readings. Calls are const and thread-safe.
 template <ray_caster C>
 class instrument {
   public:
@@ -35,12 +35,12 @@ class instrument {
             offsets_ = footprint_offsets(beam_.footprint.sub_rays);
     }
 
-    /// A reading, and the truth behind it unless there is none.
+    /// A reading and its ground truth, if a surface was hit.
     struct reading {
         echo kind;
         double range;  ///< reported [m]
-        /// For `surface` and `mixed`: the surface that most power came from, its range along the
-        /// ray and its normal there.
+        /// For `surface` and `mixed`: the hit on the surface that returned the most power, its
+        /// range measured along the ray.
         std::optional<ray_hit> hit;
     };
 
@@ -61,19 +61,19 @@ class instrument {
     }
 
   private:
-    /// What the beam sees before noise.
+    /// An echo before noise.
     struct clean_echo {
-        ray_hit hit;   ///< the truth, see `reading`
-        double range;  ///< that an instrument without noise would report [m]
+        ray_hit hit;   ///< the ground truth, see `reading`
+        double range;  ///< reported without noise [m]
         bool mixed = false;
     };
 
-    /// What comes back along a sub-ray.
+    /// The echo of one sub-ray.
     struct contribution {
         ray_hit hit;
         double power;
-        std::size_t sub_ray;  ///< counted from the axis outwards
-        double range_along;   ///< of the hit's place, along the axis [m]
+        std::size_t sub_ray;  ///< by distance from the axis
+        double range_along;   ///< of the hit, projected onto the axis [m]
     };
 
     [[nodiscard]] bool is_seen(double range) const {
@@ -112,7 +112,8 @@ class instrument {
         return clean_echo{*hit, hit->range};
     }
 
-    /// The power that comes back along a sub-ray is proportional to cos(incidence) / range^2.
+    /// The echo over all sub-rays. The power of a sub-ray is proportional to cos(incidence) /
+    /// range^2.
     [[nodiscard]] std::optional<clean_echo> over_footprint(const ray& r, double turn) const {
         std::vector<contribution> all = contributions(r, turn);
         if (all.empty()) return std::nullopt;
@@ -132,7 +133,7 @@ class instrument {
         const contribution& strongest = strongest_of(echo);
         ray_hit truth = strongest.hit;
         truth.range = strongest.range_along;
-        // The axis itself meets that surface, or passes beside it.
+        // If the axis meets the same surface, the truth is its hit.
         const auto axis = caster_(r);
         const bool is_same = axis && axis->surface == truth.surface && axis->range > nearest &&
                              axis->range < farthest;
@@ -140,9 +141,10 @@ class instrument {
         return clean_echo{truth, power > 0.0 ? sum / power : truth.range, mixed};
     }
 
-    /// Sub-rays are skew lines about the axis: leaving the waist a quarter turn beside their places
-    /// in the far footprint, they rule the hyperboloid w(r)^2 = waist^2 + (r slope)^2. The whole
-    /// bundle is turned by a share of a full turn, at random: few then are right on average.
+    /// The echoes of the sub-rays. Sub-rays are skew lines, rotated a quarter turn between the
+    /// waist and the far field: they generate the hyperboloid w(r)^2 = waist^2 + (r slope)^2. The
+    /// bundle is rotated by `turn` revolutions about the axis; random rotations make the estimate
+    /// unbiased for few sub-rays.
     [[nodiscard]] std::vector<contribution> contributions(const ray& r, double turn) const {
         Eigen::Vector3d across(0.0, 0.0, 0.0);
         int least = 0;
@@ -178,7 +180,7 @@ class instrument {
         return all;
     }
 
-    /// The contributions, given in order of range, that make up the echo reported.
+    /// The contributions to the reported echo. They are given, and returned, in order of range.
     [[nodiscard]] std::span<contribution> reported(std::span<contribution> all) const {
         if (beam_.footprint.rule == echo_rule::averaged) return all;
         std::span<contribution> best;
@@ -200,7 +202,7 @@ class instrument {
         return best;
     }
 
-    /// Of the surface with most power the contribution nearest the axis. Reorders the echo.
+    /// The contribution nearest to the axis, of the surface with the most power. Reorders the echo.
     [[nodiscard]] static const contribution& strongest_of(std::span<contribution> echo) {
         const auto nearer = [](const contribution& a, const contribution& b) {
             return a.sub_ray < b.sub_ray;
@@ -235,7 +237,7 @@ class instrument {
     beam beam_;
     double min_range_;
     double max_range_;
-    std::vector<std::array<double, 2>> offsets_;  // none for a line
+    std::vector<std::array<double, 2>> offsets_;  // empty for a line
 };
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How furniture is put together: blocks and round blocks, part by part.
+/// A builder of furniture from boxes and cylinders.
 #pragma once
 
 #include <cstdint>
@@ -12,39 +12,39 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
 /// "leg 3"
 [[nodiscard]] inline std::string numbered(std::string name, int number) {
     return name + ' ' + std::to_string(number);
 }
 
-/// Adds the parts of one object, each of one shape or more.
+/// Adds the parts of one object, each of one or more shapes.
 class object_builder {
   public:
     object_builder(scene& world, std::string name, const pose& at)
         : world_(world), object_(world.add_object(std::move(name))), at_(at) {}
 
-    /// Begins a part.
+    /// Begins a new part.
     object_builder& part(std::string name) {
         part_ = world_.add_part(object_, std::move(name));
         return *this;
     }
 
-    /// An upright block of the part: its middle in x and y, and its lower and upper side [m].
+    /// Adds a vertical box to the part: its center in x and y, its lower and its upper side [m].
     object_builder& block(double x, double y, double length, double width, double low,
                           double high) {
         world_.add(part_, box{length, width, high - low}, at_ * at(x, y, 0.5 * (low + high)));
         return *this;
     }
 
-    /// An upright round block of the part.
+    /// Adds a vertical cylinder to the part.
     object_builder& disc(double x, double y, double diameter, double low, double high) {
         world_.add(part_, cylinder{0.5 * diameter, high - low}, at_ * at(x, y, low));
         return *this;
     }
 
-    /// Square or round.
+    /// Adds a post with a square or round cross section.
     object_builder& post(double x, double y, double thickness, double low, double high,
                          bool round) {
         return round ? disc(x, y, thickness, low, high)
@@ -71,8 +71,8 @@ inline void add_legs(object_builder& b, double x, double y, double thickness, do
     }
 }
 
-/// The edge of the square within a circle, as a share of the diameter: there the legs of what is
-/// round stand.
+/// The edge of the square inscribed in a circle, relative to the diameter: the positions of the
+/// legs of round furniture.
 inline constexpr double square_in_circle = 0.7071;
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail

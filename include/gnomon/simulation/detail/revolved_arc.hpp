@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The one intersection behind all round shapes: cylinder, cone, sphere and smooth vase are bands
-/// about the z axis on which the squared radius is a quadratic function of the height. A ray meets
-/// such a band where a quadratic equation says so.
+/// The ray intersection of all surfaces of revolution: cylinder, cone, sphere and spline profiles
+/// consist of bands about the z axis whose squared radius is a quadratic function of the height.
+/// Their intersection with a ray is the root of a quadratic equation.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/simulation/ray.hpp>
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
 /// The band low <= z <= high of the surface x^2 + y^2 = a z^2 + b z + c.
 struct revolved_arc {
@@ -28,17 +28,17 @@ struct revolved_arc {
     [[nodiscard]] double squared_radius(double z) const { return (a * z + b) * z + c; }
 };
 
-/// The squared radii of the discs that close a row of arcs [m^2]; none where it is open.
+/// The squared radii of the discs that close a sequence of arcs [m^2]; empty where it is open.
 struct end_discs {
     std::optional<double> bottom;
     std::optional<double> top;
 };
 
-/// Gathers the nearest of candidate hits.
+/// Keeps the nearest of several candidate hits.
 class nearest_revolved_hit {
   public:
-    /// `given` is first moved near the origin, about which the shape lies: far from it the
-    /// coefficients of the quadratic equations would cancel.
+    /// The origin of `given` is first moved along the ray to the point nearest to the shape's
+    /// origin: far from it the coefficients of the quadratic equations would suffer cancellation.
     /// @param size  the largest coordinate of the arcs [m]
     nearest_revolved_hit(const ray& given, double size)
         : shift_(-given.origin.dot(given.direction)),
@@ -46,7 +46,7 @@ class nearest_revolved_hit {
           margin_(1e-12 * (size + near_.origin.cwiseAbs().sum())),
           least_range_(1e-12 * given.origin.cwiseAbs().sum()) {}
 
-    /// Surface 0.
+    /// Tests an arc of the mantle, surface 0.
     void try_mantle(const revolved_arc& arc) {
         const Eigen::Vector3d& o = near_.origin;
         const Eigen::Vector3d& u = near_.direction;
@@ -54,10 +54,11 @@ class nearest_revolved_hit {
         const double b = o.x() * u.x() + o.y() * u.y() - (arc.a * o.z() + 0.5 * arc.b) * u.z();
         const double c = o.x() * o.x() + o.y() * o.y() - arc.squared_radius(o.z());
         double discriminant = b * b - a * c;
-        // No less than zero but for rounding: a tangent, or a ray through the apex of a cone.
+        // Zero up to rounding: a tangent ray, or a ray through the apex of a cone.
         if (discriminant < 0.0 && discriminant > -1e-15 * b * b) discriminant = 0.0;
         if (!(discriminant >= 0.0)) return;
-        // The sum that does not cancel gives one root, the product of the roots the other.
+        // The root without cancellation is computed directly, the other one from the product of the
+        // roots.
         const double q = -(b + std::copysign(std::sqrt(discriminant), b));
         for (const double t : {q / a, c / q}) {
             const double z = o.z() + t * u.z();
@@ -68,7 +69,7 @@ class nearest_revolved_hit {
         }
     }
 
-    /// A disc about the axis.
+    /// Tests a disc about the axis.
     void try_disc(double z, double squared_radius, std::int32_t surface) {
         const double t = (z - near_.origin.z()) / near_.direction.z();
         const double x = near_.origin.x() + t * near_.direction.x();
@@ -84,7 +85,7 @@ class nearest_revolved_hit {
         if (!(range > least_range_ && range <= near_.reach)) return;
         const double length = std::sqrt(gradient.dot(gradient));
         const double sign = gradient.dot(near_.direction) > 0.0 ? -1.0 : 1.0;
-        // The apex of a cone has no normal of its own: any that faces the ray will do.
+        // The normal at the apex of a cone is undefined; the reported one faces the ray.
         hit_ = ray_hit{range, length > 0.0 ? gradient * (sign / length) : near_.direction * -1.0,
                        surface};
         near_.reach = range;
@@ -93,11 +94,11 @@ class nearest_revolved_hit {
     double shift_;
     ray near_;            // its reach counts from the origin of the given ray
     double margin_;       // of heights, so that neighboring arcs leave no gap
-    double least_range_;  // what rounding makes of 0: a ray from the surface does not meet it there
+    double least_range_;  // rounding of range 0: a ray does not meet the surface of its origin
     std::optional<ray_hit> hit_;
 };
 
-/// The first hit of a row of arcs, lowest first, and the discs that close it. Surfaces: 0 the
+/// The first hit of a sequence of arcs, lowest first, and the discs that close it. Surfaces: 0 the
 /// mantle, 1 the bottom, 2 the top.
 [[nodiscard]] inline std::optional<ray_hit> first_hit_of(std::span<const revolved_arc> arcs,
                                                          end_discs discs, const ray& r) {
@@ -110,4 +111,4 @@ class nearest_revolved_hit {
     return nearest.hit();
 }
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail

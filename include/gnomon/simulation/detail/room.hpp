@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What rooms are built of: walls, and blocks along the axes.
+/// Walls and axis-aligned blocks of rooms.
 #pragma once
 
 #include <cstdint>
@@ -16,16 +16,16 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon::detail {
+namespace gnomon::simulation::detail {
 
-/// Adds a block along the axes.
+/// Adds an axis-aligned block.
 inline void add_block(scene& world, std::string name, const bounds& b) {
     const Eigen::Vector3d size = b.size();
     const Eigen::Vector3d m = b.middle();
     world.add_object(std::move(name), box{size.x(), size.y(), size.z()}, at(m.x(), m.y(), m.z()));
 }
 
-/// Adds floor, ceiling and four walls as parts of one object "room".
+/// Adds floor, ceiling and four walls as the parts of one object, "room".
 inline void add_room(scene& world, const bounds& b) {
     const std::int32_t room = world.add_object("room");
     const auto add = [&](const char* name, double length, double width, const pose& place) {
@@ -46,4 +46,4 @@ inline void add_room(scene& world, const bounds& b) {
     add("wall +x", width, height, middle * at(0.5 * length, 0.0, 0.0) * facing_x);
 }
 
-}  // namespace gnomon::detail
+}  // namespace gnomon::simulation::detail

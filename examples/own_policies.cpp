@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: BSL-1.0
+// What is the least that a policy of my own must have? One of each kind; docs/concepts explains
+// them. Neighborhoods, estimators and containers have examples of their own.
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+#include <gnomon/gnomon.hpp>
+
+// [own_normal_range]
+// Normals from elsewhere, such as a file or another library: any struct with a member `normal`.
+struct oriented_point {
+    Eigen::Vector3d position;  // [m]
+    Eigen::Vector3d normal;    // unit length, or zero where there is none
+    double mean_distance;      // to the neighbors [m]; segment_surfaces needs it
+};
+static_assert(gnomon::normal_range<std::vector<oriented_point>>);
+static_assert(gnomon::surfel_range<std::vector<oriented_point>>);
+// [own_normal_range]
+
+// [own_graph]
+// Neighbors that are known already, such as those along a scan line: graph[i] refers to those of i.
+struct scan_line_graph {
+    std::vector<std::vector<gnomon::point_index>> beside;
+
+    std::size_t size() const { return beside.size(); }
+    const std::vector<gnomon::point_index>& operator[](std::size_t i) const { return beside[i]; }
+};
+static_assert(gnomon::neighborhood_graph<scan_line_graph>);
+// [own_graph]
+
+// [own_execution]
+// Runs the chunks in the calling thread, and counts them.
+struct counted {
+    std::size_t* count;
+
+    void operator()(std::size_t chunks, auto&& work) const {
+        for (std::size_t c = 0; c < chunks; ++c) work(c);
+        *count += chunks;
+    }
+};
+static_assert(gnomon::execution<counted>);
+// [own_execution]
+
+// [own_size_preference]
+// Prefers the neighborhood that is flattest for its width.
+struct prefer_flat {
+    double operator()(const gnomon::neighborhood_shape& shape) const {
+        return shape.spectrum.surface_variation();
+    }
+};
+static_assert(gnomon::size_preference<prefer_flat>);
+// [own_size_preference]
+
+// [own_dissimilarity]
+// Oriented points are alike up to 5 cm apart and, unlike `two_thresholds`, with normals to the same
+// side.
+struct same_side {
+    double radius = 0.05;  // [m]
+
+    auto criterion() const {
+        return [](double squared_distance, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
+            return squared_distance <= 0.05 * 0.05 && n_i.dot(n_j) >= 0.99;
+        };
+    }
+};
+static_assert(gnomon::oriented_dissimilarity<same_side>);
+// [own_dissimilarity]
+
+// [own_curvature_estimator]
+// The mean curvature alone, from the mean height of the neighbors above the tangent plane.
+struct mean_height {
+    gnomon::curvature operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                                 gnomon::neighborhood_view neighbors) const {
+        double heights = 0.0, squares = 0.0;
+        for (const Eigen::Vector3d& q : neighbors) {
+            heights += normal.dot(q - p);
+            squares += (q - p).squaredNorm();
+        }
+        gnomon::curvature c;
+        if (squares == 0.0) return c;  // too_few_neighbors
+        c.kappa1 = c.kappa2 = 2.0 * heights / squares;
+        c.direction1 = normal.unitOrthogonal();
+        c.direction2 = c.direction1.cross(normal);
+        c.trust = gnomon::trust::good;
+        return c;
+    }
+};
+static_assert(gnomon::curvature_estimator<mean_height>);
+// [own_curvature_estimator]
+
+// [own_merge_policy]
+// Merges where the gap is hidden or shows the surface itself; a function or a lambda will do.
+bool hidden_or_continued(gnomon::observation seen) {
+    return seen == gnomon::observation::occluded || seen == gnomon::observation::on_surface;
+}
+static_assert(gnomon::merge_policy<decltype(&hidden_or_continued)>);
+// [own_merge_policy]
+
+int main() {
+    // A wall 2 m in front of the sensor, behind a post 1 m in front of it.
+    std::vector<Eigen::Vector3d> points;
+    for (int i = -50; i <= 50; ++i) {
+        for (int j = -50; j <= 50; ++j) {
+            const bool is_behind = std::abs(i) < 10;
+            points.emplace_back(is_behind ? 1.0 : 2.0, (is_behind ? 0.01 : 0.02) * i,
+                                (is_behind ? 0.01 : 0.02) * j);
+        }
+    }
+
+    std::size_t chunks = 0;
+    const gnomon::adaptive_knn<prefer_flat> neighborhood{.min_k = 10, .max_k = 40};
+    const auto surface =
+        gnomon::estimate_normals(points, neighborhood, gnomon::plane_pca{}, counted{&chunks});
+    std::printf("%zu normals in %zu chunks\n", surface.size(), chunks);
+
+    scan_line_graph along{std::vector<std::vector<gnomon::point_index>>(points.size())};
+    for (std::size_t i = 1; i + 1 < points.size(); ++i)
+        along.beside[i] = {static_cast<gnomon::point_index>(i - 1),
+                           static_cast<gnomon::point_index>(i + 1)};
+    const gnomon::area_weighted average{};
+    const auto averaged = gnomon::estimate_normals(points, gnomon::delaunay{}, average);
+    const auto in_lines = gnomon::estimate_normals(points, along, average);
+    std::printf("the first normal: %.3f, in lines: %s\n", averaged[0].normal.x(),
+                gnomon::to_string(in_lines[1].trust));
+
+    const auto bends =
+        gnomon::estimate_curvature(points, gnomon::knn{.k = 20}, surface, mean_height{});
+    std::printf("the wall bends by %.3f 1/m\n", bends[0].mean());
+
+    std::vector<oriented_point> mine;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        mine.push_back({points[i], surface[i].normal, surface[i].mean_distance});
+    gnomon::orient_normals(points, mine);
+    const auto groups = gnomon::segment_oriented_points(points, mine, same_side{});
+    const auto parts = gnomon::segment_surfaces(points, mine);
+    const auto merged = gnomon::merge_occluded(points, mine, parts, gnomon::visibility(points),
+                                               &hidden_or_continued);
+    std::printf("%zu groups, %zu surfaces, %zu after merging\n", groups.size(), parts.size(),
+                merged.segments.size());
+}

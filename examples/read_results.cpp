@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: BSL-1.0
+// How do I read a normal, its covariance and the coefficients of a plane?
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdio>
+#include <vector>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/simulation.hpp>
+
+namespace sim = gnomon::simulation;
+
+int main() {
+    const gnomon::scan scan = sim::simulate(sim::box_and_cylinder{.sigma = 0.003}).scan;
+    const gnomon::adjacency graph = gnomon::knn{.k = 30}(scan);
+
+    // [read_normal]
+    auto surface = gnomon::estimate_normals(scan, graph, gnomon::plane_pca{});
+    gnomon::orient_normals(scan, surface);  // towards the view point
+    std::size_t without = 0;
+    Eigen::Vector3d sum(0.0, 0.0, 0.0);
+    for (const auto& s : surface) {
+        if (gnomon::usable(s.trust)) {
+            sum += s.normal;  // unit length
+        } else {
+            ++without;  // s.normal is zero; to_string(s.trust) names the reason
+        }
+    }
+    // [read_normal]
+    const Eigen::Vector3d mean = sum / static_cast<double>(surface.size() - without);
+    std::printf("the mean normal is (%.2f, %.2f, %.2f); %zu points have none\n", mean.x(), mean.y(),
+                mean.z(), without);
+
+    // [read_covariance]
+    const auto believed = gnomon::estimate_normals(scan, graph, gnomon::plane_eif{.sigma = 0.003});
+    const Eigen::Matrix3d& c = believed[0].covariance;  // [rad^2]; zero along the normal
+    const double deviation = std::sqrt(0.5 * believed[0].trace());  // in one direction [rad]
+    // [read_covariance]
+    std::printf("the first normal: variance of x %.1e, deviation %.2f degrees\n", c(0, 0),
+                gnomon::radians(deviation).degrees());
+
+    // [read_plane]
+    const gnomon::planar_segments flat = gnomon::segment_planes(scan, graph, surface);
+    for (const gnomon::plane& p : flat.planes) {
+        // normal . x = offset; in the form a x + b y + c z + d = 0 of PCL, d is -offset.
+        const std::array coefficients{p.normal.x(), p.normal.y(), p.normal.z(), -p.offset};
+        std::printf("%.3f x + %.3f y + %.3f z + %.3f = 0\n", coefficients[0], coefficients[1],
+                    coefficients[2], coefficients[3]);
+    }
+    // [read_plane]
+
+    // [plane_of_segment]
+    const gnomon::segments parts = gnomon::segment_surfaces(scan, surface);
+    std::vector<gnomon::plane> planes;  // one for each segment, where it is flat
+    for (std::size_t label = 0; label < parts.size(); ++label) {
+        const auto frame = gnomon::principal_frame_of(gnomon::subset_view(scan, parts[label]));
+        if (frame.spectrum.surface_variation() > 0.15) continue;  // curved, Eq. (3.28)
+        planes.push_back({frame.normal(), frame.normal().dot(frame.centroid)});
+    }
+    // [plane_of_segment]
+    std::printf("%zu of %zu smooth surfaces are flat\n", planes.size(), parts.size());
+}

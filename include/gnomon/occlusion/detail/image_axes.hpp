@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
+/// Eq. 2.1, with any pole).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/atan2pi.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+
+namespace gnomon::detail {
+
+/// Column and row of a pixel.
+struct image_cell {
+    std::size_t azimuth, elevation;
+
+    friend bool operator==(const image_cell&, const image_cell&) = default;
+};
+
+/// The axes of a range image, of unit length and orthogonal; z is the pole.
+struct image_axes {
+    Eigen::Vector3d x, y, z;
+
+    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
+    /// pole, from the y-axis.
+    /// @throws std::invalid_argument  if the pole is not finite or has no length
+    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
+        require(all_finite(pole) && has_direction,
+                "range_image: the pole must be a finite direction");
+        image_axes axes;
+        axes.z = direction_of(pole);
+        const Eigen::Vector3d start =
+            std::abs(axes.z[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        const Eigen::Vector3d y = cross(axes.z, start);
+        const double across = std::sqrt(dot(y, y));
+        axes.y = Eigen::Vector3d(y[0] / across, y[1] / across, y[2] / across);
+        axes.x = cross(axes.y, axes.z);
+        return axes;
+    }
+
+    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
+    template <std::size_t N>
+    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
+                                                          std::size_t width,
+                                                          std::size_t height) const {
+        using pack = pack_of<N>;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
+            return pack(a.data());
+        };
+        const pack on_x = along(x), on_y = along(y), on_z = along(z);
+        const pack azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const pack elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        std::array<image_cell, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
+                              height - 1)};
+        }
+        return at;
+    }
+};
+
+/// The axis along which directions vary least; z if there are none.
+/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
+[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
+    Eigen::Matrix3d sum = diagonal(0.0, 0.0, 0.0);
+    for (const auto& s : samples) {
+        const Eigen::Vector3d& d = offset_of(s);
+        const double weight = 1.0 / dot(d, d);
+        for (int r = 0; r < 3; ++r)
+            for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
+    }
+    for (int r = 0; r < 3; ++r)
+        for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
+    // Where z is as good as any, it is z.
+    sum(2, 2) *= 1.0 - 1e-9;
+    return column(symmetric_eigen(sum).vectors, 2);
+}
+
+}  // namespace gnomon::detail

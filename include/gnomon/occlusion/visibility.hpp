@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What a sensor observed towards a place: a range image for each of its view points, whether one,
+/// one for each of several scans, or one for each point of a sensor that moves. Therefore queries
+/// are places, not pixels of one image, and gaps between points are sampled in space. View points
+/// nearer to each other than noise displaces points share an image.
+///
+/// Klasing 2010, Sec. 4.3.5, with the depth of the line at the ray of each pixel instead of an
+/// interpolated one (docs/thesis-notes.md, A19).
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <numbers>
+#include <optional>
+#include <span>
+#include <utility>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/occlusion/detail/sensor_places.hpp>
+#include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/occlusion/range_image.hpp>
+#include <gnomon/occlusion/ray_spacing.hpp>
+
+namespace gnomon {
+
+/// How range images are made, and when a range differs.
+struct visibility_options {
+    angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
+    std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_options`
+    /// Standard deviation of ranges [m]; three of them are no difference, and view points in a cube
+    /// of this size are one.
+    double sigma = 0.015;
+};
+
+/// How often something was seen, by kind of observation.
+struct observation_count {
+    std::array<std::size_t, 4> of{};
+
+    [[nodiscard]] std::size_t operator[](observation s) const {
+        return of[static_cast<std::size_t>(s)];
+    }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    observation_count& operator+=(const observation_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+};
+
+/// Knows what was seen towards any place.
+class visibility {
+  public:
+    /// The observations of a whole cloud: also of points that belong to no segment, such as floor
+    /// and ceiling that were left out before segmentation. The view points are those of the range,
+    /// or else the origin. O(n log n), and a range image for each view point.
+    /// @throws std::invalid_argument  for a sigma that is negative or not finite, an angle of
+    ///                                a pixel that is neither 0 nor from a microradian to 90
+    ///                                degrees, or a pole of no length
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
+                        Proj projection = {})
+        : sigma_(options.sigma) {
+        detail::require(options.sigma >= 0.0 && std::isfinite(options.sigma),
+                        "visibility: sigma must be finite and not negative");
+        constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+        const double given = options.pixel.radians();
+        detail::require(given == 0.0 || (given >= least && given <= most),
+                        "visibility: a pixel has between a microradian and 90 degrees");
+        detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+            observe(points, viewpoints, options, run, projection);
+        });
+    }
+
+    /// The images, one for each view point.
+    [[nodiscard]] std::span<const range_image> images() const { return images_; }
+    /// The angle of a pixel.
+    [[nodiscard]] angle pixel() const { return radians(pixel_); }
+
+    /// What was observed towards a place [m], by most view points that observed anything there; of
+    /// equally many the observation that is evidence against a surface. O(view points).
+    [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
+        observation_count count;
+        for (const range_image& image : images_) count.add(towards(place, image));
+        observation most = observation::unobserved;
+        std::size_t votes = 0;
+        for (const observation s :
+             {observation::free_space, observation::on_surface, observation::occluded}) {
+            if (count[s] > votes) {
+                most = s;
+                votes = count[s];
+            }
+        }
+        return most;
+    }
+
+    /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
+    /// at steps of a pixel, the ends left out; nothing if one of them is not finite. O(steps * view
+    /// points).
+    [[nodiscard]] observation_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+                                            const Eigen::Vector3d& viewpoint) const {
+        const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
+        const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
+        const Eigen::Vector3d across = detail::cross(to_p, to_q);
+        const double angle =
+            std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
+        const double near = std::sqrt(detail::dot(to_p, to_p));
+        const double far = std::sqrt(detail::dot(to_q, to_q));
+        observation_count count;
+        if (!std::isfinite(angle)) return count;
+        const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
+        for (std::size_t s = 1; s < steps; ++s) {
+            const double turned = angle * static_cast<double>(s) / static_cast<double>(steps);
+            // Where the ray that is turned by this angle meets the line, by the law of sines.
+            const double a = near * std::sin(turned), b = far * std::sin(angle - turned);
+            count.add(towards(detail::combined(b / (a + b), p, a / (a + b), q)));
+        }
+        return count;
+    }
+
+  private:
+    /// Makes the images.
+    template <class R, execution X, class Proj>
+    void observe(const R& points, const viewpoint_table& viewpoints,
+                 const visibility_options& options, const X& run, const Proj& projection) {
+        const position_view<R, Proj> p(points, projection);
+        const angle pixel = options.pixel.radians() > 0.0
+                                ? options.pixel
+                                : detail::rays_of_cloud(p, viewpoints).spacing();
+        const auto height =
+            static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
+        pixel_ = std::numbers::pi / static_cast<double>(height);
+        const range_image_options format{2 * height, height, options.pole};
+
+        const auto places = detail::places_of_sensor(p, viewpoints, options.sigma);
+        detail::scratch<std::optional<range_image>> images(places.size());
+        run(places.size(), [&](std::size_t i) {
+            images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
+        });
+        images_.reserve(images.size());
+        for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
+    }
+
+    /// What one view point has seen there.
+    [[nodiscard]] observation towards(const Eigen::Vector3d& place,
+                                      const range_image& image) const {
+        const double expected = image.distance_to(place);
+        if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
+        const double margin = 3.0 * sigma_ + expected * pixel_;
+        const auto told_by = [&](const range_image::pixel& other) {
+            const double range = image.range(other);
+            if (range < 0.0) return observation::unobserved;
+            if (range < expected - margin) return observation::occluded;
+            return range > expected + margin ? observation::free_space : observation::on_surface;
+        };
+        const range_image::pixel at = image.pixel_of(place);
+        const observation here = told_by(at);
+        if (here != observation::unobserved) return here;
+        // Rays are not spaced as evenly as pixels: the adjacent pixels count as well. Across the
+        // lines of a scan the next ray may be two pixels away; beyond one pixel only occlusion
+        // counts as evidence.
+        const observation beside = told_about(at, 1, image, told_by);
+        const bool is_hidden = beside == observation::unobserved &&
+                               told_about(at, 2, image, told_by) == observation::occluded;
+        return is_hidden ? observation::occluded : beside;
+    }
+
+    /// The observation of all pixels around one with a return. At an edge of an occluder some
+    /// pixels show the occluder, and some the surface: the place is neither free nor certainly
+    /// occluded.
+    [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
+                                                const range_image& image, const auto& told_by) {
+        observation about = observation::unobserved;
+        for (std::size_t e = at.elevation - std::min(at.elevation, reach);
+             e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
+            for (std::size_t a = at.azimuth + image.width() - reach;
+                 a <= at.azimuth + image.width() + reach; ++a) {
+                const observation s = told_by({a % image.width(), e});
+                if (s == observation::unobserved) continue;
+                if (about == observation::unobserved || s == about) {
+                    about = s;
+                } else if (s == observation::free_space || about == observation::free_space) {
+                    return observation::unobserved;
+                } else {
+                    about = observation::on_surface;
+                }
+            }
+        }
+        return about;
+    }
+
+    double sigma_;
+    double pixel_ = 0.0;  // [rad]
+    detail::scratch<range_image> images_;
+};
+
+}  // namespace gnomon

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What `perception` returns, and what it removes first.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/surfel.hpp>
+#include <gnomon/occlusion/merge_occluded.hpp>
+#include <gnomon/perception/detail/perception_memory.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon {
+
+/// What is removed first: floor and ceiling, where they are found.
+struct floor_and_ceiling {
+    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
+    find_floor_options floor{};
+    find_ceiling_options ceiling{};
+    crop_height_options bands{};
+};
+
+/// How long the steps took [s].
+struct perception_seconds {
+    double preprocessing = 0.0;  ///< finding floor and ceiling
+    double index = 0.0;          ///< building it
+    double normals = 0.0;        ///< with their repair and orientation
+    double segmentation = 0.0;
+    double merging = 0.0;     ///< with range images
+    double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points, joining of
+                              ///< surfaces of revolution
+};
+
+/// What was perceived in n points.
+template <class Estimate>
+struct perception_result {
+    std::optional<plane> floor;             ///< if it was searched for and found
+    std::optional<double> ceiling;          ///< its height above the floor [m]
+    std::vector<point_index> kept;          ///< the points that were not removed, ascending
+    spatial_index index;                    ///< of the kept points; empty if an index was given
+    std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
+    segments initial_segments;              ///< of the n points, before merging
+    segments surfaces;                      ///< of the n points, after all steps
+    std::vector<considered_gap> gaps;       ///< all that the first merging considered, and what
+                                            ///< the second one merged
+    perception_seconds seconds;
+    detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
+};
+
+}  // namespace gnomon

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: BSL-1.0
+/// How many trees an algorithm builds. An executable of its own: the count is compiled in only
+/// where GNOMON_COUNT_TREES is defined.
+#include <cstddef>
+
+#include <gtest/gtest.h>
+
+#include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
+#include <gnomon/simulation.hpp>
+
+namespace {
+
+namespace sim = gnomon::simulation;
+
+const gnomon::scan& kitchen() {
+    static const gnomon::scan scan = [] {
+        const sim::scene world = sim::scenes::kitchen();
+        return sim::simulate(world, sim::rotational{.mount = world.sensor},
+                             sim::densities::medium(), {.sigma = 0.015, .seed = 1})
+            .scan;
+    }();
+    return scan;
+}
+
+std::size_t trees_built_by(auto&& work) {
+    const std::size_t before = gnomon::detail::trees_built;
+    work();
+    return gnomon::detail::trees_built - before;
+}
+
+TEST(one_tree, serves_all_steps_of_perception) {
+    const gnomon::perception<> chain;
+    EXPECT_EQ(trees_built_by([&] { EXPECT_GT(chain(kitchen()).surfaces.size(), 5u); }), 1u);
+    EXPECT_EQ(trees_built_by([&] { (void)chain(kitchen(), gnomon::threads{2}); }), 1u);
+    const gnomon::perception<> above_floor{.leave_out = gnomon::floor_and_ceiling{}};
+    EXPECT_EQ(
+        trees_built_by([&] { EXPECT_LT(above_floor(kitchen()).kept.size(), kitchen().size()); }),
+        1u);
+}
+
+TEST(one_tree, is_not_built_where_an_index_is_given) {
+    const gnomon::spatial_index index(kitchen());
+    const gnomon::perception<> chain;
+    EXPECT_EQ(trees_built_by([&] { (void)chain(index); }), 0u);
+    EXPECT_EQ(trees_built_by([&] {
+                  auto surface = gnomon::estimate_normals(index);
+                  gnomon::repair_anisotropic(index, gnomon::knn{.k = 30}, surface,
+                                             gnomon::plane_pca{});
+                  const auto parts = gnomon::segment_surfaces(index, surface);
+                  (void)gnomon::euclidean_clusters(index);
+                  (void)gnomon::split_outliers(index, surface, parts);
+                  (void)gnomon::assign_unlabeled(index, parts);
+                  (void)gnomon::join_surfaces_of_revolution(index, surface, parts);
+                  (void)gnomon::noise_level(index);
+                  (void)gnomon::knn{.k = 10}(index);
+                  (void)gnomon::radius{.r = 0.05}(index);
+                  (void)gnomon::delaunay{}(index);
+                  (void)gnomon::estimate_normals(index, gnomon::feature_preserving{});
+              }),
+              0u);
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::estimate_normals(kitchen()); }), 1u);
+}
+
+}  // namespace
