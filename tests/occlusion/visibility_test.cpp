@@ -35,11 +35,11 @@ TEST(visibility, classifies_positions) {
     sim::scene world;
     looks::add_wall(world, -2.0, 2.0);
     const auto seen = looks::look_at(world);
-    for (const double pixel : {0.0, 1.0, 3.0}) {
-        const visibility visible(seen.scan, {.pixel = gnomon::degrees(pixel)});
+    for (const double width : {0.0, 1.0, 3.0}) {
+        const visibility visible(seen.scan, {.pixel = gnomon::degrees(width)});
         ASSERT_EQ(visible.images().size(), 1u);
-        if (pixel > 0.0) {
-            EXPECT_NEAR(visible.pixel().degrees(), pixel, 0.01);
+        if (width > 0.0) {
+            EXPECT_NEAR(visible.pixel().degrees(), width, 0.01);
         }
         for (const double y : {-1.5, 0.0, 0.7}) {
             EXPECT_EQ(visible.towards({3.0, y, 0.2}), observation::on_surface);

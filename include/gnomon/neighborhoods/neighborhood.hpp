@@ -116,13 +116,15 @@ concept notes_neighborhoods =
         { policy.find(index, std::size_t{}, found) } -> std::same_as<neighborhood_note>;
     };
 
-/// The vector for the neighbors that a policy finds: in scratch memory, if its `find` takes vectors
-/// with any allocator.
+/// Whether the policy's `find` takes vectors with any allocator.
+template <class N>
+concept finds_into_scratch = requires(const N& policy, const spatial_index& index,
+                                      scratch<neighbor>& found) { policy.find(index, 0, found); };
+
+/// The vector for the neighbors that a policy finds: in scratch memory where that is possible.
 template <class N>
 using neighbor_buffer =
-    std::conditional_t<requires(const N& policy, const spatial_index& index,
-                                scratch<neighbor>& found) { policy.find(index, 0, found); },
-                       scratch<neighbor>, std::vector<neighbor>>;
+    std::conditional_t<finds_into_scratch<N>, scratch<neighbor>, std::vector<neighbor>>;
 
 /// The neighbors of point i, finite or not, with their note.
 template <indexed_neighborhood N, class Allocator>
