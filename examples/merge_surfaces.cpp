@@ -13,7 +13,7 @@ int main() {
     const gnomon::scan scan =
         gnomon::simulation::simulate(kitchen, trajectory, {}, {.sigma = 0.015}).scan;
 
-    // [mend_surfaces]
+    // [merge_surfaces]
     const gnomon::perception chain{gnomon::knn{.k = 50},
                                    gnomon::plane_pca{},
                                    gnomon::conservative{},
@@ -27,7 +27,7 @@ int main() {
                     gap.seen[gnomon::observation::occluded], gap.seen.total(),
                     gap.merged ? "closed" : "left open");
     }
-    // [mend_surfaces]
+    // [merge_surfaces]
     std::printf("normals %.3f s, segmentation %.3f s, merging %.3f s\n", seen.seconds.normals,
                 seen.seconds.segmentation, seen.seconds.merging);
 }
