@@ -24,8 +24,7 @@ constexpr std::array policies{"none", "conservative", "liberal", "conservative, 
 constexpr std::array trajectories{"horizontal", "vertical", "rotational", "moving"};
 
 /// @param trajectory  "moving" is horizontal, on a rotating arm of 15 cm, so that each scan line
-/// has
-///                    a view point of its own
+///                    has a view point of its own
 sim::true_scan scan_of(const sim::scene& world, const sim::bvh_caster& caster,
                        const std::string& trajectory, std::uint64_t seed) {
     const sim::pose mount = world.sensor;

@@ -25,8 +25,7 @@ class adjacency {
     /// The graph in which the neighbors of point i are `indices` from begin[i] to begin[i + 1].
     /// @param notes  of each point; none if empty
     /// @throws std::invalid_argument  unless begin ascends from 0 to the number of indices and
-    /// there
-    ///                                are as many notes as points, or none
+    ///                                there are as many notes as points, or none
     adjacency(std::vector<std::uint64_t> begin, std::vector<point_index> indices,
               std::vector<neighborhood_note> notes = {})
         : begin_(std::move(begin)), indices_(std::move(indices)), notes_(std::move(notes)) {

@@ -2,9 +2,11 @@
 /// @file
 /// Normals for all points of a cloud, by any estimator over any neighborhood:
 ///
-///     auto surface = gnomon::estimate_normals(scan);                          // knn{.k = 30},
-///     plane_pca{} auto surface = gnomon::estimate_normals(scan, knn{.k = 50}, plane_pca{},
-///     threads{}); auto surface = gnomon::estimate_normals(index, knn{.k = 50}, plane_ekf{});
+///     auto surface = gnomon::estimate_normals(scan);
+///
+///     auto surface = gnomon::estimate_normals(scan, knn{.k = 50}, plane_pca{}, threads{});
+///
+///     auto surface = gnomon::estimate_normals(index, knn{.k = 50}, plane_ekf{});
 ///
 /// Klasing 2010, Sec. 3.2.
 #pragma once
@@ -73,8 +75,8 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 ///                    the origin
 /// @param graph       the neighbors of each of the n points, indices below n
 /// @param estimate    any estimator
-/// @param run         `sequential{}`, `threads{n}` or another execution; the result is the same
-/// bytes
+/// @param run         `sequential{}`, `threads{n}` or another execution; the bytes of the
+///                    result are the same
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean

@@ -51,10 +51,9 @@ class range_image {
     /// The image of all points at a finite distance from the view point [m], but of those in it. It
     /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
     /// O(n log n).
-    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, or
-    /// for
-    ///                                a view point or a pole that is not finite, or a pole of no
-    ///                                length
+    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
+    ///                                a view point or a pole that is not finite, or for a pole of
+    ///                                no length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,

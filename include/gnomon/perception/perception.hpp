@@ -6,9 +6,12 @@
 /// its own floor; the result holds what each step returned and how long it took. All steps share
 /// one index of the points (Klasing 2010, Fig. 4.2, Table 4.1).
 ///
-///     const gnomon::perception chain{gnomon::knn{.k = 50}, gnomon::plane_pca{},
-///     gnomon::conservative{}}; auto seen = chain(scan, gnomon::threads{});      // once
-///     chain.into(seen, next_scan, team);               // again and again, in the same memory
+///     const gnomon::perception<> chain{.neighborhood = {.k = 50}};
+///     auto seen = chain(scan, gnomon::threads{});
+///
+/// and for each further scan, in the same memory:
+///
+///     chain.into(seen, next_scan, team);
 #pragma once
 
 #include <concepts>

@@ -24,9 +24,8 @@ class index_queries {
   public:
     /// The k points nearest to `p` [m], nearest first; fewer if there are no more. A point at p
     /// itself is found. O(log n + k log k) on average for the Euclidean distance.
-    /// @throws std::invalid_argument  if p is not finite, epsilon is negative or NaN, or the order
-    /// of
-    ///                                the metric is below 1
+    /// @throws std::invalid_argument  if p is not finite, epsilon is negative or NaN, or the
+    ///                                order of the metric is below 1
     [[nodiscard]] std::vector<neighbor> nearest(const Eigen::Vector3d& p, std::size_t k,
                                                 const search_options& options = {}) const {
         std::vector<neighbor> found;
