@@ -184,7 +184,7 @@ class timed_step {
 };
 
 /// Adds the steps of `perception`.
-void add_steps(json& seconds, const gnomon::perception_seconds& steps) {
+void add_steps(json& seconds, const auto& steps) {
     seconds.update({{"preprocessing", steps.preprocessing},
                     {"normals", steps.normals},
                     {"segmentation", steps.segmentation},

@@ -43,7 +43,7 @@ json measure(const effort& much) {
         const perceived seen = perceive(truth);  // warms up
         std::vector<double> pp, nve, seg, m, c;
         for (int pass = 0; pass < much.passes(); ++pass) {
-            const gnomon::perception_seconds s = perceive(truth).seconds;
+            const auto s = perceive(truth).seconds;
             pp.push_back(s.preprocessing);
             nve.push_back(s.normals);
             seg.push_back(s.segmentation);

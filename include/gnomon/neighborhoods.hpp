@@ -12,6 +12,7 @@
 #include <gnomon/neighborhoods/metric.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighborhoods_into.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/neighborhoods/search_options.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>

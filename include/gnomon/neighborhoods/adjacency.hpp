@@ -20,6 +20,15 @@ namespace gnomon {
 /// Models `annotated_graph` in 4 bytes per neighbor and 8 per point, and 2 where there are notes.
 class adjacency {
   public:
+    /// What it consists of.
+    struct arrays {
+        std::vector<std::uint64_t> begin;      ///< of the neighbors of each point, and their end
+        std::vector<point_index> indices;      ///< the neighbors of all points
+        std::vector<neighborhood_note> notes;  ///< empty, or one per point
+
+        friend bool operator==(const arrays&, const arrays&) = default;
+    };
+
     adjacency() = default;
 
     /// The graph in which the neighbors of point i are `indices` from begin[i] to begin[i + 1].
@@ -28,34 +37,40 @@ class adjacency {
     ///                                there are as many notes as points, or none
     adjacency(std::vector<std::uint64_t> begin, std::vector<point_index> indices,
               std::vector<neighborhood_note> notes = {})
-        : begin_(std::move(begin)), indices_(std::move(indices)), notes_(std::move(notes)) {
-        detail::require(!begin_.empty() && begin_.front() == 0 &&
-                            begin_.back() == indices_.size() &&
-                            std::is_sorted(begin_.begin(), begin_.end()),
+        : adjacency(arrays{std::move(begin), std::move(indices), std::move(notes)}) {}
+
+    explicit adjacency(arrays all) : arrays_(std::move(all)) {
+        const auto& [begin, indices, notes] = arrays_;
+        detail::require(!begin.empty() && begin.front() == 0 && begin.back() == indices.size() &&
+                            std::is_sorted(begin.begin(), begin.end()),
                         "adjacency: neighborhoods must lie one after the other");
-        detail::require(notes_.empty() || notes_.size() == size(),
+        detail::require(notes.empty() || notes.size() == size(),
                         "adjacency: the number of notes is not that of points");
     }
 
     /// Number of points.
-    [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+    [[nodiscard]] std::size_t size() const {
+        return arrays_.begin.empty() ? 0 : arrays_.begin.size() - 1;
+    }
 
     /// The neighbors of point i, in the order in which they were found.
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
-        return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
+        return {arrays_.indices.data() + arrays_.begin[i],
+                arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
     /// What the search noted of the neighborhood of point i.
     [[nodiscard]] neighborhood_note note(std::size_t i) const {
-        return notes_.empty() ? neighborhood_note{} : notes_[i];
+        return arrays_.notes.empty() ? neighborhood_note{} : arrays_.notes[i];
     }
+
+    /// Its arrays, for another graph in their memory; this one has no points then.
+    [[nodiscard]] arrays release() { return std::exchange(arrays_, {{0}, {}, {}}); }
 
     friend bool operator==(const adjacency&, const adjacency&) = default;
 
   private:
-    std::vector<std::uint64_t> begin_{0};
-    std::vector<point_index> indices_;
-    std::vector<neighborhood_note> notes_;  // empty, or one per point
+    arrays arrays_{{0}, {}, {}};
 };
 
 }  // namespace gnomon

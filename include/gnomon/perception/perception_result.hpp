@@ -27,20 +27,20 @@ struct floor_and_ceiling {
     crop_height_options bands{};
 };
 
-/// How long the steps took [s].
-struct perception_seconds {
-    double preprocessing = 0.0;  ///< finding floor and ceiling
-    double index = 0.0;          ///< building it
-    double normals = 0.0;        ///< with their repair and orientation
-    double segmentation = 0.0;
-    double merging = 0.0;     ///< with range images
-    double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points, joining of
-                              ///< surfaces of revolution
-};
-
 /// What was perceived in n points.
 template <class Estimate>
 struct perception_result {
+    /// How long the steps took [s].
+    struct durations {
+        double preprocessing = 0.0;  ///< finding floor and ceiling
+        double index = 0.0;          ///< building it
+        double normals = 0.0;        ///< with their repair and orientation
+        double segmentation = 0.0;
+        double merging = 0.0;     ///< with range images
+        double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points,
+                                  ///< joining of surfaces of revolution
+    };
+
     std::optional<plane> floor;             ///< if it was searched for and found
     std::optional<double> ceiling;          ///< its height above the floor [m]
     std::vector<point_index> kept;          ///< the points that were not removed, ascending
@@ -50,7 +50,7 @@ struct perception_result {
     segments surfaces;                      ///< of the n points, after all steps
     std::vector<considered_gap> gaps;       ///< all that the first merging considered, and what
                                             ///< the second one merged
-    perception_seconds seconds;
+    durations seconds;
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
 };
 

@@ -28,33 +28,33 @@ namespace gnomon::detail {
 /// indices exist twice while it is built.
 /// @tparam Notes   whether the graph stores the notes; not in a `scratch_graph`
 /// @tparam Buffer  the vector that `find` takes
+/// @param memory   arrays of another graph, which are reused
 template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighbor>, execution X>
-[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find) {
-    typename vectors_of<Graph>::begins begin(n + 1, 0);
-    std::vector<neighborhood_note> notes;
-    if constexpr (Notes) notes.resize(n);
+[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find,
+                                    typename Graph::arrays memory = {}) {
+    auto& begin = memory.begin;
+    begin.assign(n + 1, 0);
+    if constexpr (requires { memory.notes; }) memory.notes.resize(Notes ? n : 0);
     scratch<scratch<point_index>> indices_of_chunk(chunk_count(n));
     for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
         scratch<point_index>& indices = indices_of_chunk[first / chunk_size];
         Buffer found;
         for (std::size_t i = first; i < last; ++i) {
             const neighborhood_note note = find(i, found);
-            if constexpr (Notes) notes[i] = note;
+            if constexpr (Notes) memory.notes[i] = note;
             begin[i + 1] = found.size();
             for (const neighbor& q : found) indices.push_back(q.index);
         }
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    typename vectors_of<Graph>::indices indices;
+    auto& indices = memory.indices;
+    indices.clear();
     indices.reserve(begin.back());
     for (scratch<point_index>& chunk : indices_of_chunk) {
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);
     }
-    if constexpr (Notes)
-        return Graph(std::move(begin), std::move(indices), std::move(notes));
-    else
-        return Graph(std::move(begin), std::move(indices));
+    return Graph(std::move(memory));
 }
 
 /// `knn` of some points only; the other points have no neighbors in the graph.
@@ -74,8 +74,9 @@ template <execution X>
                                           const X& run) {
     place_set some;
     some.assign_if(index.tree(), wanted);
-    if (auto swept = recorded_graph<scratch_graph>(knn_of_some{{.k = k, .of = &some}}, index, run))
-        return *std::move(swept);
+    scratch_graph::arrays swept;
+    if (sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, swept))
+        return scratch_graph(std::move(swept));
     return collected_graph<false, scratch_graph, scratch<neighbor>>(
         index.size(), run, [&](std::size_t i, scratch<neighbor>& found) {
             found.clear();
@@ -89,19 +90,22 @@ template <execution X>
 }
 
 /// The graph of a neighborhood over points, or over an index of them.
+/// @param memory  arrays of another graph, which are reused
 template <indexed_neighborhood N, class R, execution X, class Proj>
 [[nodiscard]] adjacency graph_of(const N& policy, const R& points, const X& run,
-                                 const Proj& projection) {
+                                 const Proj& projection, adjacency::arrays memory = {}) {
     require_valid(policy);
     const auto& team = staying(run);
     const auto& index = index_of(points, team, projection);
     if constexpr (sweeping_neighborhood<N>) {
-        if (auto swept = swept_graph(policy, index, team)) return *std::move(swept);
+        if (sweep_graph(policy, index, team, memory)) return adjacency(std::move(memory));
     }
     return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
-        index.size(), team, [&](std::size_t i, neighbor_buffer<N>& found) {
+        index.size(), team,
+        [&](std::size_t i, neighbor_buffer<N>& found) {
             return find_noted(policy, index, i, found);
-        });
+        },
+        std::move(memory));
 }
 
 }  // namespace gnomon::detail

@@ -7,41 +7,31 @@
 #include <cstdint>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/adjacency.hpp>
 
 namespace gnomon::detail {
 
 /// Models `neighborhood_graph`; as `adjacency`, without notes.
 class scratch_graph {
   public:
-    /// The graph in which the neighbors of point i are `indices` from begin[i] to begin[i + 1].
-    scratch_graph(scratch<std::uint64_t> begin, scratch<point_index> indices)
-        : begin_(std::move(begin)), indices_(std::move(indices)) {}
+    /// What it consists of.
+    struct arrays {
+        scratch<std::uint64_t> begin;  // of the neighbors of each point, and their end
+        scratch<point_index> indices;  // the neighbors of all points
+    };
 
-    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+    explicit scratch_graph(arrays all) : arrays_(std::move(all)) {}
+
+    [[nodiscard]] std::size_t size() const { return arrays_.begin.size() - 1; }
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
-        return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
+        return {arrays_.indices.data() + arrays_.begin[i],
+                arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
   private:
-    scratch<std::uint64_t> begin_;
-    scratch<point_index> indices_;
-};
-
-/// The vectors that a graph is made of.
-template <class Graph>
-struct vectors_of {
-    using begins = std::vector<std::uint64_t>;
-    using indices = std::vector<point_index>;
-};
-template <>
-struct vectors_of<scratch_graph> {
-    using begins = scratch<std::uint64_t>;
-    using indices = scratch<point_index>;
+    arrays arrays_;
 };
 
 }  // namespace gnomon::detail

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <numeric>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -19,7 +20,6 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
-#include <gnomon/neighborhoods/detail/scratch_graph.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
@@ -43,23 +43,24 @@ class neighborhood_writer {
     scratch<neighbor> buffer_;
 };
 
-/// The graph of a policy that finds `k` neighbors of every finite point; nothing if the policy does
-/// not sweep.
+/// The arrays of the graph of a policy that finds `k` neighbors of every finite point.
+/// @return false if the policy does not sweep; then they are unfinished
 template <class Policy, execution X>
-[[nodiscard]] std::optional<adjacency> graph_of_equal_sizes(const Policy& policy, std::size_t k,
-                                                            const spatial_index& index,
-                                                            const X& run) {
-    std::vector<std::uint64_t> begin(index.size() + 1, 0);
+[[nodiscard]] bool sweep_equal_sizes(const Policy& policy, std::size_t k,
+                                     const spatial_index& index, const X& run,
+                                     adjacency::arrays& graph) {
+    auto& [begin, indices, notes] = graph;
+    begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
-    auto indices = touched_vector<point_index>(begin.back(), run);
-    const auto make_writer = [&] { return neighborhood_writer(begin, indices.data()); };
-    if (!policy.sweep(index, run, make_writer)) return std::nullopt;
-    return adjacency(std::move(begin), std::move(indices));
+    resize_touched(indices, begin.back(), run);
+    notes.clear();
+    return policy.sweep(index, run, [&] { return neighborhood_writer(begin, indices.data()); });
 }
 
 /// The neighbors of all points that the visitors of a sweep have seen.
-template <class Graph>
+/// @tparam Sizes  a vector of numbers
+template <class Sizes>
 struct recorded_neighborhoods {
     /// Those that one visitor has seen.
     struct part {
@@ -67,16 +68,16 @@ struct recorded_neighborhoods {
         scratch<point_index> indices;  // the neighbors of these, one point after the other
     };
 
-    typename vectors_of<Graph>::begins sizes;  // at i + 1 is the number of neighbors of point i
+    Sizes& sizes;  // at i + 1 is the number of neighbors of point i
     scratch<part> parts = {};
     mutex guard = {};
 };
 
 /// A visitor that records the neighbors of each point.
-template <class Graph>
+template <class Sizes>
 class neighborhood_recorder {
   public:
-    explicit neighborhood_recorder(recorded_neighborhoods<Graph>& all) : all_(all) {}
+    explicit neighborhood_recorder(recorded_neighborhoods<Sizes>& all) : all_(all) {}
 
     void operator()(std::size_t i, const auto& found) {
         const std::size_t before = seen_.indices.size();
@@ -92,24 +93,25 @@ class neighborhood_recorder {
     }
 
   private:
-    recorded_neighborhoods<Graph>& all_;
+    recorded_neighborhoods<Sizes>& all_;
     scratch<neighbor> buffer_;
-    typename recorded_neighborhoods<Graph>::part seen_;
+    typename recorded_neighborhoods<Sizes>::part seen_;
 };
 
-/// The graph of a policy whose neighborhoods differ in size; nothing if the policy does not sweep.
-/// While building, the indices exist twice.
-/// @tparam Graph  `adjacency` or `scratch_graph`
-template <class Graph, class Policy, execution X>
-[[nodiscard]] std::optional<Graph> recorded_graph(const Policy& policy, const spatial_index& index,
-                                                  const X& run) {
-    recorded_neighborhoods<Graph> all;
-    all.sizes.assign(index.size() + 1, 0);
-    if (!policy.sweep(index, run, [&] { return neighborhood_recorder(all); })) return std::nullopt;
+/// The arrays of the graph of a policy whose neighborhoods differ in size. While building, the
+/// indices exist twice.
+/// @param graph  arrays of an `adjacency` or a `scratch_graph`
+/// @return false if the policy does not sweep; then they are unfinished
+template <class Policy, execution X>
+[[nodiscard]] bool sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run,
+                                   auto& graph) {
+    auto& begin = graph.begin;
+    begin.assign(index.size() + 1, 0);
+    recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
+    if (!policy.sweep(index, run, [&] { return neighborhood_recorder(all); })) return false;
 
-    auto& begin = all.sizes;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    typename vectors_of<Graph>::indices indices;
+    auto& indices = graph.indices;
     resize_touched(indices, begin.back(), run);
     run(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
@@ -119,20 +121,22 @@ template <class Graph, class Policy, execution X>
             from += size;
         }
     });
-    return Graph(std::move(begin), std::move(indices));
+    if constexpr (requires { graph.notes; }) graph.notes.clear();
+    return true;
 }
 
-/// The stored graph of a `sweeping_neighborhood`; nothing if the policy does not sweep. A policy
-/// that finds the same number of neighbors of every finite point returns it from
-/// neighbors_of_each(number of finite points), or nothing if the numbers may differ.
+/// The arrays of the graph of a `sweeping_neighborhood`. A policy that finds the same number of
+/// neighbors of every finite point returns it from neighbors_of_each(number of finite points), or
+/// nothing if the numbers may differ.
+/// @return false if the policy does not sweep; then they are unfinished
 template <class Policy, execution X>
-[[nodiscard]] std::optional<adjacency> swept_graph(const Policy& policy, const spatial_index& index,
-                                                   const X& run) {
+[[nodiscard]] bool sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
+                               adjacency::arrays& graph) {
     if constexpr (requires { policy.neighbors_of_each(std::size_t{}); }) {
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
-            return graph_of_equal_sizes(policy, *k, index, run);
+            return sweep_equal_sizes(policy, *k, index, run, graph);
     }
-    return recorded_graph<adjacency>(policy, index, run);
+    return sweep_any_sizes(policy, index, run, graph);
 }
 
 }  // namespace gnomon::detail
