@@ -49,15 +49,17 @@ struct delaunay {
 
     /// Replaces the content of `found` by the star of the finite point i. O(log n + k log k).
     /// @throws std::invalid_argument  if k is under 3
+    template <class Allocator>
     neighborhood_note find(const spatial_index& index, std::size_t i,
-                           std::vector<neighbor>& found) const;
+                           std::vector<neighbor, Allocator>& found) const;
 
     /// @throws std::invalid_argument  if k is under 3
     void require_valid() const { detail::require(k >= 3, "delaunay: k must be at least 3"); }
 };
 
-inline neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
-                                        std::vector<neighbor>& found) const {
+template <class Allocator>
+neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
+                                 std::vector<neighbor, Allocator>& found) const {
     require_valid();
     // Kept between calls, so that no point costs an allocation.
     static thread_local std::vector<detail::planar_point> star;

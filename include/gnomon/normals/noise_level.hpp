@@ -33,7 +33,7 @@ namespace detail {
 
 /// The element that the given part of the values is less than. Precondition: there are values, and
 /// `part` is under 1.
-[[nodiscard]] inline double quantile(std::vector<double>& values, double part) {
+[[nodiscard]] double quantile(auto& values, double part) {
     const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
@@ -49,7 +49,8 @@ template <class Points>
 }
 
 /// `noise_level` of an index, from neighborhoods of up to max_k points.
-[[nodiscard]] inline double noise_level_in(const spatial_index& points, std::size_t max_k) {
+template <class Index>
+[[nodiscard]] double noise_level_in(const Index& points, std::size_t max_k) {
     constexpr std::size_t samples = 500;
     constexpr double flat_part = 0.3, clearance = 4.0;
     std::vector<std::size_t> chosen;  // evenly from the finite points

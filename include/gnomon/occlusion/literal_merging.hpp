@@ -55,8 +55,8 @@ template <merge_policy M>
     return 2 * in_favor > pixels;
 }
 
-/// The segments, where those of a set are one, largest first.
-[[nodiscard]] inline segments united_segments(const segments& parts, union_find& sets) {
+/// The segments, where those of a set of a `union_find` are one, largest first.
+[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::vector<point_index>> groups(parts.size());
     for (std::size_t s = 0; s < parts.size(); ++s) {
         auto& group = groups[sets.find(static_cast<point_index>(s))];

@@ -139,13 +139,16 @@ class range_image {
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
     }
 
-    void add(detail::scratch<sight>& visible, const Eigen::Vector3d& p, std::size_t i) const {
+    // What follows takes the points that are seen as `auto`, so that only code that makes images
+    // compiles it.
+
+    void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         if (detail::has_length(d))
             visible.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
     }
 
-    void show(detail::scratch<sight>& visible, const range_image_options& format) {
+    void show(auto& visible, const range_image_options& format) {
         const auto offset_of = [](const sight& s) -> const Eigen::Vector3d& { return s.offset; };
         axes_ = detail::image_axes::with_pole(
             format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
@@ -179,7 +182,7 @@ class range_image {
     }
 
     /// Stores the nearest point of each pixel.
-    void keep(detail::scratch<sight>& visible, std::size_t pixels) {
+    void keep(auto& visible, std::size_t pixels) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
         is_sparse_ = pixels / few > visible.size();
         if (is_sparse_) {
@@ -207,7 +210,7 @@ class range_image {
     }
 
     /// Determines the pixel of each.
-    void project(detail::scratch<sight>& visible) const {
+    void project(auto& visible) const {
         std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < visible.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), visible.size() - s);

@@ -52,8 +52,9 @@ namespace detail {
 /// Whether lines are the normals of a surface of revolution: eight in ten miss a common axis by a
 /// sixth of the radius at most, and they turn about it by at least 80 degrees. The normals of a
 /// disk are excluded, which are parallel to its axis.
-[[nodiscard]] inline bool are_of_something_round(
-    std::span<normal_line> lines, const join_surfaces_of_revolution_options& options) {
+template <class Line>
+[[nodiscard]] bool are_of_something_round(std::span<Line> lines,
+                                          const join_surfaces_of_revolution_options& options) {
     constexpr double least_share = 0.8, most_missed = 1.0 / 6.0;
     constexpr double least_across = 0.62;   // of a ball, 2/3
     constexpr double least_turning = 0.12;  // the variance of the sine of up to 37 degrees

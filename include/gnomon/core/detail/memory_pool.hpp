@@ -123,6 +123,19 @@ class pool_scope {
     memory_pool* outer_;
 };
 
+/// Memory from a pool, or from operator new if there is none. (Not inline, nor is its counterpart:
+/// vectors of all types would contain a copy. For compile time only.)
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes) {
+    return pool != nullptr ? pool->allocate(bytes)
+                           : ::operator new(bytes, std::align_val_t{memory_pool::alignment});
+}
+[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory) noexcept {
+    if (pool != nullptr)
+        pool->deallocate(memory);
+    else
+        ::operator delete(memory, std::align_val_t{memory_pool::alignment});
+}
+
 /// An allocator over the pool that was current on its thread when it was constructed.
 template <class T>
 class pooled {
@@ -138,15 +151,9 @@ class pooled {
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        return pool_ != nullptr ? static_cast<T*>(pool_->allocate(n * sizeof(T)))
-                                : std::allocator<T>().allocate(n);
+        return static_cast<T*>(allocate_from(pool_, n * sizeof(T)));
     }
-    void deallocate(T* values, std::size_t n) noexcept {
-        if (pool_ != nullptr)
-            pool_->deallocate(values);
-        else
-            std::allocator<T>().deallocate(values, n);
-    }
+    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values); }
 
     /// Copies of a container use the pool that is current when they are made.
     [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }

@@ -25,9 +25,7 @@ namespace gnomon::detail {
 /// The pairs of each of some points with its k nearest ones, k less than their number minus 1.
 /// O(m log m) for m points, O(m^2) for few of them.
 /// @param number  what to call each point in the pairs
-inline void append_nearest_pairs(scratch<std::pair<point_index, point_index>>& pairs,
-                                 const scratch<Eigen::Vector3d>& points, std::size_t k,
-                                 const scratch<point_index>& number) {
+void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
     constexpr std::size_t few = 2000;  // performance only: no index, thus no allocation
     const std::size_t m = points.size();
     const spatial_index index = m > few ? spatial_index(points) : spatial_index();
@@ -97,8 +95,7 @@ template <class Members = std::identity>
 }
 
 /// The segments of n points in disjoint groups.
-[[nodiscard]] inline segments segments_of_groups(
-    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
     segments merged;
     merged.assign(labels_of_groups(n, groups));
     return merged;

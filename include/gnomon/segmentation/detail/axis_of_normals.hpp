@@ -103,8 +103,9 @@ class axis_of_normals {
 
 /// The axis of the lines that miss it by at most 2.5 times the root mean square, or by a fifth of
 /// the radius.
-/// @param lines  the others are removed from the span, and their content is unspecified
-[[nodiscard]] inline axis_of_normals robust_axis_of(std::span<normal_line>& lines) {
+/// @param lines  a span of `normal_line`: the others are removed from it, and their content is
+/// unspecified
+[[nodiscard]] axis_of_normals robust_axis_of(auto& lines) {
     constexpr double at_most = 2.5, near = 0.2;  // times the root mean square, times the radius
     constexpr int passes = 5;
     axis_of_normals axis(lines);

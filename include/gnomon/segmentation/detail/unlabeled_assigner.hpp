@@ -17,7 +17,7 @@
 #include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/detail/scratch_graph.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/noisy_plane.hpp>
 #include <gnomon/segmentation/detail/unlabeled_cubes.hpp>
@@ -26,6 +26,7 @@
 namespace gnomon::detail {
 
 /// One run over a cloud.
+template <neighborhood_graph G>
 class unlabeled_assigner {
   public:
     /// @param graph         the neighbors of each unlabeled point, nearest first
@@ -33,9 +34,8 @@ class unlabeled_assigner {
     /// @param planes        those of the segments
     /// @param sigma         standard deviation of ranges [m]
     /// @param max_distance  of a point from a neighbor in the segment [m]
-    unlabeled_assigner(const spatial_index& points, const scratch_graph& graph,
-                       scratch<std::int32_t> labels, std::span<const noisy_plane> planes,
-                       double sigma, double max_distance)
+    unlabeled_assigner(const spatial_index& points, const G& graph, scratch<std::int32_t> labels,
+                       std::span<const noisy_plane> planes, double sigma, double max_distance)
         : points_(points),
           graph_(graph),
           sigma_(sigma),
@@ -168,11 +168,11 @@ class unlabeled_assigner {
     }
 
     const spatial_index& points_;
-    const scratch_graph& graph_;
+    const G& graph_;
     double sigma_, max_distance_;  // [m]
     scratch<std::int32_t> labels_;
     std::span<const noisy_plane> planes_;  // of the segments
-    unlabeled_cubes cubes_;
+    unlabeled_cubes<G> cubes_;
     scratch<std::size_t> first_reverse_;
     scratch<point_index> reverse_;  // numbers of unlabeled points
 };

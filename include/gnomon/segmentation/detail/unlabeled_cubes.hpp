@@ -21,8 +21,8 @@
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/place_set.hpp>
-#include <gnomon/neighborhoods/detail/scratch_graph.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/noisy_plane.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -52,12 +52,13 @@ struct unlabeled_point {
 
 /// The cubes with unlabeled points. They are aligned with the least coordinates of these points, so
 /// that the position of the cloud has no influence.
+template <neighborhood_graph G>
 class unlabeled_cubes {
   public:
     /// @param graph  the neighbors of each unlabeled point, nearest first
     /// @param sigma  standard deviation of ranges [m]
     unlabeled_cubes(const spatial_index& points, std::span<const std::int32_t> labels,
-                    const scratch_graph& graph, double sigma)
+                    const G& graph, double sigma)
         : tree_(points.tree()), side_(side * sigma) {
         const scratch<placed> all = placed_points(points, labels);
         unlabeled_.reserve(all.size());
@@ -135,8 +136,7 @@ class unlabeled_cubes {
         return all;
     }
 
-    void add_cube(const spatial_index& points, const scratch_graph& graph,
-                  std::span<const placed> members) {
+    void add_cube(const spatial_index& points, const G& graph, std::span<const placed> members) {
         const Eigen::Vector3d origin = points[members.front().point];
         moments m, seen_from;
         double squared_reach = 0.0;
