@@ -31,6 +31,11 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
 endif()
 add_style_test(include_budget
     Python3::Interpreter ${tools}/include_budget.py "${check_syntax}" ${budget_flags})
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+    add_style_test(compile_budget Python3::Interpreter ${tools}/compile_budget.py
+        ${CMAKE_CXX_COMPILER} -std=c++20 -O2 -c "-I$<JOIN:${include_dirs},$<SEMICOLON>-I>"
+        ${budget_flags})
+endif()
 
 # ---- Packaging: ctest -L package -----------------------------------------------------------------
 

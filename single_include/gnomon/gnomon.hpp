@@ -2090,7 +2090,7 @@ void touch_all(T* values, std::size_t n, const X& run) {
 template <class T, class Allocator, execution X>
 void resize_touched(std::vector<T, Allocator>& values, std::size_t n, const X& run) {
     if (values.capacity() < n) {
-        values = {};  // first, so that old and new memory do not add up
+        std::vector<T, Allocator>().swap(values);  // first: old and new memory do not add up
         values.reserve(n);
         touch_all(values.data(), n, run);
     }
@@ -2227,6 +2227,19 @@ class pool_scope {
     memory_pool* outer_;
 };
 
+/// Memory from a pool, or from operator new if there is none. (Not inline, nor is its counterpart:
+/// vectors of all types would contain a copy. For compile time only.)
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes) {
+    return pool != nullptr ? pool->allocate(bytes)
+                           : ::operator new(bytes, std::align_val_t{memory_pool::alignment});
+}
+[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory) noexcept {
+    if (pool != nullptr)
+        pool->deallocate(memory);
+    else
+        ::operator delete(memory, std::align_val_t{memory_pool::alignment});
+}
+
 /// An allocator over the pool that was current on its thread when it was constructed.
 template <class T>
 class pooled {
@@ -2242,15 +2255,9 @@ class pooled {
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        return pool_ != nullptr ? static_cast<T*>(pool_->allocate(n * sizeof(T)))
-                                : std::allocator<T>().allocate(n);
+        return static_cast<T*>(allocate_from(pool_, n * sizeof(T)));
     }
-    void deallocate(T* values, std::size_t n) noexcept {
-        if (pool_ != nullptr)
-            pool_->deallocate(values);
-        else
-            std::allocator<T>().deallocate(values, n);
-    }
+    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values); }
 
     /// Copies of a container use the pool that is current when they are made.
     [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }
@@ -2382,14 +2389,14 @@ class finite_entries {
     /// Copies the finite points of a position_view, in two passes: one counts, one copies. O(n).
     template <class Points, execution X>
     void gather(const Points& points, const X& run) {
-        ends_.resize(chunk_count(points.size()));
+        ends_.resize(chunk_count(points.size()), run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            std::size_t count = 0;
+            point_index count = 0;
             for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) ? 1 : 0;
             ends_[begin / chunk_size] = count;
         });
-        std::inclusive_scan(ends_.begin(), ends_.end(), ends_.begin());
-        entries_.resize(ends_.empty() ? 0 : ends_.back(), run);
+        for (std::size_t c = 1; c < ends_.size(); ++c) ends_[c] += ends_[c - 1];
+        entries_.resize(ends_.size() > 0 ? ends_[ends_.size() - 1] : 0, run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
             tree_entry* to = entries_.data() + (begin == 0 ? 0 : ends_[begin / chunk_size - 1]);
             for (std::size_t i = begin; i < end; ++i) {
@@ -2405,7 +2412,7 @@ class finite_entries {
 
   private:
     kept_array<tree_entry> entries_;
-    std::vector<std::size_t> ends_;  // of each chunk of the cloud in `entries_`
+    kept_array<point_index> ends_;  // of each chunk of the cloud in `entries_`
 };
 
 }  // namespace gnomon::detail
@@ -2620,7 +2627,7 @@ class leaf_tree {
         const std::size_t places = leaves_ * leaf_size;
         for (auto& c : at_) c.resize(places, run);
         index_.resize(places, run);
-        boxes_.resize(leaves_ > 0 ? 2 * leaves_ - 1 : 0);
+        boxes_.resize(leaves_ > 0 ? 2 * leaves_ - 1 : 0, run);
         crowded_ = false;
         if (size_ == 0) return guard.dismiss();
         for (auto& c : at_) std::fill(c.data() + size_, c.data() + places, 0.0);
@@ -2718,21 +2725,21 @@ class leaf_tree {
     template <execution X>
     void build(std::span<entry> all, const X& run) {
         constexpr std::size_t enough = 64;  // subtrees, to keep all threads busy
-        std::vector<subtree> level{root()}, next;
-        while (level.size() < enough && level.front().last - level.front().first > 64) {
-            next.assign(2 * level.size(), {});
-            run(level.size(), [&](std::size_t s) {
+        std::array<subtree, enough> level{root()}, next{};
+        std::size_t subtrees = 1;
+        for (; subtrees < enough && level[0].last - level[0].first > 64; subtrees *= 2) {
+            run(subtrees, [&](std::size_t s) {
                 const auto [left, right] = split(all, level[s]);
                 next[2 * s] = left;
                 next[2 * s + 1] = right;
             });
-            level.swap(next);
+            level = next;
         }
-        run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
+        run(subtrees, [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    /// A subtree on one thread. (This and split() are templates, so that only code that builds a
-    /// tree compiles them.)
+    /// A subtree on one thread. (This, split() and sort_by_index() are templates, so that only
+    /// code that builds a tree compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -2781,11 +2788,13 @@ class leaf_tree {
     }
 
     /// Points at one position are sorted by their index, so that a search for the k nearest stops
-    /// after k of them.
-    static void sort_by_index(std::span<entry> entries) {
-        const auto less = [](const entry& p, const entry& q) { return p.index < q.index; };
-        if (!std::is_sorted(entries.begin(), entries.end(), less))
-            std::partial_sort(entries.begin(), entries.end(), entries.end(), less);
+    /// after k of them. (As neighbors, whose sort a query needs as well: for compile time only.)
+    static void sort_by_index(auto entries) {
+        scratch<neighbor> sorted(entries.size());
+        for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
+        if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
+        std::sort(sorted.data(), sorted.data() + sorted.size());
+        for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
     }
 
     std::size_t size_ = 0;
@@ -2794,8 +2803,8 @@ class leaf_tree {
     std::array<kept_array<double>, 3> at_;
     kept_array<point_index> index_;
     kept_array<point_index> place_of_;
-    std::vector<leaf_box> boxes_;  // of the nodes, in preorder
-    finite_entries entries_;       // while building
+    kept_array<leaf_box> boxes_;  // of the nodes, in preorder
+    finite_entries entries_;      // while building
 };
 
 }  // namespace gnomon::detail
@@ -3072,16 +3081,16 @@ class tree_query {
 
     /// Keeps the nearest `most_` candidates.
     void drop_farthest() {
-        const auto at = [this](std::size_t i) {
-            return found_.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto put_in_place = [this](std::size_t rank) {
+            std::nth_element(found_.data(), found_.data() + rank, found_.data() + found_.size());
         };
-        std::nth_element(found_.begin(), at(most_ - 1), found_.end());
-        found_.erase(at(most_), found_.end());
+        put_in_place(most_ - 1);
+        found_.resize(most_);
         last_ = found_.back();
         has_last_ = true;
         double kth = last_.squared_distance;
         if (most_ > question_.k) {
-            std::nth_element(found_.begin(), at(question_.k - 1), found_.end());
+            put_in_place(question_.k - 1);
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
         }
         limit_ = std::min(limit_, kth);
@@ -3175,9 +3184,8 @@ class index_queries {
   public:
     /// The k points nearest to `p` [m], nearest first; fewer if there are no more. A point at p
     /// itself is found. O(log n + k log k) on average for the Euclidean distance.
-    /// @throws std::invalid_argument  if p is not finite, epsilon is negative or NaN, or the order
-    /// of
-    ///                                the metric is below 1
+    /// @throws std::invalid_argument  if p is not finite, epsilon is negative or NaN, or the
+    ///                                order of the metric is below 1
     [[nodiscard]] std::vector<neighbor> nearest(const Eigen::Vector3d& p, std::size_t k,
                                                 const search_options& options = {}) const {
         std::vector<neighbor> found;
@@ -3308,7 +3316,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
         tree_.clear();
-        detail::with_table_of(points, [this](const auto& table) { viewpoints = table; });
+        detail::with_table_of(
+            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
         epsilon_ = detail::epsilon_of<view>(points);
         tree_.rebuild(view(points, std::move(projection)), run);
     }
@@ -3480,16 +3489,13 @@ struct any_visitor {
 /// An indexed neighborhood that can also search for all points at once: policy.sweep(index,
 /// execution, make_visitor) calls visit(i, found) for each finite point i, in any order and from
 /// several threads, with a visitor that make_visitor() returns for each chunk of work, and at the
-/// end of the chunk its finish(), if it has one. It returns whether it did: not where searching
-/// point by point is faster, and then no visitor was called. `found` is valid during the call: its
-/// `size()`; the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that
-/// order, by `summed()`, their moments `about_point` and `mean_distance`.
+/// end of the chunk its finish(), if it has one. `found` is valid during the call: its `size()`;
+/// the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that order, by
+/// `summed()`, their moments `about_point` and `mean_distance`.
 template <class N>
 concept sweeping_neighborhood =
     indexed_neighborhood<N> && requires(const N& policy, const spatial_index& index) {
-        {
-            policy.sweep(index, sequential{}, [] { return detail::any_visitor{}; })
-        } -> std::same_as<bool>;
+        policy.sweep(index, sequential{}, [] { return detail::any_visitor{}; });
     };
 
 namespace detail {
@@ -3511,13 +3517,15 @@ concept notes_neighborhoods =
         { policy.find(index, std::size_t{}, found) } -> std::same_as<neighborhood_note>;
     };
 
-/// The vector for the neighbors that a policy finds: in scratch memory, if its `find` takes vectors
-/// with any allocator.
+/// Whether the policy's `find` takes vectors with any allocator.
+template <class N>
+concept finds_into_scratch = requires(const N& policy, const spatial_index& index,
+                                      scratch<neighbor>& found) { policy.find(index, 0, found); };
+
+/// The vector for the neighbors that a policy finds: in scratch memory where that is possible.
 template <class N>
 using neighbor_buffer =
-    std::conditional_t<requires(const N& policy, const spatial_index& index,
-                                scratch<neighbor>& found) { policy.find(index, 0, found); },
-                       scratch<neighbor>, std::vector<neighbor>>;
+    std::conditional_t<finds_into_scratch<N>, scratch<neighbor>, std::vector<neighbor>>;
 
 /// The neighbors of point i, finite or not, with their note.
 template <indexed_neighborhood N, class Allocator>
@@ -3556,43 +3564,57 @@ namespace gnomon {
 /// Models `annotated_graph` in 4 bytes per neighbor and 8 per point, and 2 where there are notes.
 class adjacency {
   public:
+    /// What it consists of.
+    struct arrays {
+        std::vector<std::uint64_t> begin;      ///< of the neighbors of each point, and their end
+        std::vector<point_index> indices;      ///< the neighbors of all points
+        std::vector<neighborhood_note> notes;  ///< empty, or one per point
+
+        friend bool operator==(const arrays&, const arrays&) = default;
+    };
+
     adjacency() = default;
 
     /// The graph in which the neighbors of point i are `indices` from begin[i] to begin[i + 1].
     /// @param notes  of each point; none if empty
     /// @throws std::invalid_argument  unless begin ascends from 0 to the number of indices and
-    /// there
-    ///                                are as many notes as points, or none
+    ///                                there are as many notes as points, or none
     adjacency(std::vector<std::uint64_t> begin, std::vector<point_index> indices,
               std::vector<neighborhood_note> notes = {})
-        : begin_(std::move(begin)), indices_(std::move(indices)), notes_(std::move(notes)) {
-        detail::require(!begin_.empty() && begin_.front() == 0 &&
-                            begin_.back() == indices_.size() &&
-                            std::is_sorted(begin_.begin(), begin_.end()),
+        : adjacency(arrays{std::move(begin), std::move(indices), std::move(notes)}) {}
+
+    explicit adjacency(arrays all) : arrays_(std::move(all)) {
+        const auto& [begin, indices, notes] = arrays_;
+        detail::require(!begin.empty() && begin.front() == 0 && begin.back() == indices.size() &&
+                            std::is_sorted(begin.begin(), begin.end()),
                         "adjacency: neighborhoods must lie one after the other");
-        detail::require(notes_.empty() || notes_.size() == size(),
+        detail::require(notes.empty() || notes.size() == size(),
                         "adjacency: the number of notes is not that of points");
     }
 
     /// Number of points.
-    [[nodiscard]] std::size_t size() const { return begin_.empty() ? 0 : begin_.size() - 1; }
+    [[nodiscard]] std::size_t size() const {
+        return arrays_.begin.empty() ? 0 : arrays_.begin.size() - 1;
+    }
 
     /// The neighbors of point i, in the order in which they were found.
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
-        return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
+        return {arrays_.indices.data() + arrays_.begin[i],
+                arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
     /// What the search noted of the neighborhood of point i.
     [[nodiscard]] neighborhood_note note(std::size_t i) const {
-        return notes_.empty() ? neighborhood_note{} : notes_[i];
+        return arrays_.notes.empty() ? neighborhood_note{} : arrays_.notes[i];
     }
+
+    /// Its arrays, for another graph in their memory; this one has no points then.
+    [[nodiscard]] arrays release() { return std::exchange(arrays_, {{0}, {}, {}}); }
 
     friend bool operator==(const adjacency&, const adjacency&) = default;
 
   private:
-    std::vector<std::uint64_t> begin_{0};
-    std::vector<point_index> indices_;
-    std::vector<neighborhood_note> notes_;  // empty, or one per point
+    arrays arrays_{{0}, {}, {}};
 };
 
 }  // namespace gnomon
@@ -3862,10 +3884,10 @@ class leaf_list {
     }
 
     /// Makes it an empty list for the query points at some places of one group.
-    void enclose(std::span<const std::size_t> places) {
+    void enclose(std::span<const std::uint32_t> places) {
         group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
-        for (const std::size_t p : places) box_.add(tree_.position(p));
+        for (const std::uint32_t p : places) box_.add(tree_.position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
         half_ = 0.5 * std::sqrt(box_.squared_diagonal());
     }
@@ -4122,7 +4144,8 @@ class leaf_search {
         const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
         for (std::size_t p = first; p < last; ++p)
-            if (of_ == nullptr || of_->contains(p)) waiting_.push_back(p);
+            if (of_ == nullptr || of_->contains(p))
+                waiting_.push_back(static_cast<std::uint32_t>(p));
         if (waiting_.empty()) return;
         list_.enclose(waiting_);
         // The box of these, with its diagonal, holds that many neighbors of each.
@@ -4132,9 +4155,10 @@ class leaf_search {
             find_waiting(visit);
         } else {
             // The box is large relative to the reach, as with an outlier: point by point.
-            alone_ = waiting_;
-            for (const std::size_t p : alone_) {
-                waiting_.assign(1, p);
+            alone_.swap(waiting_);
+            for (const std::uint32_t p : alone_) {
+                waiting_.clear();
+                waiting_.push_back(p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
                 list_.enclose(waiting_);
                 find_waiting(visit);
@@ -4160,7 +4184,7 @@ class leaf_search {
             const bool complete = list_.complete() || list_.reach() >= radius_;
             double farther = 0.0;
             std::size_t left = 0;
-            for (const std::size_t p : waiting_) {
+            for (const std::uint32_t p : waiting_) {
                 const double reached = select(p);
                 if (reached <= list_.reach() || complete) {
                     visit(p, selected_);
@@ -4171,7 +4195,7 @@ class leaf_search {
                 }
             }
             if (left == 0) return;
-            waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(left), waiting_.end());
+            waiting_.resize(left);
             reach_ = std::min(1.001 * farther, 4.0 * list_.reach());
             list_.enclose(waiting_);
         }
@@ -4216,8 +4240,8 @@ class leaf_search {
         const auto is_farther = [&](std::uint32_t at) {
             return tree_.squared_distance(p, at) > radius_ * radius_;
         };
-        const auto farther = std::ranges::remove_if(selected_, is_farther);
-        selected_ = selected_.first(selected_.size() - farther.size());
+        std::uint32_t* const first = selected_.data();
+        selected_ = {first, std::remove_if(first, first + selected_.size(), is_farther)};
     }
 
     /// Estimates the next squared k-th distance by the lesser of the last two.
@@ -4235,8 +4259,10 @@ class leaf_search {
         if (e.within - e.below <= lane_count) return e.kth;
         between_.clear();
         const auto candidates = list_.squared_distances();
-        list_.for_each_between(e.low, e.high,
-                               [&](std::size_t c) { between_.push_back(candidates[c]); });
+        list_.for_each_between(e.low, e.high, [&](std::size_t c) {
+            const double d2 = candidates[c];
+            between_.push_back(d2);
+        });
         const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - e.below) - 1;
         std::nth_element(between_.begin(), nth, between_.end());
         return static_cast<float>(*nth);
@@ -4285,10 +4311,11 @@ class leaf_search {
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({tree_.squared_distance(from, at), tree_.index()[at]});
-            candidates_.push_back(c);
+            candidates_.push_back(static_cast<std::uint32_t>(c));
         });
         // As in tree_query, whose sort this shares: for compile time only.
-        sorted_ = doubtful_;
+        sorted_.resize(doubtful_.size());
+        std::copy(doubtful_.begin(), doubtful_.end(), sorted_.begin());
         std::sort(sorted_.data(), sorted_.data() + sorted_.size());
         const std::size_t kept =
             ties_ == tie_rule::all ? size_with_ties(sorted_, wanted, k_ + wanted) : wanted;
@@ -4304,13 +4331,13 @@ class leaf_search {
     const place_set* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
-    double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
-    scratch<double> reached_;           // the k-th distances in a group [m]
-    scratch<std::size_t> waiting_, alone_;
+    double guess_ = 0.0, reach_ = 0.0;        // of the next one; within which leaves are listed [m]
+    scratch<double> reached_;                 // the k-th distances in a group [m]
+    scratch<std::uint32_t> waiting_, alone_;  // places
     std::span<std::uint32_t> selected_;
     scratch<double> between_;  // not of floats, to share a nth_element: for compile time only
     scratch<neighbor> doubtful_, sorted_;
-    scratch<std::size_t> candidates_;  // numbers of the doubtful ones
+    scratch<std::uint32_t> candidates_;  // numbers of the doubtful ones
 };
 
 }  // namespace GNOMON_LANES
@@ -4636,6 +4663,49 @@ class found_neighbors {
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
+// -------- gnomon/neighborhoods/detail/place_search.hpp -------------------------------------------
+
+/// @file
+/// The nearest neighbors of all points of a group, one point after the other: for trees in which
+/// many points coincide, where `leaf_search` would read all of them for each leaf.
+
+namespace gnomon::detail {
+
+/// Searches as `leaf_search` does; each thread has its own object.
+template <class Tree>
+class place_search {
+  public:
+    place_search(const Tree& tree, const nearest_wanted& wanted) : tree_(tree), wanted_(wanted) {}
+
+    /// Calls visit(place, places of its nearest neighbors) for each query point in a group.
+    void operator()(std::size_t group, auto&& visit) {
+        const std::size_t first = group * Tree::points_per_group;
+        const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
+        for (std::size_t p = first; p < last; ++p) {
+            if (wanted_.of != nullptr && !wanted_.of->contains(p)) continue;
+            const auto [x, y, z] = tree_.position(p);
+            search_tree(tree_, {x, y, z},
+                        {.k = wanted_.k,
+                         .squared_radius = wanted_.radius * wanted_.radius,
+                         .ties = wanted_.ties,
+                         .except = tree_.index()[p]},
+                        found_);
+            places_.resize(found_.size());
+            for (std::size_t q = 0; q < found_.size(); ++q)
+                places_[q] = tree_.place_of(found_[q].index);
+            visit(p, std::span<const std::uint32_t>(places_));
+        }
+    }
+
+  private:
+    const Tree& tree_;
+    nearest_wanted wanted_;
+    scratch<neighbor> found_;
+    scratch<std::uint32_t> places_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/leaf_sweep.hpp ---------------------------------------------
 
 /// @file
@@ -4687,16 +4757,32 @@ void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&
     search_all_groups(tree, run, make_search, [&] { return place_visitor(tree, make_visitor()); });
 }
 
-/// The sweep of a search for the k nearest. Does nothing on a crowded tree, where the search for
-/// each leaf would read all coincident points.
-/// @return whether it swept
+/// `leaf_search`, or where many points coincide `place_search`.
+template <class Tree>
+class nearest_search {
+  public:
+    nearest_search(const Tree& tree, const nearest_wanted& wanted)
+        : crowded_(tree.crowded()), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+
+    void operator()(std::size_t group, auto&& visit) {
+        if (crowded_)
+            by_place_(group, visit);
+        else
+            by_leaf_(group, visit);
+    }
+
+  private:
+    bool crowded_;
+    leaf_search<Tree> by_leaf_;
+    place_search<Tree> by_place_;
+};
+
+/// The sweep of a search for the k nearest.
 template <execution X>
-[[nodiscard]] bool sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
-                                 auto&& make_visitor) {
-    if (tree.crowded()) return false;
-    const auto make_search = [&] { return leaf_search(tree, wanted); };
-    sweep_leaves(tree, run, make_search, make_visitor);
-    return true;
+void sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
+                   auto&& make_visitor) {
+    sweep_leaves(
+        tree, run, [&] { return nearest_search(tree, wanted); }, make_visitor);
 }
 
 }  // namespace GNOMON_LANES
@@ -4712,30 +4798,22 @@ namespace gnomon::detail {
 /// Models `neighborhood_graph`; as `adjacency`, without notes.
 class scratch_graph {
   public:
-    /// The graph in which the neighbors of point i are `indices` from begin[i] to begin[i + 1].
-    scratch_graph(scratch<std::uint64_t> begin, scratch<point_index> indices)
-        : begin_(std::move(begin)), indices_(std::move(indices)) {}
+    /// What it consists of.
+    struct arrays {
+        scratch<std::uint64_t> begin;  // of the neighbors of each point, and their end
+        scratch<point_index> indices;  // the neighbors of all points
+    };
 
-    [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
+    explicit scratch_graph(arrays all) : arrays_(std::move(all)) {}
+
+    [[nodiscard]] std::size_t size() const { return arrays_.begin.size() - 1; }
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
-        return {indices_.data() + begin_[i], indices_.data() + begin_[i + 1]};
+        return {arrays_.indices.data() + arrays_.begin[i],
+                arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
   private:
-    scratch<std::uint64_t> begin_;
-    scratch<point_index> indices_;
-};
-
-/// The vectors that a graph is made of.
-template <class Graph>
-struct vectors_of {
-    using begins = std::vector<std::uint64_t>;
-    using indices = std::vector<point_index>;
-};
-template <>
-struct vectors_of<scratch_graph> {
-    using begins = scratch<std::uint64_t>;
-    using indices = scratch<point_index>;
+    arrays arrays_;
 };
 
 }  // namespace gnomon::detail
@@ -4765,23 +4843,22 @@ class neighborhood_writer {
     scratch<neighbor> buffer_;
 };
 
-/// The graph of a policy that finds `k` neighbors of every finite point; nothing if the policy does
-/// not sweep.
+/// The arrays of the graph of a policy that finds `k` neighbors of every finite point.
 template <class Policy, execution X>
-[[nodiscard]] std::optional<adjacency> graph_of_equal_sizes(const Policy& policy, std::size_t k,
-                                                            const spatial_index& index,
-                                                            const X& run) {
-    std::vector<std::uint64_t> begin(index.size() + 1, 0);
+void sweep_equal_sizes(const Policy& policy, std::size_t k, const spatial_index& index,
+                       const X& run, adjacency::arrays& graph) {
+    auto& [begin, indices, notes] = graph;
+    begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
-    auto indices = touched_vector<point_index>(begin.back(), run);
-    const auto make_writer = [&] { return neighborhood_writer(begin, indices.data()); };
-    if (!policy.sweep(index, run, make_writer)) return std::nullopt;
-    return adjacency(std::move(begin), std::move(indices));
+    resize_touched(indices, begin.back(), run);
+    notes.clear();
+    policy.sweep(index, run, [&] { return neighborhood_writer(begin, indices.data()); });
 }
 
 /// The neighbors of all points that the visitors of a sweep have seen.
-template <class Graph>
+/// @tparam Sizes  a vector of numbers
+template <class Sizes>
 struct recorded_neighborhoods {
     /// Those that one visitor has seen.
     struct part {
@@ -4789,16 +4866,16 @@ struct recorded_neighborhoods {
         scratch<point_index> indices;  // the neighbors of these, one point after the other
     };
 
-    typename vectors_of<Graph>::begins sizes;  // at i + 1 is the number of neighbors of point i
+    Sizes& sizes;  // at i + 1 is the number of neighbors of point i
     scratch<part> parts = {};
     mutex guard = {};
 };
 
 /// A visitor that records the neighbors of each point.
-template <class Graph>
+template <class Sizes>
 class neighborhood_recorder {
   public:
-    explicit neighborhood_recorder(recorded_neighborhoods<Graph>& all) : all_(all) {}
+    explicit neighborhood_recorder(recorded_neighborhoods<Sizes>& all) : all_(all) {}
 
     void operator()(std::size_t i, const auto& found) {
         const std::size_t before = seen_.indices.size();
@@ -4814,24 +4891,23 @@ class neighborhood_recorder {
     }
 
   private:
-    recorded_neighborhoods<Graph>& all_;
+    recorded_neighborhoods<Sizes>& all_;
     scratch<neighbor> buffer_;
-    typename recorded_neighborhoods<Graph>::part seen_;
+    typename recorded_neighborhoods<Sizes>::part seen_;
 };
 
-/// The graph of a policy whose neighborhoods differ in size; nothing if the policy does not sweep.
-/// While building, the indices exist twice.
-/// @tparam Graph  `adjacency` or `scratch_graph`
-template <class Graph, class Policy, execution X>
-[[nodiscard]] std::optional<Graph> recorded_graph(const Policy& policy, const spatial_index& index,
-                                                  const X& run) {
-    recorded_neighborhoods<Graph> all;
-    all.sizes.assign(index.size() + 1, 0);
-    if (!policy.sweep(index, run, [&] { return neighborhood_recorder(all); })) return std::nullopt;
+/// The arrays of the graph of a policy whose neighborhoods differ in size. While building, the
+/// indices exist twice.
+/// @param graph  arrays of an `adjacency` or a `scratch_graph`
+template <class Policy, execution X>
+void sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run, auto& graph) {
+    auto& begin = graph.begin;
+    begin.assign(index.size() + 1, 0);
+    recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
+    policy.sweep(index, run, [&] { return neighborhood_recorder(all); });
 
-    auto& begin = all.sizes;
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    typename vectors_of<Graph>::indices indices;
+    auto& indices = graph.indices;
     resize_touched(indices, begin.back(), run);
     run(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
@@ -4841,20 +4917,20 @@ template <class Graph, class Policy, execution X>
             from += size;
         }
     });
-    return Graph(std::move(begin), std::move(indices));
+    if constexpr (requires { graph.notes; }) graph.notes.clear();
 }
 
-/// The stored graph of a `sweeping_neighborhood`; nothing if the policy does not sweep. A policy
-/// that finds the same number of neighbors of every finite point returns it from
-/// neighbors_of_each(number of finite points), or nothing if the numbers may differ.
+/// The arrays of the graph of a `sweeping_neighborhood`. A policy that finds the same number of
+/// neighbors of every finite point returns it from neighbors_of_each(number of finite points), or
+/// nothing if the numbers may differ.
 template <class Policy, execution X>
-[[nodiscard]] std::optional<adjacency> swept_graph(const Policy& policy, const spatial_index& index,
-                                                   const X& run) {
+void sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
+                 adjacency::arrays& graph) {
     if constexpr (requires { policy.neighbors_of_each(std::size_t{}); }) {
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
-            return graph_of_equal_sizes(policy, *k, index, run);
+            return sweep_equal_sizes(policy, *k, index, run, graph);
     }
-    return recorded_graph<adjacency>(policy, index, run);
+    return sweep_any_sizes(policy, index, run, graph);
 }
 
 }  // namespace gnomon::detail
@@ -4870,33 +4946,33 @@ namespace gnomon::detail {
 /// indices exist twice while it is built.
 /// @tparam Notes   whether the graph stores the notes; not in a `scratch_graph`
 /// @tparam Buffer  the vector that `find` takes
+/// @param memory   arrays of another graph, which are reused
 template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighbor>, execution X>
-[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find) {
-    typename vectors_of<Graph>::begins begin(n + 1, 0);
-    std::vector<neighborhood_note> notes;
-    if constexpr (Notes) notes.resize(n);
+[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find,
+                                    typename Graph::arrays memory = {}) {
+    auto& begin = memory.begin;
+    begin.assign(n + 1, 0);
+    if constexpr (requires { memory.notes; }) memory.notes.resize(Notes ? n : 0);
     scratch<scratch<point_index>> indices_of_chunk(chunk_count(n));
     for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
         scratch<point_index>& indices = indices_of_chunk[first / chunk_size];
         Buffer found;
         for (std::size_t i = first; i < last; ++i) {
             const neighborhood_note note = find(i, found);
-            if constexpr (Notes) notes[i] = note;
+            if constexpr (Notes) memory.notes[i] = note;
             begin[i + 1] = found.size();
             for (const neighbor& q : found) indices.push_back(q.index);
         }
     });
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
-    typename vectors_of<Graph>::indices indices;
+    auto& indices = memory.indices;
+    indices.clear();
     indices.reserve(begin.back());
     for (scratch<point_index>& chunk : indices_of_chunk) {
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);
     }
-    if constexpr (Notes)
-        return Graph(std::move(begin), std::move(indices), std::move(notes));
-    else
-        return Graph(std::move(begin), std::move(indices));
+    return Graph(std::move(memory));
 }
 
 /// `knn` of some points only; the other points have no neighbors in the graph.
@@ -4904,8 +4980,8 @@ struct knn_of_some {
     nearest_wanted wanted;
 
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
-        return sweep_nearest(index.tree(), wanted, run, make_visitor);
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        sweep_nearest(index.tree(), wanted, run, make_visitor);
     }
 };
 
@@ -4916,34 +4992,30 @@ template <execution X>
                                           const X& run) {
     place_set some;
     some.assign_if(index.tree(), wanted);
-    if (auto swept = recorded_graph<scratch_graph>(knn_of_some{{.k = k, .of = &some}}, index, run))
-        return *std::move(swept);
-    return collected_graph<false, scratch_graph, scratch<neighbor>>(
-        index.size(), run, [&](std::size_t i, scratch<neighbor>& found) {
-            found.clear();
-            const point_index place = index.tree().place_of(i);
-            if (place != leaf_tree::no_place && some.contains(place)) {
-                search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
-                            found);
-            }
-            return neighborhood_note{};
-        });
+    scratch_graph::arrays graph;
+    sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, graph);
+    return scratch_graph(std::move(graph));
 }
 
 /// The graph of a neighborhood over points, or over an index of them.
+/// @param memory  arrays of another graph, which are reused
 template <indexed_neighborhood N, class R, execution X, class Proj>
 [[nodiscard]] adjacency graph_of(const N& policy, const R& points, const X& run,
-                                 const Proj& projection) {
+                                 const Proj& projection, adjacency::arrays memory = {}) {
     require_valid(policy);
     const auto& team = staying(run);
     const auto& index = index_of(points, team, projection);
     if constexpr (sweeping_neighborhood<N>) {
-        if (auto swept = swept_graph(policy, index, team)) return *std::move(swept);
+        sweep_graph(policy, index, team, memory);
+        return adjacency(std::move(memory));
+    } else {
+        return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
+            index.size(), team,
+            [&](std::size_t i, neighbor_buffer<N>& found) {
+                return find_noted(policy, index, i, found);
+            },
+            std::move(memory));
     }
-    return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
-        index.size(), team, [&](std::size_t i, neighbor_buffer<N>& found) {
-            return find_noted(policy, index, i, found);
-        });
 }
 
 }  // namespace gnomon::detail
@@ -4984,12 +5056,11 @@ struct knn {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return false where coincident points make a search point by point faster
     /// @throws std::invalid_argument  if k is 0
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        return detail::sweep_nearest(index.tree(), {.k = k, .ties = ties}, run, make_visitor);
+        detail::sweep_nearest(index.tree(), {.k = k, .ties = ties}, run, make_visitor);
     }
 
     /// The number of neighbors of each of n finite points; nothing if ties may add to it.
@@ -5435,11 +5506,10 @@ namespace gnomon::detail {
 /// a line it contains the line.
 class tangent_plane {
   public:
-    /// @param points  a position_view
-    /// @param p       one of the points
-    /// @param neighbors    its neighbors
-    tangent_plane(const auto& points, const Eigen::Vector3d& p,
-                  const std::vector<neighbor>& neighbors)
+    /// @param points     a position_view
+    /// @param p          one of the points
+    /// @param neighbors  its neighbors
+    tangent_plane(const auto& points, const Eigen::Vector3d& p, std::span<const neighbor> neighbors)
         : origin_(p) {
         rescale(points, neighbors);
         if (!exists_) return;
@@ -5454,7 +5524,7 @@ class tangent_plane {
 
     /// Keeps the plane, but scales projections for other neighbors, by a power of two, which is
     /// exact, so that products of four coordinates stay in range.
-    void rescale(const auto& points, const std::vector<neighbor>& neighbors) {
+    void rescale(const auto& points, std::span<const neighbor> neighbors) {
         double largest = 0.0;
         for (const neighbor& q : neighbors) {
             const Eigen::Vector3d d = difference(points[q.index], origin_);
@@ -5624,15 +5694,17 @@ struct delaunay {
 
     /// Replaces the content of `found` by the star of the finite point i. O(log n + k log k).
     /// @throws std::invalid_argument  if k is under 3
+    template <class Allocator>
     neighborhood_note find(const spatial_index& index, std::size_t i,
-                           std::vector<neighbor>& found) const;
+                           std::vector<neighbor, Allocator>& found) const;
 
     /// @throws std::invalid_argument  if k is under 3
     void require_valid() const { detail::require(k >= 3, "delaunay: k must be at least 3"); }
 };
 
-inline neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
-                                        std::vector<neighbor>& found) const {
+template <class Allocator>
+neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
+                                 std::vector<neighbor, Allocator>& found) const {
     require_valid();
     // Kept between calls, so that no point costs an allocation.
     static thread_local std::vector<detail::planar_point> star;
@@ -5709,12 +5781,11 @@ struct hybrid {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return false where coincident points make a search point by point faster
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        return detail::sweep_nearest(index.tree(), {.k = k, .radius = r}, run, make_visitor);
+        detail::sweep_nearest(index.tree(), {.k = k, .radius = r}, run, make_visitor);
     }
 
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
@@ -5723,6 +5794,31 @@ struct hybrid {
         detail::require(r >= 0.0 && std::isfinite(r), "hybrid: r must be finite and not negative");
     }
 };
+
+}  // namespace gnomon
+
+// -------- gnomon/neighborhoods/neighborhoods_into.hpp --------------------------------------------
+
+/// @file
+/// A stored graph of one scan after another, in the same memory:
+///
+///     gnomon::neighborhoods_into(graph, index, gnomon::knn{.k = 20}, team);
+
+namespace gnomon {
+
+/// policy(points, run, projection), in the memory of `graph`, which allocates only to grow. Where
+/// the policy throws, the graph has no points.
+/// @param graph   its content is replaced
+/// @param points  any point range, or an index of them
+/// @param policy  a neighborhood on an index, such as `knn`
+/// @throws std::invalid_argument  if the policy's parameters are out of range
+/// Complexity: that of the policy.
+template <class R, indexed_neighborhood N, execution X = sequential, class Proj = std::identity>
+    requires neighborhood<N, R, Proj>
+void neighborhoods_into(adjacency& graph, const R& points, const N& policy, const X& run = {},
+                        Proj projection = {}) {
+    graph = detail::graph_of(policy, points, run, projection, graph.release());
+}
 
 }  // namespace gnomon
 
@@ -5757,7 +5853,7 @@ class leaf_balls {
         balls_.clear();
         for (std::size_t p = begin; p < end; ++p) {
             const double radius = radius_of_(p);
-            if (radius >= 0.0) balls_.push_back({radius, p});
+            if (radius >= 0.0) balls_.push_back({radius, static_cast<std::uint32_t>(p)});
         }
         std::sort(balls_.begin(), balls_.end());
         for (std::span<const ball> left = balls_; !left.empty();) {
@@ -5773,7 +5869,7 @@ class leaf_balls {
   private:
     struct ball {
         double radius;  // [m]
-        std::size_t place;
+        std::uint32_t place;
 
         friend auto operator<=>(const ball&, const ball&) = default;
     };
@@ -5808,7 +5904,7 @@ class leaf_balls {
     Radius radius_of_;
     leaf_list<Tree> list_;
     scratch<ball> balls_;
-    scratch<std::size_t> places_;
+    scratch<std::uint32_t> places_;
 };
 
 }  // namespace GNOMON_LANES
@@ -5849,16 +5945,14 @@ struct radius {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return true
     /// @throws std::invalid_argument  if r is negative, infinite or NaN
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
         const auto make_search = [&] {
             return detail::leaf_balls(index.tree(), [this](std::size_t) { return r; });
         };
         detail::sweep_leaves(index.tree(), run, make_search, make_visitor);
-        return true;
     }
 
     /// @throws std::invalid_argument  if r is negative, infinite or NaN
@@ -6741,9 +6835,11 @@ struct plane_pca {
 /// @file
 /// Normals for all points of a cloud, by any estimator over any neighborhood:
 ///
-///     auto surface = gnomon::estimate_normals(scan);                          // knn{.k = 30},
-///     plane_pca{} auto surface = gnomon::estimate_normals(scan, knn{.k = 50}, plane_pca{},
-///     threads{}); auto surface = gnomon::estimate_normals(index, knn{.k = 50}, plane_ekf{});
+///     auto surface = gnomon::estimate_normals(scan);
+///
+///     auto surface = gnomon::estimate_normals(scan, knn{.k = 50}, plane_pca{}, threads{});
+///
+///     auto surface = gnomon::estimate_normals(index, knn{.k = 50}, plane_ekf{});
 ///
 /// Klasing 2010, Sec. 3.2.
 
@@ -6766,19 +6862,18 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
     require_valid(policy);
     resize_touched(surface, index.size(), run);
     if constexpr (sweeping_neighborhood<N>) {
-        if (policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); })) {
-            for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    if (index.is_finite(i)) continue;
-                    surface[i] = {};
-                    surface[i].trust = trust::not_finite;
-                }
-            });
-            return;
-        }
+        policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); });
+        for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (index.is_finite(i)) continue;
+                surface[i] = {};
+                surface[i].trust = trust::not_finite;
+            }
+        });
+    } else {
+        estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
+                    found_neighborhoods(policy, index), estimate, surface);
     }
-    estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
-                found_neighborhoods(policy, index), estimate, surface);
 }
 
 }  // namespace detail
@@ -6790,8 +6885,8 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 ///                    the origin
 /// @param graph       the neighbors of each of the n points, indices below n
 /// @param estimate    any estimator
-/// @param run         `sequential{}`, `threads{n}` or another execution; the result is the same
-/// bytes
+/// @param run         `sequential{}`, `threads{n}` or another execution; the bytes of the
+///                    result are the same
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
@@ -7051,7 +7146,7 @@ namespace detail {
 
 /// The element that the given part of the values is less than. Precondition: there are values, and
 /// `part` is under 1.
-[[nodiscard]] inline double quantile(std::vector<double>& values, double part) {
+[[nodiscard]] double quantile(auto& values, double part) {
     const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
     std::nth_element(values.begin(), values.begin() + rank, values.end());
     return values[static_cast<std::size_t>(rank)];
@@ -7067,7 +7162,8 @@ template <class Points>
 }
 
 /// `noise_level` of an index, from neighborhoods of up to max_k points.
-[[nodiscard]] inline double noise_level_in(const spatial_index& points, std::size_t max_k) {
+template <class Index>
+[[nodiscard]] double noise_level_in(const Index& points, std::size_t max_k) {
     constexpr std::size_t samples = 500;
     constexpr double flat_part = 0.3, clearance = 4.0;
     std::vector<std::size_t> chosen;  // evenly from the finite points
@@ -7151,11 +7247,12 @@ struct feature_preserving {
 
 namespace detail {
 
-/// The three sweeps over the points of an index.
+/// The three sweeps over the points of an index. (A template, so that only its users compile a
+/// search.)
+template <class Index>
 class feature_preserving_sweeps {
   public:
-    feature_preserving_sweeps(const feature_preserving& options, const spatial_index& points,
-                              double noise)
+    feature_preserving_sweeps(const feature_preserving& options, const Index& points, double noise)
         : options_(options), points_(points), noise_(noise) {}
 
     /// Sweep 1, for point i. Searches as many neighbors as were enough for the last point first.
@@ -7239,7 +7336,7 @@ class feature_preserving_sweeps {
     }
 
     const feature_preserving& options_;
-    const spatial_index& points_;
+    const Index& points_;
     double noise_;
 };
 
@@ -10318,9 +10415,8 @@ namespace detail {
 /// The groups of a labeling in scratch memory, for algorithms that need them only while they run.
 class label_groups {
   public:
-    explicit label_groups(std::span<const std::int32_t> labels) {
-        group_by_label(labels, begin_, members_);
-    }
+    /// @param labels  a contiguous range
+    explicit label_groups(const auto& labels) { group_by_label(labels, begin_, members_); }
 
     [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
     /// The indices of the points of a label, ascending.
@@ -10573,12 +10669,13 @@ struct unlabeled_point {
 
 /// The cubes with unlabeled points. They are aligned with the least coordinates of these points, so
 /// that the position of the cloud has no influence.
+template <neighborhood_graph G>
 class unlabeled_cubes {
   public:
     /// @param graph  the neighbors of each unlabeled point, nearest first
     /// @param sigma  standard deviation of ranges [m]
     unlabeled_cubes(const spatial_index& points, std::span<const std::int32_t> labels,
-                    const scratch_graph& graph, double sigma)
+                    const G& graph, double sigma)
         : tree_(points.tree()), side_(side * sigma) {
         const scratch<placed> all = placed_points(points, labels);
         unlabeled_.reserve(all.size());
@@ -10656,8 +10753,7 @@ class unlabeled_cubes {
         return all;
     }
 
-    void add_cube(const spatial_index& points, const scratch_graph& graph,
-                  std::span<const placed> members) {
+    void add_cube(const spatial_index& points, const G& graph, std::span<const placed> members) {
         const Eigen::Vector3d origin = points[members.front().point];
         moments m, seen_from;
         double squared_reach = 0.0;
@@ -10693,6 +10789,7 @@ class unlabeled_cubes {
 namespace gnomon::detail {
 
 /// One run over a cloud.
+template <neighborhood_graph G>
 class unlabeled_assigner {
   public:
     /// @param graph         the neighbors of each unlabeled point, nearest first
@@ -10700,9 +10797,8 @@ class unlabeled_assigner {
     /// @param planes        those of the segments
     /// @param sigma         standard deviation of ranges [m]
     /// @param max_distance  of a point from a neighbor in the segment [m]
-    unlabeled_assigner(const spatial_index& points, const scratch_graph& graph,
-                       scratch<std::int32_t> labels, std::span<const noisy_plane> planes,
-                       double sigma, double max_distance)
+    unlabeled_assigner(const spatial_index& points, const G& graph, scratch<std::int32_t> labels,
+                       std::span<const noisy_plane> planes, double sigma, double max_distance)
         : points_(points),
           graph_(graph),
           sigma_(sigma),
@@ -10835,11 +10931,11 @@ class unlabeled_assigner {
     }
 
     const spatial_index& points_;
-    const scratch_graph& graph_;
+    const G& graph_;
     double sigma_, max_distance_;  // [m]
     scratch<std::int32_t> labels_;
     std::span<const noisy_plane> planes_;  // of the segments
-    unlabeled_cubes cubes_;
+    unlabeled_cubes<G> cubes_;
     scratch<std::size_t> first_reverse_;
     scratch<point_index> reverse_;  // numbers of unlabeled points
 };
@@ -11501,8 +11597,9 @@ class axis_of_normals {
 
 /// The axis of the lines that miss it by at most 2.5 times the root mean square, or by a fifth of
 /// the radius.
-/// @param lines  the others are removed from the span, and their content is unspecified
-[[nodiscard]] inline axis_of_normals robust_axis_of(std::span<normal_line>& lines) {
+/// @param lines  a span of `normal_line`: the others are removed from it, and their content is
+/// unspecified
+[[nodiscard]] axis_of_normals robust_axis_of(auto& lines) {
     constexpr double at_most = 2.5, near = 0.2;  // times the root mean square, times the radius
     constexpr int passes = 5;
     axis_of_normals axis(lines);
@@ -11668,8 +11765,9 @@ namespace detail {
 /// Whether lines are the normals of a surface of revolution: eight in ten miss a common axis by a
 /// sixth of the radius at most, and they turn about it by at least 80 degrees. The normals of a
 /// disk are excluded, which are parallel to its axis.
-[[nodiscard]] inline bool are_of_something_round(
-    std::span<normal_line> lines, const join_surfaces_of_revolution_options& options) {
+template <class Line>
+[[nodiscard]] bool are_of_something_round(std::span<Line> lines,
+                                          const join_surfaces_of_revolution_options& options) {
     constexpr double least_share = 0.8, most_missed = 1.0 / 6.0;
     constexpr double least_across = 0.62;   // of a ball, 2/3
     constexpr double least_turning = 0.12;  // the variance of the sine of up to 37 degrees
@@ -11904,7 +12002,7 @@ class height_histogram {
 };
 
 /// The lowest bin of those that hold most. Precondition: there are bins.
-[[nodiscard]] inline const height_histogram::bin& fullest(const height_histogram& histogram) {
+[[nodiscard]] const height_histogram::bin& fullest(const auto& histogram) {
     return *std::max_element(histogram.bins().begin(), histogram.bins().end(),
                              [](const auto& a, const auto& b) { return a.count < b.count; });
 }
@@ -13090,15 +13188,15 @@ struct image_axes {
     [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
                                                           std::size_t width,
                                                           std::size_t height) const {
-        using pack = pack_of<N>;
+        using numbers = pack_of<N>;
         const auto along = [&to](const Eigen::Vector3d& axis) {
             std::array<double, N> a;
             for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
-            return pack(a.data());
+            return numbers(a.data());
         };
-        const pack on_x = along(x), on_y = along(y), on_z = along(z);
-        const pack azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
-        const pack elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
+        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
         std::array<image_cell, N> at;
         for (std::size_t l = 0; l < N; ++l) {
             at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
@@ -13159,10 +13257,9 @@ class range_image {
     /// The image of all points at a finite distance from the view point [m], but of those in it. It
     /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
     /// O(n log n).
-    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, or
-    /// for
-    ///                                a view point or a pole that is not finite, or a pole of no
-    ///                                length
+    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
+    ///                                a view point or a pole that is not finite, or for a pole of
+    ///                                no length
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     range_image(const R& points, const Eigen::Vector3d& viewpoint,
@@ -13248,13 +13345,16 @@ class range_image {
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
     }
 
-    void add(detail::scratch<sight>& visible, const Eigen::Vector3d& p, std::size_t i) const {
+    // What follows takes the points that are seen as `auto`, so that only code that makes images
+    // compiles it.
+
+    void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         if (detail::has_length(d))
             visible.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
     }
 
-    void show(detail::scratch<sight>& visible, const range_image_options& format) {
+    void show(auto& visible, const range_image_options& format) {
         const auto offset_of = [](const sight& s) -> const Eigen::Vector3d& { return s.offset; };
         axes_ = detail::image_axes::with_pole(
             format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
@@ -13288,7 +13388,7 @@ class range_image {
     }
 
     /// Stores the nearest point of each pixel.
-    void keep(detail::scratch<sight>& visible, std::size_t pixels) {
+    void keep(auto& visible, std::size_t pixels) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
         is_sparse_ = pixels / few > visible.size();
         if (is_sparse_) {
@@ -13316,7 +13416,7 @@ class range_image {
     }
 
     /// Determines the pixel of each.
-    void project(detail::scratch<sight>& visible) const {
+    void project(auto& visible) const {
         std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < visible.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), visible.size() - s);
@@ -13420,9 +13520,7 @@ namespace gnomon::detail {
 /// The pairs of each of some points with its k nearest ones, k less than their number minus 1.
 /// O(m log m) for m points, O(m^2) for few of them.
 /// @param number  what to call each point in the pairs
-inline void append_nearest_pairs(scratch<std::pair<point_index, point_index>>& pairs,
-                                 const scratch<Eigen::Vector3d>& points, std::size_t k,
-                                 const scratch<point_index>& number) {
+void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
     constexpr std::size_t few = 2000;  // performance only: no index, thus no allocation
     const std::size_t m = points.size();
     const spatial_index index = m > few ? spatial_index(points) : spatial_index();
@@ -13492,8 +13590,7 @@ template <class Members = std::identity>
 }
 
 /// The segments of n points in disjoint groups.
-[[nodiscard]] inline segments segments_of_groups(
-    std::size_t n, const std::vector<std::vector<point_index>>& groups) {
+[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
     segments merged;
     merged.assign(labels_of_groups(n, groups));
     return merged;
@@ -14727,8 +14824,8 @@ template <merge_policy M>
     return 2 * in_favor > pixels;
 }
 
-/// The segments, where those of a set are one, largest first.
-[[nodiscard]] inline segments united_segments(const segments& parts, union_find& sets) {
+/// The segments, where those of a set of a `union_find` are one, largest first.
+[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::vector<point_index>> groups(parts.size());
     for (std::size_t s = 0; s < parts.size(); ++s) {
         auto& group = groups[sets.find(static_cast<point_index>(s))];
@@ -15105,7 +15202,7 @@ class properties {
     /// The columns of all `groups`, in their order.
     properties(std::initializer_list<properties> groups) {
         for (const properties& group : groups)
-            columns_.insert(columns_.end(), group.begin(), group.end());
+            for (const property& column : group) columns_.push_back(property(column));
     }
 
     [[nodiscard]] std::vector<property>::const_iterator begin() const { return columns_.begin(); }
@@ -15577,7 +15674,8 @@ struct pcd_lines {
 /// Reads up to and including the line "DATA". Lines before the first keyword are comments, also
 /// without '#': some writers break a comment over two lines.
 /// @throws gnomon::error  for an unknown keyword, or if the file ends
-[[nodiscard]] inline pcd_lines read_pcd_lines(text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] pcd_lines read_pcd_lines(text_cursor& text) {
     pcd_lines lines;
     bool begun = false;
     for (;;) {
@@ -15616,7 +15714,7 @@ struct pcd_lines {
 
 /// Reads the header and leaves `text` at the first byte of the data.
 /// @throws gnomon::error  if the header is damaged or inconsistent
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] pcd_header read_pcd_header(text_cursor& text) {
     pcd_lines lines = read_pcd_lines(text);
     pcd_header header;
@@ -15732,8 +15830,8 @@ inline constexpr std::size_t lzf_best_ratio = 88;
 
 /// Decompresses `packed`. O(size).
 /// @return `size` bytes; none if the data are damaged or decompress to another size
-[[nodiscard]] inline std::optional<std::string> unpack_lzf(std::string_view packed,
-                                                           std::size_t size) {
+template <class = void>  // a template, so that unused readers cost no compile time
+[[nodiscard]] std::optional<std::string> unpack_lzf(std::string_view packed, std::size_t size) {
     if (size / lzf_best_ratio > packed.size()) return std::nullopt;
     std::string result;
     result.reserve(size);
@@ -15773,7 +15871,9 @@ inline constexpr std::size_t lzf_best_ratio = 88;
 namespace gnomon::io::detail {
 
 /// Builds a scan row by row. Columns viewpoint_x, viewpoint_y, viewpoint_z, if the file has all
-/// three, become viewpoints.
+/// three, become viewpoints. (A template, so that unused readers cost no compile time.)
+/// @tparam Text  a text_cursor
+template <class Text>
 class scan_builder {
   public:
     /// @param columns  the names of the columns in the file; "_" is padding
@@ -15781,7 +15881,7 @@ class scan_builder {
     /// @param text     position of the column names, for the error message
     /// @throws gnomon::error  if x, y, z or a requested column is missing
     scan_builder(const std::vector<std::string>& columns, const std::vector<std::string>& wanted,
-                 const text_cursor& text)
+                 const Text& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
                 column(columns, "z", text)} {
         for (const std::string& name : wanted) {
@@ -15823,7 +15923,7 @@ class scan_builder {
     /// The index of the column `name`.
     /// @throws gnomon::error  with the list of all columns, if it is missing
     [[nodiscard]] static std::size_t column(const std::vector<std::string>& columns,
-                                            const std::string& name, const text_cursor& text) {
+                                            const std::string& name, const Text& text) {
         const auto found = std::find(columns.begin(), columns.end(), name);
         if (found != columns.end() && name != "_")
             return static_cast<std::size_t>(found - columns.begin());
@@ -15853,7 +15953,8 @@ namespace detail {
 
 /// The names of the columns: "x" for a field of one value, "fpfh[0]", "fpfh[1]", ... for a field of
 /// several values.
-[[nodiscard]] inline std::vector<std::string> pcd_columns(const pcd_header& header) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::vector<std::string> pcd_columns(const pcd_header& header) {
     std::vector<std::string> result;
     for (const pcd_field& field : header.fields) {
         for (std::size_t k = 0; k < field.count; ++k) {
@@ -15872,8 +15973,9 @@ struct pcd_column {
 };
 
 /// The places of the columns in binary data: point after point, each of `stride` bytes.
-[[nodiscard]] inline std::vector<pcd_column> interleaved_columns(const pcd_header& header,
-                                                                 std::size_t stride) {
+template <class = void>
+[[nodiscard]] std::vector<pcd_column> interleaved_columns(const pcd_header& header,
+                                                          std::size_t stride) {
     std::vector<pcd_column> result;
     std::size_t first = 0;
     for (const pcd_field& field : header.fields)
@@ -15883,8 +15985,8 @@ struct pcd_column {
 }
 
 /// The places of the columns in binary_compressed data: field after field, each for all points.
-[[nodiscard]] inline std::vector<pcd_column> planar_columns(const pcd_header& header,
-                                                            std::size_t points) {
+template <class = void>
+[[nodiscard]] std::vector<pcd_column> planar_columns(const pcd_header& header, std::size_t points) {
     std::vector<pcd_column> result;
     std::size_t first = 0;
     for (const pcd_field& field : header.fields) {
@@ -15897,8 +15999,8 @@ struct pcd_column {
 
 /// Adds the points in binary `data`. The PCD format does not define a byte order; all writers use
 /// little-endian.
-inline void add_pcd_points(scan_builder& builder, std::string_view data,
-                           const std::vector<pcd_column>& columns, std::size_t points) {
+void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_column>& columns,
+                    std::size_t points) {
     std::vector<double> row(columns.size());
     builder.reserve(points);
     for (std::size_t i = 0; i < points; ++i) {
@@ -15911,8 +16013,7 @@ inline void add_pcd_points(scan_builder& builder, std::string_view data,
 }
 
 /// Reads the points of ascii data, one per line.
-inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_t points,
-                           std::size_t columns) {
+void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, std::size_t columns) {
     text.require_rows(points, columns);
     builder.reserve(static_cast<std::size_t>(points));
     std::vector<double> row(columns);
@@ -15925,8 +16026,8 @@ inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_
 }
 
 /// Reads the points of binary data.
-inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
-                            std::size_t stride) {
+void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
+                     std::size_t stride) {
     bytes.require_rows(header.points, stride);
     const auto points = static_cast<std::size_t>(header.points);
     add_pcd_points(builder, bytes.take(points * stride), interleaved_columns(header, stride),
@@ -15934,8 +16035,8 @@ inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_
 }
 
 /// Reads the points of binary_compressed data: two sizes, then LZF.
-inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
-                                std::size_t stride) {
+void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& header,
+                         std::size_t stride) {
     const auto size = [&bytes] {
         return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
     };
@@ -15959,7 +16060,7 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 /// @return the points [m] in the order of the file, with viewpoint and fields
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);
@@ -16029,7 +16130,8 @@ struct ply_header {
 
 /// Reads a line after its keyword "property".
 /// @throws gnomon::error  if it is damaged
-[[nodiscard]] inline ply_property read_ply_property(splitter words, const text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] ply_property read_ply_property(splitter words, const text_cursor& text) {
     ply_property result{};
     splitter ahead = words;
     if (ahead.next() == "list") {
@@ -16046,7 +16148,8 @@ struct ply_header {
 /// Reads a line after its keyword "comment". `write_ply` writes the viewpoint as a comment, since
 /// PLY has no keyword for it.
 /// @return the viewpoint [m]; none if the comment is another one
-[[nodiscard]] inline std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
+template <class = void>
+[[nodiscard]] std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
     if (words.next() != "viewpoint") return std::nullopt;
     Eigen::Vector3d result;
     for (double& coordinate : result)
@@ -16057,7 +16160,7 @@ struct ply_header {
 
 /// Reads the header and leaves `text` at the first byte of the first element.
 /// @throws gnomon::error  if the header is damaged or not that of a PLY file
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] ply_header read_ply_header(text_cursor& text) {
     ply_header header;
     if (text.words().next() != "ply") text.fail("not a PLY file");
@@ -16151,8 +16254,8 @@ void read_ply_row(Rows& rows, const ply_element& element, std::vector<double>& r
 }
 
 /// Skips the elements before the vertices and reads the vertices.
-template <class Rows>
-[[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, scan_builder builder) {
+template <class Rows, class Builder>
+[[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, Builder builder) {
     std::vector<double> row;
     for (const ply_element& element : header.elements) {
         const bool is_vertex = element.name == "vertex";
@@ -16217,7 +16320,8 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// Reads up to and including the line "POINTS n type".
 /// @return n, as declared
 /// @throws gnomon::error  if the header is damaged, BINARY or of another kind of data set
-[[nodiscard]] inline std::uint64_t read_vtk_header(text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::uint64_t read_vtk_header(text_cursor& text) {
     if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
     static_cast<void>(text.line());  // the title
 
@@ -16249,7 +16353,7 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if another
 ///                        field is requested
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);
@@ -16305,8 +16409,9 @@ namespace detail {
 /// @param words      of the first line
 /// @param has_names  whether the line holds names
 /// @throws gnomon::error  for fewer than three columns, a numeric name, or a misplaced axis
-[[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
-                                                          const text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::vector<std::string> xyz_columns(splitter words, bool has_names,
+                                                   const text_cursor& text) {
     constexpr std::string_view axes = "xyzXYZ";
     std::vector<std::string> result;
     while (const auto word = words.next()) {
@@ -16337,11 +16442,11 @@ namespace detail {
 /// @throws gnomon::error  if a line does not hold as many numbers as the first, if there is no
 ///                        point, or if a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
-    std::optional<detail::scan_builder> builder;
+    std::optional<detail::scan_builder<detail::text_cursor>> builder;
     std::vector<double> row;
     bool has_points = false;
     while (const auto line = text.line()) {
@@ -16465,7 +16570,8 @@ template <class T>
 }
 
 /// Appends one value of a row in the encoding of the file.
-inline void append_value(std::string& bytes, double value, field_type type, ply_format format) {
+template <class = void>  // templates, so that unused writers cost no compile time
+void append_value(std::string& bytes, double value, field_type type, ply_format format) {
     visit_type(ply_type_of(type).layout, [&](auto zero) {
         const auto number = narrowed<decltype(zero)>(value);
         if (format == ply_format::ascii)
@@ -16478,9 +16584,9 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
 }
 
 /// The header of the file. A single viewpoint is written as a comment.
-[[nodiscard]] inline std::string ply_header_text(std::size_t points,
-                                                 const viewpoint_table& viewpoints,
-                                                 const properties& columns, ply_options options) {
+template <class = void>
+[[nodiscard]] std::string ply_header_text(std::size_t points, const viewpoint_table& viewpoints,
+                                          const properties& columns, ply_options options) {
     std::string text = "ply\nformat ";
     text += ply_format_names[static_cast<std::size_t>(options.format)];
     text += " 1.0\n";
@@ -16500,10 +16606,11 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
 }
 
 /// Writes the file. Independent of the type of the points, so that it is compiled once.
-inline void write_ply_rows(const std::string& path, std::size_t points,
-                           const std::function<Eigen::Vector3d(std::size_t)>& position_of,
-                           const viewpoint_table& viewpoints, const properties& columns,
-                           ply_options options) {
+template <class = void>
+void write_ply_rows(const std::string& path, std::size_t points,
+                    const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+                    const viewpoint_table& viewpoints, const properties& columns,
+                    ply_options options) {
     using gnomon::detail::require;
     require(
         options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
@@ -16679,20 +16786,20 @@ struct floor_and_ceiling {
     crop_height_options bands{};
 };
 
-/// How long the steps took [s].
-struct perception_seconds {
-    double preprocessing = 0.0;  ///< finding floor and ceiling
-    double index = 0.0;          ///< building it
-    double normals = 0.0;        ///< with their repair and orientation
-    double segmentation = 0.0;
-    double merging = 0.0;     ///< with range images
-    double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points, joining of
-                              ///< surfaces of revolution
-};
-
 /// What was perceived in n points.
 template <class Estimate>
 struct perception_result {
+    /// How long the steps took [s].
+    struct durations {
+        double preprocessing = 0.0;  ///< finding floor and ceiling
+        double index = 0.0;          ///< building it
+        double normals = 0.0;        ///< with their repair and orientation
+        double segmentation = 0.0;
+        double merging = 0.0;     ///< with range images
+        double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points,
+                                  ///< joining of surfaces of revolution
+    };
+
     std::optional<plane> floor;             ///< if it was searched for and found
     std::optional<double> ceiling;          ///< its height above the floor [m]
     std::vector<point_index> kept;          ///< the points that were not removed, ascending
@@ -16702,7 +16809,7 @@ struct perception_result {
     segments surfaces;                      ///< of the n points, after all steps
     std::vector<considered_gap> gaps;       ///< all that the first merging considered, and what
                                             ///< the second one merged
-    perception_seconds seconds;
+    durations seconds;
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
 };
 
@@ -16911,9 +17018,12 @@ class perception_run {
 /// its own floor; the result holds what each step returned and how long it took. All steps share
 /// one index of the points (Klasing 2010, Fig. 4.2, Table 4.1).
 ///
-///     const gnomon::perception chain{gnomon::knn{.k = 50}, gnomon::plane_pca{},
-///     gnomon::conservative{}}; auto seen = chain(scan, gnomon::threads{});      // once
-///     chain.into(seen, next_scan, team);               // again and again, in the same memory
+///     const gnomon::perception<> chain{.neighborhood = {.k = 50}};
+///     auto seen = chain(scan, gnomon::threads{});
+///
+/// and for each further scan, in the same memory:
+///
+///     chain.into(seen, next_scan, team);
 
 namespace gnomon {
 

@@ -45,7 +45,7 @@ class properties {
     /// The columns of all `groups`, in their order.
     properties(std::initializer_list<properties> groups) {
         for (const properties& group : groups)
-            columns_.insert(columns_.end(), group.begin(), group.end());
+            for (const property& column : group) columns_.push_back(property(column));
     }
 
     [[nodiscard]] std::vector<property>::const_iterator begin() const { return columns_.begin(); }

@@ -27,7 +27,8 @@ namespace detail {
 
 /// The names of the columns: "x" for a field of one value, "fpfh[0]", "fpfh[1]", ... for a field of
 /// several values.
-[[nodiscard]] inline std::vector<std::string> pcd_columns(const pcd_header& header) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::vector<std::string> pcd_columns(const pcd_header& header) {
     std::vector<std::string> result;
     for (const pcd_field& field : header.fields) {
         for (std::size_t k = 0; k < field.count; ++k) {
@@ -46,8 +47,9 @@ struct pcd_column {
 };
 
 /// The places of the columns in binary data: point after point, each of `stride` bytes.
-[[nodiscard]] inline std::vector<pcd_column> interleaved_columns(const pcd_header& header,
-                                                                 std::size_t stride) {
+template <class = void>
+[[nodiscard]] std::vector<pcd_column> interleaved_columns(const pcd_header& header,
+                                                          std::size_t stride) {
     std::vector<pcd_column> result;
     std::size_t first = 0;
     for (const pcd_field& field : header.fields)
@@ -57,8 +59,8 @@ struct pcd_column {
 }
 
 /// The places of the columns in binary_compressed data: field after field, each for all points.
-[[nodiscard]] inline std::vector<pcd_column> planar_columns(const pcd_header& header,
-                                                            std::size_t points) {
+template <class = void>
+[[nodiscard]] std::vector<pcd_column> planar_columns(const pcd_header& header, std::size_t points) {
     std::vector<pcd_column> result;
     std::size_t first = 0;
     for (const pcd_field& field : header.fields) {
@@ -71,8 +73,8 @@ struct pcd_column {
 
 /// Adds the points in binary `data`. The PCD format does not define a byte order; all writers use
 /// little-endian.
-inline void add_pcd_points(scan_builder& builder, std::string_view data,
-                           const std::vector<pcd_column>& columns, std::size_t points) {
+void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_column>& columns,
+                    std::size_t points) {
     std::vector<double> row(columns.size());
     builder.reserve(points);
     for (std::size_t i = 0; i < points; ++i) {
@@ -85,8 +87,7 @@ inline void add_pcd_points(scan_builder& builder, std::string_view data,
 }
 
 /// Reads the points of ascii data, one per line.
-inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_t points,
-                           std::size_t columns) {
+void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, std::size_t columns) {
     text.require_rows(points, columns);
     builder.reserve(static_cast<std::size_t>(points));
     std::vector<double> row(columns);
@@ -99,8 +100,8 @@ inline void read_pcd_ascii(scan_builder& builder, text_cursor text, std::uint64_
 }
 
 /// Reads the points of binary data.
-inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
-                            std::size_t stride) {
+void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
+                     std::size_t stride) {
     bytes.require_rows(header.points, stride);
     const auto points = static_cast<std::size_t>(header.points);
     add_pcd_points(builder, bytes.take(points * stride), interleaved_columns(header, stride),
@@ -108,8 +109,8 @@ inline void read_pcd_binary(scan_builder& builder, byte_cursor bytes, const pcd_
 }
 
 /// Reads the points of binary_compressed data: two sizes, then LZF.
-inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const pcd_header& header,
-                                std::size_t stride) {
+void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& header,
+                         std::size_t stride) {
     const auto size = [&bytes] {
         return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
     };
@@ -133,7 +134,7 @@ inline void read_pcd_compressed(scan_builder& builder, byte_cursor bytes, const 
 /// @return the points [m] in the order of the file, with viewpoint and fields
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);

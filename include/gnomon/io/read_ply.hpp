@@ -75,8 +75,8 @@ void read_ply_row(Rows& rows, const ply_element& element, std::vector<double>& r
 }
 
 /// Skips the elements before the vertices and reads the vertices.
-template <class Rows>
-[[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, scan_builder builder) {
+template <class Rows, class Builder>
+[[nodiscard]] scan read_ply_vertices(Rows rows, const ply_header& header, Builder builder) {
     std::vector<double> row;
     for (const ply_element& element : header.elements) {
         const bool is_vertex = element.name == "vertex";

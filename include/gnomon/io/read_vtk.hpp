@@ -26,7 +26,8 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// Reads up to and including the line "POINTS n type".
 /// @return n, as declared
 /// @throws gnomon::error  if the header is damaged, BINARY or of another kind of data set
-[[nodiscard]] inline std::uint64_t read_vtk_header(text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::uint64_t read_vtk_header(text_cursor& text) {
     if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
     static_cast<void>(text.line());  // the title
 
@@ -58,7 +59,7 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// @throws gnomon::error  if the file is damaged, BINARY or another kind of data set, or if another
 ///                        field is requested
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);

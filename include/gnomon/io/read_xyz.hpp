@@ -45,8 +45,9 @@ namespace detail {
 /// @param words      of the first line
 /// @param has_names  whether the line holds names
 /// @throws gnomon::error  for fewer than three columns, a numeric name, or a misplaced axis
-[[nodiscard]] inline std::vector<std::string> xyz_columns(splitter words, bool has_names,
-                                                          const text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::vector<std::string> xyz_columns(splitter words, bool has_names,
+                                                   const text_cursor& text) {
     constexpr std::string_view axes = "xyzXYZ";
     std::vector<std::string> result;
     while (const auto word = words.next()) {
@@ -77,11 +78,11 @@ namespace detail {
 /// @throws gnomon::error  if a line does not hold as many numbers as the first, if there is no
 ///                        point, or if a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
-    std::optional<detail::scan_builder> builder;
+    std::optional<detail::scan_builder<detail::text_cursor>> builder;
     std::vector<double> row;
     bool has_points = false;
     while (const auto line = text.line()) {

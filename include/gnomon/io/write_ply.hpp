@@ -66,7 +66,8 @@ template <class T>
 }
 
 /// Appends one value of a row in the encoding of the file.
-inline void append_value(std::string& bytes, double value, field_type type, ply_format format) {
+template <class = void>  // templates, so that unused writers cost no compile time
+void append_value(std::string& bytes, double value, field_type type, ply_format format) {
     visit_type(ply_type_of(type).layout, [&](auto zero) {
         const auto number = narrowed<decltype(zero)>(value);
         if (format == ply_format::ascii)
@@ -79,9 +80,9 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
 }
 
 /// The header of the file. A single viewpoint is written as a comment.
-[[nodiscard]] inline std::string ply_header_text(std::size_t points,
-                                                 const viewpoint_table& viewpoints,
-                                                 const properties& columns, ply_options options) {
+template <class = void>
+[[nodiscard]] std::string ply_header_text(std::size_t points, const viewpoint_table& viewpoints,
+                                          const properties& columns, ply_options options) {
     std::string text = "ply\nformat ";
     text += ply_format_names[static_cast<std::size_t>(options.format)];
     text += " 1.0\n";
@@ -101,10 +102,11 @@ inline void append_value(std::string& bytes, double value, field_type type, ply_
 }
 
 /// Writes the file. Independent of the type of the points, so that it is compiled once.
-inline void write_ply_rows(const std::string& path, std::size_t points,
-                           const std::function<Eigen::Vector3d(std::size_t)>& position_of,
-                           const viewpoint_table& viewpoints, const properties& columns,
-                           ply_options options) {
+template <class = void>
+void write_ply_rows(const std::string& path, std::size_t points,
+                    const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+                    const viewpoint_table& viewpoints, const properties& columns,
+                    ply_options options) {
     using gnomon::detail::require;
     require(
         options.coordinates == field_type::float32 || options.coordinates == field_type::float64,

@@ -50,12 +50,11 @@ struct hybrid {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return false where coincident points make a search point by point faster
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        return detail::sweep_nearest(index.tree(), {.k = k, .radius = r}, run, make_visitor);
+        detail::sweep_nearest(index.tree(), {.k = k, .radius = r}, run, make_visitor);
     }
 
     /// @throws std::invalid_argument  if k is 0, or r is negative, infinite or NaN

@@ -52,12 +52,11 @@ struct knn {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return false where coincident points make a search point by point faster
     /// @throws std::invalid_argument  if k is 0
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        return detail::sweep_nearest(index.tree(), {.k = k, .ties = ties}, run, make_visitor);
+        detail::sweep_nearest(index.tree(), {.k = k, .ties = ties}, run, make_visitor);
     }
 
     /// The number of neighbors of each of n finite points; nothing if ties may add to it.

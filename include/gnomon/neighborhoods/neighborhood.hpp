@@ -85,16 +85,13 @@ struct any_visitor {
 /// An indexed neighborhood that can also search for all points at once: policy.sweep(index,
 /// execution, make_visitor) calls visit(i, found) for each finite point i, in any order and from
 /// several threads, with a visitor that make_visitor() returns for each chunk of work, and at the
-/// end of the chunk its finish(), if it has one. It returns whether it did: not where searching
-/// point by point is faster, and then no visitor was called. `found` is valid during the call: its
-/// `size()`; the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that
-/// order, by `summed()`, their moments `about_point` and `mean_distance`.
+/// end of the chunk its finish(), if it has one. `found` is valid during the call: its `size()`;
+/// the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that order, by
+/// `summed()`, their moments `about_point` and `mean_distance`.
 template <class N>
 concept sweeping_neighborhood =
     indexed_neighborhood<N> && requires(const N& policy, const spatial_index& index) {
-        {
-            policy.sweep(index, sequential{}, [] { return detail::any_visitor{}; })
-        } -> std::same_as<bool>;
+        policy.sweep(index, sequential{}, [] { return detail::any_visitor{}; });
     };
 
 namespace detail {

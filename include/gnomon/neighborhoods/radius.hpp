@@ -50,16 +50,14 @@ struct radius {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @return true
     /// @throws std::invalid_argument  if r is negative, infinite or NaN
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
         const auto make_search = [&] {
             return detail::leaf_balls(index.tree(), [this](std::size_t) { return r; });
         };
         detail::sweep_leaves(index.tree(), run, make_search, make_visitor);
-        return true;
     }
 
     /// @throws std::invalid_argument  if r is negative, infinite or NaN

@@ -81,7 +81,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
         tree_.clear();
-        detail::with_table_of(points, [this](const auto& table) { viewpoints = table; });
+        detail::with_table_of(
+            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
         epsilon_ = detail::epsilon_of<view>(points);
         tree_.rebuild(view(points, std::move(projection)), run);
     }

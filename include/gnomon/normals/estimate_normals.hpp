@@ -51,19 +51,18 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
     require_valid(policy);
     resize_touched(surface, index.size(), run);
     if constexpr (sweeping_neighborhood<N>) {
-        if (policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); })) {
-            for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i) {
-                    if (index.is_finite(i)) continue;
-                    surface[i] = {};
-                    surface[i].trust = trust::not_finite;
-                }
-            });
-            return;
-        }
+        policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); });
+        for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (index.is_finite(i)) continue;
+                surface[i] = {};
+                surface[i].trust = trust::not_finite;
+            }
+        });
+    } else {
+        estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
+                    found_neighborhoods(policy, index), estimate, surface);
     }
-    estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
-                found_neighborhoods(policy, index), estimate, surface);
 }
 
 }  // namespace detail

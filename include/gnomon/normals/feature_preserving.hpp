@@ -56,11 +56,12 @@ struct feature_preserving {
 
 namespace detail {
 
-/// The three sweeps over the points of an index.
+/// The three sweeps over the points of an index. (A template, so that only its users compile a
+/// search.)
+template <class Index>
 class feature_preserving_sweeps {
   public:
-    feature_preserving_sweeps(const feature_preserving& options, const spatial_index& points,
-                              double noise)
+    feature_preserving_sweeps(const feature_preserving& options, const Index& points, double noise)
         : options_(options), points_(points), noise_(noise) {}
 
     /// Sweep 1, for point i. Searches as many neighbors as were enough for the last point first.
@@ -144,7 +145,7 @@ class feature_preserving_sweeps {
     }
 
     const feature_preserving& options_;
-    const spatial_index& points_;
+    const Index& points_;
     double noise_;
 };
 

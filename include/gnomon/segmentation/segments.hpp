@@ -100,9 +100,8 @@ namespace detail {
 /// The groups of a labeling in scratch memory, for algorithms that need them only while they run.
 class label_groups {
   public:
-    explicit label_groups(std::span<const std::int32_t> labels) {
-        group_by_label(labels, begin_, members_);
-    }
+    /// @param labels  a contiguous range
+    explicit label_groups(const auto& labels) { group_by_label(labels, begin_, members_); }
 
     [[nodiscard]] std::size_t size() const { return begin_.size() - 1; }
     /// The indices of the points of a label, ascending.

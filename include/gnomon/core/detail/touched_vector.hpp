@@ -38,7 +38,7 @@ void touch_all(T* values, std::size_t n, const X& run) {
 template <class T, class Allocator, execution X>
 void resize_touched(std::vector<T, Allocator>& values, std::size_t n, const X& run) {
     if (values.capacity() < n) {
-        values = {};  // first, so that old and new memory do not add up
+        std::vector<T, Allocator>().swap(values);  // first: old and new memory do not add up
         values.reserve(n);
         touch_all(values.data(), n, run);
     }

@@ -16,8 +16,8 @@ inline constexpr std::size_t lzf_best_ratio = 88;
 
 /// Decompresses `packed`. O(size).
 /// @return `size` bytes; none if the data are damaged or decompress to another size
-[[nodiscard]] inline std::optional<std::string> unpack_lzf(std::string_view packed,
-                                                           std::size_t size) {
+template <class = void>  // a template, so that unused readers cost no compile time
+[[nodiscard]] std::optional<std::string> unpack_lzf(std::string_view packed, std::size_t size) {
     if (size / lzf_best_ratio > packed.size()) return std::nullopt;
     std::string result;
     result.reserve(size);

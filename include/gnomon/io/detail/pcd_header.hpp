@@ -62,7 +62,8 @@ struct pcd_lines {
 /// Reads up to and including the line "DATA". Lines before the first keyword are comments, also
 /// without '#': some writers break a comment over two lines.
 /// @throws gnomon::error  for an unknown keyword, or if the file ends
-[[nodiscard]] inline pcd_lines read_pcd_lines(text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] pcd_lines read_pcd_lines(text_cursor& text) {
     pcd_lines lines;
     bool begun = false;
     for (;;) {
@@ -101,7 +102,7 @@ struct pcd_lines {
 
 /// Reads the header and leaves `text` at the first byte of the data.
 /// @throws gnomon::error  if the header is damaged or inconsistent
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] pcd_header read_pcd_header(text_cursor& text) {
     pcd_lines lines = read_pcd_lines(text);
     pcd_header header;

@@ -63,7 +63,8 @@ struct ply_header {
 
 /// Reads a line after its keyword "property".
 /// @throws gnomon::error  if it is damaged
-[[nodiscard]] inline ply_property read_ply_property(splitter words, const text_cursor& text) {
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] ply_property read_ply_property(splitter words, const text_cursor& text) {
     ply_property result{};
     splitter ahead = words;
     if (ahead.next() == "list") {
@@ -80,7 +81,8 @@ struct ply_header {
 /// Reads a line after its keyword "comment". `write_ply` writes the viewpoint as a comment, since
 /// PLY has no keyword for it.
 /// @return the viewpoint [m]; none if the comment is another one
-[[nodiscard]] inline std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
+template <class = void>
+[[nodiscard]] std::optional<Eigen::Vector3d> read_viewpoint_comment(splitter words) {
     if (words.next() != "viewpoint") return std::nullopt;
     Eigen::Vector3d result;
     for (double& coordinate : result)
@@ -91,7 +93,7 @@ struct ply_header {
 
 /// Reads the header and leaves `text` at the first byte of the first element.
 /// @throws gnomon::error  if the header is damaged or not that of a PLY file
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>
 [[nodiscard]] ply_header read_ply_header(text_cursor& text) {
     ply_header header;
     if (text.words().next() != "ply") text.fail("not a PLY file");

@@ -18,7 +18,9 @@
 namespace gnomon::io::detail {
 
 /// Builds a scan row by row. Columns viewpoint_x, viewpoint_y, viewpoint_z, if the file has all
-/// three, become viewpoints.
+/// three, become viewpoints. (A template, so that unused readers cost no compile time.)
+/// @tparam Text  a text_cursor
+template <class Text>
 class scan_builder {
   public:
     /// @param columns  the names of the columns in the file; "_" is padding
@@ -26,7 +28,7 @@ class scan_builder {
     /// @param text     position of the column names, for the error message
     /// @throws gnomon::error  if x, y, z or a requested column is missing
     scan_builder(const std::vector<std::string>& columns, const std::vector<std::string>& wanted,
-                 const text_cursor& text)
+                 const Text& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
                 column(columns, "z", text)} {
         for (const std::string& name : wanted) {
@@ -68,7 +70,7 @@ class scan_builder {
     /// The index of the column `name`.
     /// @throws gnomon::error  with the list of all columns, if it is missing
     [[nodiscard]] static std::size_t column(const std::vector<std::string>& columns,
-                                            const std::string& name, const text_cursor& text) {
+                                            const std::string& name, const Text& text) {
         const auto found = std::find(columns.begin(), columns.end(), name);
         if (found != columns.end() && name != "_")
             return static_cast<std::size_t>(found - columns.begin());

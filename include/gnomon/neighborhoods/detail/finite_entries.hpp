@@ -5,9 +5,7 @@
 
 #include <array>
 #include <cstddef>
-#include <numeric>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -29,14 +27,14 @@ class finite_entries {
     /// Copies the finite points of a position_view, in two passes: one counts, one copies. O(n).
     template <class Points, execution X>
     void gather(const Points& points, const X& run) {
-        ends_.resize(chunk_count(points.size()));
+        ends_.resize(chunk_count(points.size()), run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
-            std::size_t count = 0;
+            point_index count = 0;
             for (std::size_t i = begin; i < end; ++i) count += is_finite(points[i]) ? 1 : 0;
             ends_[begin / chunk_size] = count;
         });
-        std::inclusive_scan(ends_.begin(), ends_.end(), ends_.begin());
-        entries_.resize(ends_.empty() ? 0 : ends_.back(), run);
+        for (std::size_t c = 1; c < ends_.size(); ++c) ends_[c] += ends_[c - 1];
+        entries_.resize(ends_.size() > 0 ? ends_[ends_.size() - 1] : 0, run);
         for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
             tree_entry* to = entries_.data() + (begin == 0 ? 0 : ends_[begin / chunk_size - 1]);
             for (std::size_t i = begin; i < end; ++i) {
@@ -52,7 +50,7 @@ class finite_entries {
 
   private:
     kept_array<tree_entry> entries_;
-    std::vector<std::size_t> ends_;  // of each chunk of the cloud in `entries_`
+    kept_array<point_index> ends_;  // of each chunk of the cloud in `entries_`
 };
 
 }  // namespace gnomon::detail

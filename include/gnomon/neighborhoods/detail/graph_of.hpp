@@ -62,8 +62,8 @@ struct knn_of_some {
     nearest_wanted wanted;
 
     template <execution X>
-    [[nodiscard]] bool sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
-        return sweep_nearest(index.tree(), wanted, run, make_visitor);
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        sweep_nearest(index.tree(), wanted, run, make_visitor);
     }
 };
 
@@ -74,19 +74,9 @@ template <execution X>
                                           const X& run) {
     place_set some;
     some.assign_if(index.tree(), wanted);
-    scratch_graph::arrays swept;
-    if (sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, swept))
-        return scratch_graph(std::move(swept));
-    return collected_graph<false, scratch_graph, scratch<neighbor>>(
-        index.size(), run, [&](std::size_t i, scratch<neighbor>& found) {
-            found.clear();
-            const point_index place = index.tree().place_of(i);
-            if (place != leaf_tree::no_place && some.contains(place)) {
-                search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
-                            found);
-            }
-            return neighborhood_note{};
-        });
+    scratch_graph::arrays graph;
+    sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, graph);
+    return scratch_graph(std::move(graph));
 }
 
 /// The graph of a neighborhood over points, or over an index of them.
@@ -98,14 +88,16 @@ template <indexed_neighborhood N, class R, execution X, class Proj>
     const auto& team = staying(run);
     const auto& index = index_of(points, team, projection);
     if constexpr (sweeping_neighborhood<N>) {
-        if (sweep_graph(policy, index, team, memory)) return adjacency(std::move(memory));
+        sweep_graph(policy, index, team, memory);
+        return adjacency(std::move(memory));
+    } else {
+        return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
+            index.size(), team,
+            [&](std::size_t i, neighbor_buffer<N>& found) {
+                return find_noted(policy, index, i, found);
+            },
+            std::move(memory));
     }
-    return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
-        index.size(), team,
-        [&](std::size_t i, neighbor_buffer<N>& found) {
-            return find_noted(policy, index, i, found);
-        },
-        std::move(memory));
 }
 
 }  // namespace gnomon::detail

@@ -42,7 +42,7 @@ class leaf_balls {
         balls_.clear();
         for (std::size_t p = begin; p < end; ++p) {
             const double radius = radius_of_(p);
-            if (radius >= 0.0) balls_.push_back({radius, p});
+            if (radius >= 0.0) balls_.push_back({radius, static_cast<std::uint32_t>(p)});
         }
         std::sort(balls_.begin(), balls_.end());
         for (std::span<const ball> left = balls_; !left.empty();) {
@@ -58,7 +58,7 @@ class leaf_balls {
   private:
     struct ball {
         double radius;  // [m]
-        std::size_t place;
+        std::uint32_t place;
 
         friend auto operator<=>(const ball&, const ball&) = default;
     };
@@ -93,7 +93,7 @@ class leaf_balls {
     Radius radius_of_;
     leaf_list<Tree> list_;
     scratch<ball> balls_;
-    scratch<std::size_t> places_;
+    scratch<std::uint32_t> places_;
 };
 
 }  // namespace GNOMON_LANES

@@ -42,10 +42,10 @@ class leaf_list {
     }
 
     /// Makes it an empty list for the query points at some places of one group.
-    void enclose(std::span<const std::size_t> places) {
+    void enclose(std::span<const std::uint32_t> places) {
         group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
-        for (const std::size_t p : places) box_.add(tree_.position(p));
+        for (const std::uint32_t p : places) box_.add(tree_.position(p));
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
         half_ = 0.5 * std::sqrt(box_.squared_diagonal());
     }

@@ -55,7 +55,8 @@ class leaf_search {
         const std::size_t last = std::min(first + Tree::points_per_group, tree_.size());
         waiting_.clear();
         for (std::size_t p = first; p < last; ++p)
-            if (of_ == nullptr || of_->contains(p)) waiting_.push_back(p);
+            if (of_ == nullptr || of_->contains(p))
+                waiting_.push_back(static_cast<std::uint32_t>(p));
         if (waiting_.empty()) return;
         list_.enclose(waiting_);
         // The box of these, with its diagonal, holds that many neighbors of each.
@@ -65,9 +66,10 @@ class leaf_search {
             find_waiting(visit);
         } else {
             // The box is large relative to the reach, as with an outlier: point by point.
-            alone_ = waiting_;
-            for (const std::size_t p : alone_) {
-                waiting_.assign(1, p);
+            alone_.swap(waiting_);
+            for (const std::uint32_t p : alone_) {
+                waiting_.clear();
+                waiting_.push_back(p);
                 if (guess_ > 0.0) reach_ = std::sqrt(guess_);
                 list_.enclose(waiting_);
                 find_waiting(visit);
@@ -93,7 +95,7 @@ class leaf_search {
             const bool complete = list_.complete() || list_.reach() >= radius_;
             double farther = 0.0;
             std::size_t left = 0;
-            for (const std::size_t p : waiting_) {
+            for (const std::uint32_t p : waiting_) {
                 const double reached = select(p);
                 if (reached <= list_.reach() || complete) {
                     visit(p, selected_);
@@ -104,7 +106,7 @@ class leaf_search {
                 }
             }
             if (left == 0) return;
-            waiting_.erase(waiting_.begin() + static_cast<std::ptrdiff_t>(left), waiting_.end());
+            waiting_.resize(left);
             reach_ = std::min(1.001 * farther, 4.0 * list_.reach());
             list_.enclose(waiting_);
         }
@@ -149,8 +151,8 @@ class leaf_search {
         const auto is_farther = [&](std::uint32_t at) {
             return tree_.squared_distance(p, at) > radius_ * radius_;
         };
-        const auto farther = std::ranges::remove_if(selected_, is_farther);
-        selected_ = selected_.first(selected_.size() - farther.size());
+        std::uint32_t* const first = selected_.data();
+        selected_ = {first, std::remove_if(first, first + selected_.size(), is_farther)};
     }
 
     /// Estimates the next squared k-th distance by the lesser of the last two.
@@ -168,8 +170,10 @@ class leaf_search {
         if (e.within - e.below <= lane_count) return e.kth;
         between_.clear();
         const auto candidates = list_.squared_distances();
-        list_.for_each_between(e.low, e.high,
-                               [&](std::size_t c) { between_.push_back(candidates[c]); });
+        list_.for_each_between(e.low, e.high, [&](std::size_t c) {
+            const double d2 = candidates[c];
+            between_.push_back(d2);
+        });
         const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - e.below) - 1;
         std::nth_element(between_.begin(), nth, between_.end());
         return static_cast<float>(*nth);
@@ -218,10 +222,11 @@ class leaf_search {
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
             doubtful_.push_back({tree_.squared_distance(from, at), tree_.index()[at]});
-            candidates_.push_back(c);
+            candidates_.push_back(static_cast<std::uint32_t>(c));
         });
         // As in tree_query, whose sort this shares: for compile time only.
-        sorted_ = doubtful_;
+        sorted_.resize(doubtful_.size());
+        std::copy(doubtful_.begin(), doubtful_.end(), sorted_.begin());
         std::sort(sorted_.data(), sorted_.data() + sorted_.size());
         const std::size_t kept =
             ties_ == tie_rule::all ? size_with_ties(sorted_, wanted, k_ + wanted) : wanted;
@@ -237,13 +242,13 @@ class leaf_search {
     const place_set* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
-    double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
-    scratch<double> reached_;           // the k-th distances in a group [m]
-    scratch<std::size_t> waiting_, alone_;
+    double guess_ = 0.0, reach_ = 0.0;        // of the next one; within which leaves are listed [m]
+    scratch<double> reached_;                 // the k-th distances in a group [m]
+    scratch<std::uint32_t> waiting_, alone_;  // places
     std::span<std::uint32_t> selected_;
     scratch<double> between_;  // not of floats, to share a nth_element: for compile time only
     scratch<neighbor> doubtful_, sorted_;
-    scratch<std::size_t> candidates_;  // numbers of the doubtful ones
+    scratch<std::uint32_t> candidates_;  // numbers of the doubtful ones
 };
 
 }  // namespace GNOMON_LANES

@@ -14,6 +14,7 @@
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/detail/place_search.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -61,16 +62,32 @@ void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&
     search_all_groups(tree, run, make_search, [&] { return place_visitor(tree, make_visitor()); });
 }
 
-/// The sweep of a search for the k nearest. Does nothing on a crowded tree, where the search for
-/// each leaf would read all coincident points.
-/// @return whether it swept
+/// `leaf_search`, or where many points coincide `place_search`.
+template <class Tree>
+class nearest_search {
+  public:
+    nearest_search(const Tree& tree, const nearest_wanted& wanted)
+        : crowded_(tree.crowded()), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+
+    void operator()(std::size_t group, auto&& visit) {
+        if (crowded_)
+            by_place_(group, visit);
+        else
+            by_leaf_(group, visit);
+    }
+
+  private:
+    bool crowded_;
+    leaf_search<Tree> by_leaf_;
+    place_search<Tree> by_place_;
+};
+
+/// The sweep of a search for the k nearest.
 template <execution X>
-[[nodiscard]] bool sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
-                                 auto&& make_visitor) {
-    if (tree.crowded()) return false;
-    const auto make_search = [&] { return leaf_search(tree, wanted); };
-    sweep_leaves(tree, run, make_search, make_visitor);
-    return true;
+void sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
+                   auto&& make_visitor) {
+    sweep_leaves(
+        tree, run, [&] { return nearest_search(tree, wanted); }, make_visitor);
 }
 
 }  // namespace GNOMON_LANES

@@ -13,17 +13,18 @@
 #include <cstddef>
 #include <limits>
 #include <span>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/kept_array.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/finite_entries.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_box.hpp>
 #include <gnomon/neighborhoods/detail/leaf_subtree.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
@@ -68,7 +69,7 @@ class leaf_tree {
         const std::size_t places = leaves_ * leaf_size;
         for (auto& c : at_) c.resize(places, run);
         index_.resize(places, run);
-        boxes_.resize(leaves_ > 0 ? 2 * leaves_ - 1 : 0);
+        boxes_.resize(leaves_ > 0 ? 2 * leaves_ - 1 : 0, run);
         crowded_ = false;
         if (size_ == 0) return guard.dismiss();
         for (auto& c : at_) std::fill(c.data() + size_, c.data() + places, 0.0);
@@ -166,21 +167,21 @@ class leaf_tree {
     template <execution X>
     void build(std::span<entry> all, const X& run) {
         constexpr std::size_t enough = 64;  // subtrees, to keep all threads busy
-        std::vector<subtree> level{root()}, next;
-        while (level.size() < enough && level.front().last - level.front().first > 64) {
-            next.assign(2 * level.size(), {});
-            run(level.size(), [&](std::size_t s) {
+        std::array<subtree, enough> level{root()}, next{};
+        std::size_t subtrees = 1;
+        for (; subtrees < enough && level[0].last - level[0].first > 64; subtrees *= 2) {
+            run(subtrees, [&](std::size_t s) {
                 const auto [left, right] = split(all, level[s]);
                 next[2 * s] = left;
                 next[2 * s + 1] = right;
             });
-            level.swap(next);
+            level = next;
         }
-        run(level.size(), [&](std::size_t s) { build_below(all, level[s]); });
+        run(subtrees, [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    /// A subtree on one thread. (This and split() are templates, so that only code that builds a
-    /// tree compiles them.)
+    /// A subtree on one thread. (This, split() and sort_by_index() are templates, so that only
+    /// code that builds a tree compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -229,11 +230,13 @@ class leaf_tree {
     }
 
     /// Points at one position are sorted by their index, so that a search for the k nearest stops
-    /// after k of them.
-    static void sort_by_index(std::span<entry> entries) {
-        const auto less = [](const entry& p, const entry& q) { return p.index < q.index; };
-        if (!std::is_sorted(entries.begin(), entries.end(), less))
-            std::partial_sort(entries.begin(), entries.end(), entries.end(), less);
+    /// after k of them. (As neighbors, whose sort a query needs as well: for compile time only.)
+    static void sort_by_index(auto entries) {
+        scratch<neighbor> sorted(entries.size());
+        for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
+        if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
+        std::sort(sorted.data(), sorted.data() + sorted.size());
+        for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
     }
 
     std::size_t size_ = 0;
@@ -242,8 +245,8 @@ class leaf_tree {
     std::array<kept_array<double>, 3> at_;
     kept_array<point_index> index_;
     kept_array<point_index> place_of_;
-    std::vector<leaf_box> boxes_;  // of the nodes, in preorder
-    finite_entries entries_;       // while building
+    kept_array<leaf_box> boxes_;  // of the nodes, in preorder
+    finite_entries entries_;      // while building
 };
 
 }  // namespace gnomon::detail

@@ -44,18 +44,16 @@ class neighborhood_writer {
 };
 
 /// The arrays of the graph of a policy that finds `k` neighbors of every finite point.
-/// @return false if the policy does not sweep; then they are unfinished
 template <class Policy, execution X>
-[[nodiscard]] bool sweep_equal_sizes(const Policy& policy, std::size_t k,
-                                     const spatial_index& index, const X& run,
-                                     adjacency::arrays& graph) {
+void sweep_equal_sizes(const Policy& policy, std::size_t k, const spatial_index& index,
+                       const X& run, adjacency::arrays& graph) {
     auto& [begin, indices, notes] = graph;
     begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
     resize_touched(indices, begin.back(), run);
     notes.clear();
-    return policy.sweep(index, run, [&] { return neighborhood_writer(begin, indices.data()); });
+    policy.sweep(index, run, [&] { return neighborhood_writer(begin, indices.data()); });
 }
 
 /// The neighbors of all points that the visitors of a sweep have seen.
@@ -101,14 +99,12 @@ class neighborhood_recorder {
 /// The arrays of the graph of a policy whose neighborhoods differ in size. While building, the
 /// indices exist twice.
 /// @param graph  arrays of an `adjacency` or a `scratch_graph`
-/// @return false if the policy does not sweep; then they are unfinished
 template <class Policy, execution X>
-[[nodiscard]] bool sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run,
-                                   auto& graph) {
+void sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run, auto& graph) {
     auto& begin = graph.begin;
     begin.assign(index.size() + 1, 0);
     recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
-    if (!policy.sweep(index, run, [&] { return neighborhood_recorder(all); })) return false;
+    policy.sweep(index, run, [&] { return neighborhood_recorder(all); });
 
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = graph.indices;
@@ -122,16 +118,14 @@ template <class Policy, execution X>
         }
     });
     if constexpr (requires { graph.notes; }) graph.notes.clear();
-    return true;
 }
 
 /// The arrays of the graph of a `sweeping_neighborhood`. A policy that finds the same number of
 /// neighbors of every finite point returns it from neighbors_of_each(number of finite points), or
 /// nothing if the numbers may differ.
-/// @return false if the policy does not sweep; then they are unfinished
 template <class Policy, execution X>
-[[nodiscard]] bool sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
-                               adjacency::arrays& graph) {
+void sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
+                 adjacency::arrays& graph) {
     if constexpr (requires { policy.neighbors_of_each(std::size_t{}); }) {
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
             return sweep_equal_sizes(policy, *k, index, run, graph);

@@ -4,7 +4,7 @@
 #pragma once
 
 #include <algorithm>
-#include <vector>
+#include <span>
 
 #include <Eigen/Core>
 
@@ -22,11 +22,10 @@ namespace gnomon::detail {
 /// a line it contains the line.
 class tangent_plane {
   public:
-    /// @param points  a position_view
-    /// @param p       one of the points
-    /// @param neighbors    its neighbors
-    tangent_plane(const auto& points, const Eigen::Vector3d& p,
-                  const std::vector<neighbor>& neighbors)
+    /// @param points     a position_view
+    /// @param p          one of the points
+    /// @param neighbors  its neighbors
+    tangent_plane(const auto& points, const Eigen::Vector3d& p, std::span<const neighbor> neighbors)
         : origin_(p) {
         rescale(points, neighbors);
         if (!exists_) return;
@@ -41,7 +40,7 @@ class tangent_plane {
 
     /// Keeps the plane, but scales projections for other neighbors, by a power of two, which is
     /// exact, so that products of four coordinates stay in range.
-    void rescale(const auto& points, const std::vector<neighbor>& neighbors) {
+    void rescale(const auto& points, std::span<const neighbor> neighbors) {
         double largest = 0.0;
         for (const neighbor& q : neighbors) {
             const Eigen::Vector3d d = difference(points[q.index], origin_);

@@ -138,16 +138,16 @@ class tree_query {
 
     /// Keeps the nearest `most_` candidates.
     void drop_farthest() {
-        const auto at = [this](std::size_t i) {
-            return found_.begin() + static_cast<std::ptrdiff_t>(i);
+        const auto put_in_place = [this](std::size_t rank) {
+            std::nth_element(found_.data(), found_.data() + rank, found_.data() + found_.size());
         };
-        std::nth_element(found_.begin(), at(most_ - 1), found_.end());
-        found_.erase(at(most_), found_.end());
+        put_in_place(most_ - 1);
+        found_.resize(most_);
         last_ = found_.back();
         has_last_ = true;
         double kth = last_.squared_distance;
         if (most_ > question_.k) {
-            std::nth_element(found_.begin(), at(question_.k - 1), found_.end());
+            put_in_place(question_.k - 1);
             kth = std::min(kth, tie_margin * found_[question_.k - 1].squared_distance);
         }
         limit_ = std::min(limit_, kth);

@@ -53,15 +53,15 @@ struct image_axes {
     [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
                                                           std::size_t width,
                                                           std::size_t height) const {
-        using pack = pack_of<N>;
+        using numbers = pack_of<N>;
         const auto along = [&to](const Eigen::Vector3d& axis) {
             std::array<double, N> a;
             for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
-            return pack(a.data());
+            return numbers(a.data());
         };
-        const pack on_x = along(x), on_y = along(y), on_z = along(z);
-        const pack azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
-        const pack elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
+        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
         std::array<image_cell, N> at;
         for (std::size_t l = 0; l < N; ++l) {
             at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,

@@ -54,7 +54,7 @@ class height_histogram {
 };
 
 /// The lowest bin of those that hold most. Precondition: there are bins.
-[[nodiscard]] inline const height_histogram::bin& fullest(const height_histogram& histogram) {
+[[nodiscard]] const height_histogram::bin& fullest(const auto& histogram) {
     return *std::max_element(histogram.bins().begin(), histogram.bins().end(),
                              [](const auto& a, const auto& b) { return a.count < b.count; });
 }
