@@ -2415,6 +2415,16 @@ class finite_entries {
     kept_array<point_index> ends_;  // of each chunk of the cloud in `entries_`
 };
 
+/// Sorts entries at one position by their index, so that a search for the k nearest stops after k
+/// of them. (As neighbors, whose sort a query needs as well: for compile time only.)
+void sort_by_index(auto entries) {
+    scratch<neighbor> sorted(entries.size());
+    for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
+    if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
+    std::sort(sorted.data(), sorted.data() + sorted.size());
+    for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
+}
+
 }  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/detail/lanes.hpp --------------------------------------------------
@@ -2738,8 +2748,8 @@ class leaf_tree {
         run(subtrees, [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    /// A subtree on one thread. (This, split() and sort_by_index() are templates, so that only
-    /// code that builds a tree compiles them.)
+    /// A subtree on one thread. (This and split() are templates, so that only code that builds a
+    /// tree compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -2785,16 +2795,6 @@ class leaf_tree {
             entries.begin(), entries.begin() + at, entries.end(),
             [axis](const entry& p, const entry& q) { return p.at[axis] < q.at[axis]; });
         return children;
-    }
-
-    /// Points at one position are sorted by their index, so that a search for the k nearest stops
-    /// after k of them. (As neighbors, whose sort a query needs as well: for compile time only.)
-    static void sort_by_index(auto entries) {
-        scratch<neighbor> sorted(entries.size());
-        for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
-        if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
-        std::sort(sorted.data(), sorted.data() + sorted.size());
-        for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
     }
 
     std::size_t size_ = 0;
@@ -4117,8 +4117,7 @@ struct nearest_wanted {
 ///     interpolation search finds two limits with few distances between them; these are ranked.
 ///  3. Compare points that the rounding of floats leaves undecided by canonical distances.
 ///
-/// The estimate is raised if too few points pass, the list extended if the k-th is beyond its
-/// reach.
+/// Too few points raise the estimate; a k-th distance beyond the reach of the list extends it.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -4170,8 +4169,7 @@ class leaf_search {
     }
 
   private:
-    /// Up to this number, ranking is faster than a further interpolation. Performance only.
-    static constexpr std::size_t few = 16;
+    static constexpr std::size_t few = 16;  // are ranked at once; performance only
 
     /// Visits all query points that wait.
     template <class Visit>
@@ -4237,11 +4235,10 @@ class leaf_search {
     /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
         if (radius_ == std::numeric_limits<double>::infinity()) return;
-        const auto is_farther = [&](std::uint32_t at) {
-            return tree_.squared_distance(p, at) > radius_ * radius_;
-        };
-        std::uint32_t* const first = selected_.data();
-        selected_ = {first, std::remove_if(first, first + selected_.size(), is_farther)};
+        std::uint32_t *const first = selected_.data(), *const last = first + selected_.size();
+        selected_ = {first, std::remove_if(first, last, [&](std::uint32_t at) {
+                         return tree_.squared_distance(p, at) > radius_ * radius_;
+                     })};
     }
 
     /// Estimates the next squared k-th distance by the lesser of the last two.
@@ -4258,9 +4255,8 @@ class leaf_search {
         const enclosure e = with_widest([&](auto i) { return enclosure_of_kth(i, high); });
         if (e.within - e.below <= lane_count) return e.kth;
         between_.clear();
-        const auto candidates = list_.squared_distances();
         list_.for_each_between(e.low, e.high, [&](std::size_t c) {
-            const double d2 = candidates[c];
+            const double d2 = list_.squared_distances()[c];
             between_.push_back(d2);
         });
         const auto nth = between_.begin() + static_cast<std::ptrdiff_t>(k_ - e.below) - 1;
@@ -4331,13 +4327,12 @@ class leaf_search {
     const place_set* of_;
     leaf_list<Tree> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
-    double guess_ = 0.0, reach_ = 0.0;        // of the next one; within which leaves are listed [m]
-    scratch<double> reached_;                 // the k-th distances in a group [m]
-    scratch<std::uint32_t> waiting_, alone_;  // places
+    double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
+    scratch<double> reached_;           // the k-th distances in a group [m]
+    scratch<std::uint32_t> waiting_, alone_, candidates_;  // places; numbers of the doubtful ones
     std::span<std::uint32_t> selected_;
     scratch<double> between_;  // not of floats, to share a nth_element: for compile time only
     scratch<neighbor> doubtful_, sorted_;
-    scratch<std::uint32_t> candidates_;  // numbers of the doubtful ones
 };
 
 }  // namespace GNOMON_LANES

@@ -3,6 +3,7 @@
 /// The finite points of a cloud with their numbers: what a tree sorts while it is built.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <span>
@@ -10,8 +11,10 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/kept_array.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
@@ -52,5 +55,15 @@ class finite_entries {
     kept_array<tree_entry> entries_;
     kept_array<point_index> ends_;  // of each chunk of the cloud in `entries_`
 };
+
+/// Sorts entries at one position by their index, so that a search for the k nearest stops after k
+/// of them. (As neighbors, whose sort a query needs as well: for compile time only.)
+void sort_by_index(auto entries) {
+    scratch<neighbor> sorted(entries.size());
+    for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
+    if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
+    std::sort(sorted.data(), sorted.data() + sorted.size());
+    for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
+}
 
 }  // namespace gnomon::detail

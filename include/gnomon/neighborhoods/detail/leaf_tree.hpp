@@ -17,14 +17,12 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/kept_array.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/finite_entries.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_box.hpp>
 #include <gnomon/neighborhoods/detail/leaf_subtree.hpp>
-#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
@@ -180,8 +178,8 @@ class leaf_tree {
         run(subtrees, [&](std::size_t s) { build_below(all, level[s]); });
     }
 
-    /// A subtree on one thread. (This, split() and sort_by_index() are templates, so that only
-    /// code that builds a tree compiles them.)
+    /// A subtree on one thread. (This and split() are templates, so that only code that builds a
+    /// tree compiles them.)
     void build_below(auto all, const subtree& t) {
         if (t.is_leaf()) {
             const auto entries = entries_of(all, t);
@@ -227,16 +225,6 @@ class leaf_tree {
             entries.begin(), entries.begin() + at, entries.end(),
             [axis](const entry& p, const entry& q) { return p.at[axis] < q.at[axis]; });
         return children;
-    }
-
-    /// Points at one position are sorted by their index, so that a search for the k nearest stops
-    /// after k of them. (As neighbors, whose sort a query needs as well: for compile time only.)
-    static void sort_by_index(auto entries) {
-        scratch<neighbor> sorted(entries.size());
-        for (std::size_t l = 0; l < sorted.size(); ++l) sorted[l].index = entries[l].index;
-        if (std::is_sorted(sorted.data(), sorted.data() + sorted.size())) return;
-        std::sort(sorted.data(), sorted.data() + sorted.size());
-        for (std::size_t l = 0; l < sorted.size(); ++l) entries[l].index = sorted[l].index;
     }
 
     std::size_t size_ = 0;
