@@ -5801,9 +5801,9 @@ struct hybrid {
 
 namespace gnomon {
 
-/// policy(points, run, projection), in the memory of `graph`, which allocates only to grow. Where
-/// the policy throws, the graph has no points.
-/// @param graph   its content is replaced
+/// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph has
+/// no points.
+/// @param graph   its content is replaced; its arrays allocate only to grow
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range
@@ -6909,7 +6909,7 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
 
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
-/// to grow.
+/// what a search needs while it runs.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,

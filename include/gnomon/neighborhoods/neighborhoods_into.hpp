@@ -15,9 +15,9 @@
 
 namespace gnomon {
 
-/// policy(points, run, projection), in the memory of `graph`, which allocates only to grow. Where
-/// the policy throws, the graph has no points.
-/// @param graph   its content is replaced
+/// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph has
+/// no points.
+/// @param graph   its content is replaced; its arrays allocate only to grow
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range

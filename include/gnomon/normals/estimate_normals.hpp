@@ -103,7 +103,7 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
 
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
-/// to grow.
+/// what a search needs while it runs.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
