@@ -58,7 +58,7 @@ def cpu():
             name, _, value = line.partition(":")
             fields.setdefault(name.strip(), value.strip())
     name = fields.get("model name") or platform.processor() or platform.machine()
-    flags = told.get("flags", "").split()
+    flags = fields.get("flags", "").split()
     for flag, vectors in (("avx512f", "AVX-512"), ("avx2", "AVX2")):
         if flag in flags:
             return f"{name}, {vectors}"
