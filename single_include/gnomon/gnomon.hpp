@@ -5801,8 +5801,8 @@ struct hybrid {
 
 namespace gnomon {
 
-/// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph has
-/// no points.
+/// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph
+/// has no points.
 /// @param graph   its content is replaced; its arrays allocate only to grow
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
