@@ -2227,17 +2227,24 @@ class pool_scope {
     memory_pool* outer_;
 };
 
-/// Memory from a pool, or from operator new if there is none. (Not inline, nor is its counterpart:
-/// vectors of all types would contain a copy. For compile time only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes) {
-    return pool != nullptr ? pool->allocate(bytes)
-                           : ::operator new(bytes, std::align_val_t{memory_pool::alignment});
+/// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
+/// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
+/// only.)
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes,
+                                                        std::size_t alignment) {
+    if (pool != nullptr) return pool->allocate(bytes);
+    return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
+               ? ::operator new(bytes, std::align_val_t{alignment})
+               : ::operator new(bytes);
 }
-[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory) noexcept {
+[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory,
+                                            std::size_t alignment) noexcept {
     if (pool != nullptr)
         pool->deallocate(memory);
+    else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
+        ::operator delete(memory, std::align_val_t{alignment});
     else
-        ::operator delete(memory, std::align_val_t{memory_pool::alignment});
+        ::operator delete(memory);
 }
 
 /// An allocator over the pool that was current on its thread when it was constructed.
@@ -2255,9 +2262,9 @@ class pooled {
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        return static_cast<T*>(allocate_from(pool_, n * sizeof(T)));
+        return static_cast<T*>(allocate_from(pool_, n * sizeof(T), alignof(T)));
     }
-    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values); }
+    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values, alignof(T)); }
 
     /// Copies of a container use the pool that is current when they are made.
     [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }
@@ -4169,6 +4176,7 @@ class leaf_search {
     }
 
   private:
+    static constexpr double unlimited = std::numeric_limits<double>::infinity();
     static constexpr std::size_t few = 16;  // are ranked at once; performance only
 
     /// Visits all query points that wait.
@@ -4217,7 +4225,7 @@ class leaf_search {
                         [&](auto instructions) { return list_.count(instructions, below, above); });
                     selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
                                                  : list_.take_within(d2);
-                    drop_farther(p);
+                    if (radius_ < unlimited) drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
                 limit = 1.1f * above;  // ties of the k-th may not be among the candidates
@@ -4225,7 +4233,7 @@ class leaf_search {
                 limit = 2.5f * limit;
             } else {
                 selected_ = list_.take_within(most);
-                drop_farther(p);
+                if (radius_ < unlimited) drop_farther(p);
                 return std::numeric_limits<double>::infinity();
             }
             limit = std::min(most, limit);
@@ -4234,7 +4242,6 @@ class leaf_search {
 
     /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
-        if (radius_ == std::numeric_limits<double>::infinity()) return;
         std::uint32_t *const first = selected_.data(), *const last = first + selected_.size();
         selected_ = {first, std::remove_if(first, last, [&](std::uint32_t at) {
                          return tree_.squared_distance(p, at) > radius_ * radius_;

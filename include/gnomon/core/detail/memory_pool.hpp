@@ -123,17 +123,24 @@ class pool_scope {
     memory_pool* outer_;
 };
 
-/// Memory from a pool, or from operator new if there is none. (Not inline, nor is its counterpart:
-/// vectors of all types would contain a copy. For compile time only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes) {
-    return pool != nullptr ? pool->allocate(bytes)
-                           : ::operator new(bytes, std::align_val_t{memory_pool::alignment});
+/// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
+/// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
+/// only.)
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes,
+                                                        std::size_t alignment) {
+    if (pool != nullptr) return pool->allocate(bytes);
+    return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
+               ? ::operator new(bytes, std::align_val_t{alignment})
+               : ::operator new(bytes);
 }
-[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory) noexcept {
+[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory,
+                                            std::size_t alignment) noexcept {
     if (pool != nullptr)
         pool->deallocate(memory);
+    else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
+        ::operator delete(memory, std::align_val_t{alignment});
     else
-        ::operator delete(memory, std::align_val_t{memory_pool::alignment});
+        ::operator delete(memory);
 }
 
 /// An allocator over the pool that was current on its thread when it was constructed.
@@ -151,9 +158,9 @@ class pooled {
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
     [[nodiscard]] T* allocate(std::size_t n) {
-        return static_cast<T*>(allocate_from(pool_, n * sizeof(T)));
+        return static_cast<T*>(allocate_from(pool_, n * sizeof(T), alignof(T)));
     }
-    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values); }
+    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values, alignof(T)); }
 
     /// Copies of a container use the pool that is current when they are made.
     [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }

@@ -80,6 +80,7 @@ class leaf_search {
     }
 
   private:
+    static constexpr double unlimited = std::numeric_limits<double>::infinity();
     static constexpr std::size_t few = 16;  // are ranked at once; performance only
 
     /// Visits all query points that wait.
@@ -128,7 +129,7 @@ class leaf_search {
                         [&](auto instructions) { return list_.count(instructions, below, above); });
                     selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
                                                  : list_.take_within(d2);
-                    drop_farther(p);
+                    if (radius_ < unlimited) drop_farther(p);
                     return learn(static_cast<double>(above) / (scale * scale));
                 }
                 limit = 1.1f * above;  // ties of the k-th may not be among the candidates
@@ -136,7 +137,7 @@ class leaf_search {
                 limit = 2.5f * limit;
             } else {
                 selected_ = list_.take_within(most);
-                drop_farther(p);
+                if (radius_ < unlimited) drop_farther(p);
                 return std::numeric_limits<double>::infinity();
             }
             limit = std::min(most, limit);
@@ -145,7 +146,6 @@ class leaf_search {
 
     /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
-        if (radius_ == std::numeric_limits<double>::infinity()) return;
         std::uint32_t *const first = selected_.data(), *const last = first + selected_.size();
         selected_ = {first, std::remove_if(first, last, [&](std::uint32_t at) {
                          return tree_.squared_distance(p, at) > radius_ * radius_;
