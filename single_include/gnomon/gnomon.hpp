@@ -2097,14 +2097,6 @@ void resize_touched(std::vector<T, Allocator>& values, std::size_t n, const X& r
     values.resize(n);
 }
 
-/// A vector of n values T{}, its pages mapped by all threads. O(n).
-template <class T, execution X>
-[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
-    std::vector<T> values;
-    resize_touched(values, n, run);
-    return values;
-}
-
 /// An array of n uninitialized values, its pages mapped by all threads. O(n).
 template <class T, execution X>
 [[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {
@@ -3864,6 +3856,326 @@ template <class Loop>
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
+// -------- gnomon/neighborhoods/detail/sorting_network.hpp ----------------------------------------
+
+/// @file
+/// Sorts short lists of integers without branches: Batcher's bitonic sorting network (Batcher 1968,
+/// "Sorting networks and their applications"), on vectors of integers.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// A network on the vectors of integers of an instruction set. Vectors are passed by reference: by
+/// value, they would change the calling convention where the compiler's flags do not include the
+/// instruction set.
+template <class Instructions>
+class sorting_network {
+    using vector = typename Instructions::integers;
+    static constexpr std::size_t width = sizeof(vector) / sizeof(int);
+
+  public:
+    /// The least length that can be sorted and holds n integers.
+    [[nodiscard]] static constexpr std::size_t length_for(std::size_t n) {
+        return width * std::bit_ceil((n + width - 1) / width);
+    }
+
+    /// Sorts `list` in ascending order. O(n log^2 n).
+    /// Precondition: n = length_for(n), and `list` is aligned for a vector.
+    [[gnu::always_inline]] static void sort(std::int32_t* list, std::size_t n) {
+        auto* const all = reinterpret_cast<vector*>(list);
+        const std::size_t vectors = n / width;
+        for (std::size_t v = 0; v < vectors; ++v) sort_lanes<2>(all[v]);
+        for (std::size_t sorted = 1; sorted < vectors; sorted *= 2)
+            for (std::size_t v = 0; v < vectors; v += 2 * sorted) merge(all + v, sorted);
+    }
+
+    /// Whether two successive integers of `list` are equal apart from their lowest bits, the bits
+    /// of `ignored`. The integer after the list is the successor of the last one.
+    ///
+    /// Precondition: n = length_for(n), and no integer is negative.
+    [[nodiscard, gnu::always_inline]] static bool has_equal_successors(const std::int32_t* list,
+                                                                       std::size_t n,
+                                                                       std::int32_t ignored) {
+        vector equal = {};  // lanes are 0 or -1
+        for (std::size_t i = 0; i < n; i += width) {
+            vector these, next;
+            std::memcpy(&these, list + i, sizeof these);
+            std::memcpy(&next, list + i + 1, sizeof next);
+            equal |= (these ^ next) <= ignored;
+        }
+        std::int32_t any = 0;
+        for (std::size_t l = 0; l < width; ++l) any |= equal[l];
+        return any != 0;
+    }
+
+  private:
+    /// Merges two sorted lists of `vectors` vectors each, one after the other.
+    [[gnu::always_inline]] static void merge(vector* list, std::size_t vectors) {
+        // The second list backwards makes both one bitonic list.
+        for (std::size_t v = 0; v < vectors; ++v) {
+            vector& second = list[2 * vectors - 1 - v];
+            reverse(second, lanes_of_vector{});
+            exchange(list[v], second);
+        }
+        for (std::size_t apart = vectors / 2; apart > 0; apart /= 2)
+            for (std::size_t first = 0; first < 2 * vectors; first += 2 * apart)
+                for (std::size_t v = first; v < first + apart; ++v)
+                    exchange(list[v], list[v + apart]);
+        for (std::size_t v = 0; v < 2 * vectors; ++v) merge_lanes<width / 2>(list[v]);
+    }
+
+    /// Sorts the lanes of a vector, of which `Length` / 2 successive ones are sorted already.
+    template <std::size_t Length>
+    [[gnu::always_inline]] static void sort_lanes(vector& v) {
+        exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
+        merge_lanes<Length / 4>(v);
+        if constexpr (Length < width) sort_lanes<2 * Length>(v);
+    }
+
+    /// Sorts each 2 `Apart` successive lanes, which are a bitonic list.
+    template <std::size_t Apart>
+    [[gnu::always_inline]] static void merge_lanes(vector& v) {
+        if constexpr (Apart > 0) {
+            exchange_lanes<Apart, Apart>(v, lanes_of_vector{});
+            merge_lanes<Apart / 2>(v);
+        }
+    }
+
+    using lanes_of_vector = std::make_index_sequence<width>;
+
+    /// Sorts lanes l and l ^ `Partner`; the one without the bit `Upper` gets the lesser.
+    template <std::size_t Partner, std::size_t Upper, std::size_t... L>
+    [[gnu::always_inline]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
+        vector other = __builtin_shufflevector(v, v, (L ^ Partner)...);
+        exchange(v, other);
+        v = __builtin_shufflevector(v, other, ((L & Upper) != 0 ? L + width : L)...);
+    }
+
+    template <std::size_t... L>
+    [[gnu::always_inline]] static void reverse(vector& v, std::index_sequence<L...>) {
+        v = __builtin_shufflevector(v, v, (width - 1 - L)...);
+    }
+
+    /// Leaves in each lane of a the lesser integer, and in b the greater.
+    [[gnu::always_inline]] static void exchange(vector& a, vector& b) {
+        const vector lesser = a < b ? a : b;
+        b = a < b ? b : a;
+        a = lesser;
+    }
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/neighbor_order.hpp -----------------------------------------
+
+/// @file
+/// Sorts few neighbors into canonical order. The key of a neighbor is a 32-bit integer: the leading
+/// bits of its squared distance as a float, then its number in the list. Rounding to a float does
+/// not change the order of two distances, unless it makes them equal. So a sorting network of the
+/// keys gives the canonical order up to neighbors with equal leading bits; these are compared by
+/// their distances in double and by their indices.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// The canonical order of at most `Most` neighbors, which have the numbers 0 to n - 1. (A template,
+/// so that only users of a search compile it.)
+template <std::size_t Most = 128>
+class neighbor_order {
+  public:
+    static constexpr std::size_t most = Most;
+
+    /// Sorts n neighbors: number j has the squared distance squared[j] [m^2], finite and not
+    /// negative, and the index index_of(j). O(n log^2 n).
+    neighbor_order(std::span<const double> squared, auto&& index_of) {
+        constexpr double largest = std::numeric_limits<float>::max();
+        for (std::size_t j = 0; j < squared.size(); ++j) {
+            const auto rounded = static_cast<float>(std::min(squared[j], largest));
+            keys_[j] = (std::bit_cast<std::int32_t>(rounded) & ~number_bits) |
+                       static_cast<std::int32_t>(j);
+        }
+        if (!sort_keys(squared.size())) return;
+        sort_equal_keys(squared.size(), [&](std::size_t j) {
+            return neighbor{squared[j], index_of(j)};
+        });
+    }
+
+    /// The number of the neighbor of a rank; the nearest neighbor has the rank 0.
+    [[nodiscard]] std::size_t operator[](std::size_t rank) const { return number_of(keys_[rank]); }
+
+  private:
+    static constexpr std::int32_t number_bits = Most - 1;
+    static_assert(std::has_single_bit(Most));
+
+    [[nodiscard]] static std::size_t number_of(std::int32_t key) {
+        return static_cast<std::size_t>(key & number_bits);
+    }
+
+    /// Sorts the n keys.
+    /// @return whether two of them have equal leading bits
+    bool sort_keys(std::size_t n) {
+        return with_widest([&](auto instructions) {
+            using network = sorting_network<decltype(instructions)>;
+            const std::size_t length = network::length_for(n);
+            // The keys that fill the list up are greater than the others and differ in their
+            // leading bits.
+            for (std::size_t j = n; j <= length; ++j)
+                keys_[j] =
+                    std::numeric_limits<std::int32_t>::max() - static_cast<std::int32_t>(Most * j);
+            network::sort(keys_.data(), length);
+            return network::has_equal_successors(keys_.data(), length, number_bits);
+        });
+    }
+
+    /// Sorts the keys with equal leading bits by neighbor_of(number).
+    void sort_equal_keys(std::size_t n, auto&& neighbor_of) {
+        const auto end = keys_.begin() + static_cast<std::ptrdiff_t>(n);
+        for (auto first = keys_.begin(); first != end;) {
+            const auto last = std::find_if(first + 1, end, [&](std::int32_t key) {
+                return (key | number_bits) != (*first | number_bits);
+            });
+            std::sort(first, last, [&](std::int32_t a, std::int32_t b) {
+                return neighbor_of(number_of(a)) < neighbor_of(number_of(b));
+            });
+            first = last;
+        }
+    }
+
+    alignas(32) std::array<std::int32_t, Most + 1> keys_;  // in ascending order
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/found_neighbors.hpp ----------------------------------------
+
+/// @file
+/// The neighbors that a sweep found for one point, by their places in the tree: their moments and
+/// mean distance, in one pass over vectors of neighbors that stores nothing, and, on request, the
+/// neighbors in canonical order.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Sums over the neighbors of a point.
+struct neighborhood_sums {
+    moments about_point;
+    double mean_distance = 0.0;  // from it [m]; 0 if there are none
+};
+
+/// A view of the neighbors of one point, in no particular order; valid until the search goes on to
+/// the next point. (A template, so that only users of a search compile it.)
+template <class Tree>
+class found_neighbors {
+  public:
+    /// The points at `places` of the tree, seen from that at `from`.
+    found_neighbors(const Tree& tree, std::size_t from, std::span<const std::uint32_t> places)
+        : tree_(tree), from_(from), places_(places) {}
+
+    [[nodiscard]] std::size_t size() const { return places_.size(); }
+
+    /// The moments [m], [m^2] of the neighbors about the point, and their mean distance. O(k).
+    [[nodiscard]] neighborhood_sums summed() const {
+        vector_sums all;
+        const std::size_t whole = size() / slim_pack::size * slim_pack::size;
+        for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
+        if (whole < size()) {
+            std::array<std::uint32_t, slim_pack::size> last;
+            last.fill(static_cast<std::uint32_t>(from_));  // adds zeros
+            std::copy(places_.begin() + static_cast<std::ptrdiff_t>(whole), places_.end(),
+                      last.begin());
+            add(all, last.data());
+        }
+        neighborhood_sums r;
+        r.about_point.count = size();
+        r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
+        r.about_point.outer(0, 0) = all.xx.sum();
+        r.about_point.outer(1, 0) = all.xy.sum();
+        r.about_point.outer(2, 0) = all.xz.sum();
+        r.about_point.outer(1, 1) = all.yy.sum();
+        r.about_point.outer(2, 1) = all.yz.sum();
+        r.about_point.outer(2, 2) = all.zz.sum();
+        if (size() > 0) r.mean_distance = all.distance.sum() / static_cast<double>(size());
+        return r;
+    }
+
+    /// Replaces the content of `sorted` by the neighbors in canonical order. O(k log k), for few
+    /// neighbors O(k log^2 k).
+    template <class Allocator>
+    void sort_into(std::vector<neighbor, Allocator>& sorted) const {
+        sorted.resize(size());
+        if (size() <= order::most) {
+            in_order([&](std::size_t rank, const neighbor& q) { sorted[rank] = q; });
+        } else {
+            for (std::size_t j = 0; j < size(); ++j) sorted[j] = at(j);
+            std::sort(sorted.begin(), sorted.end());
+        }
+    }
+
+    /// Writes the indices of the neighbors in canonical order; `buffer` is memory for the sorting
+    /// of many neighbors. As long as sort_into(sorted).
+    template <class Allocator>
+    void sort_into(point_index* indices, std::vector<neighbor, Allocator>& buffer) const {
+        if (size() <= order::most) {
+            in_order([&](std::size_t rank, const neighbor& q) { indices[rank] = q.index; });
+        } else {
+            sort_into(buffer);
+            for (const neighbor& q : buffer) *indices++ = q.index;
+        }
+    }
+
+  private:
+    using order = neighbor_order<>;
+
+    struct vector_sums {
+        slim_pack x = 0.0, y = 0.0, z = 0.0;
+        slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+        slim_pack distance = 0.0;
+    };
+
+    /// Adds as many neighbors as a vector has numbers.
+    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
+        const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
+        const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
+        const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
+        const slim_pack xx = x * x, yy = y * y, zz = z * z;
+        all.x += x;
+        all.y += y;
+        all.z += z;
+        all.xx += xx;
+        all.xy += x * y;
+        all.xz += x * z;
+        all.yy += yy;
+        all.yz += y * z;
+        all.zz += zz;
+        all.distance += root(xx + yy + zz);
+    }
+
+    [[nodiscard]] neighbor at(std::size_t j) const {
+        return {tree_.squared_distance(from_, places_[j]), tree_.index()[places_[j]]};
+    }
+
+    /// Calls write(rank, neighbor) for all neighbors.
+    /// Precondition: there are at most order::most.
+    void in_order(auto&& write) const {
+        std::array<double, order::most> squared;
+        for (std::size_t j = 0; j < size(); ++j)
+            squared[j] = tree_.squared_distance(from_, places_[j]);
+        const auto index_of = [&](std::size_t j) { return tree_.index()[places_[j]]; };
+        const order sorted({squared.data(), size()}, index_of);
+        for (std::size_t rank = 0; rank < size(); ++rank)
+            write(rank, neighbor{squared[sorted[rank]], index_of(sorted[rank])});
+    }
+
+    const Tree& tree_;
+    std::size_t from_;
+    std::span<const std::uint32_t> places_;
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/leaf_list.hpp ----------------------------------------------
 
 /// @file
@@ -4345,326 +4657,6 @@ class leaf_search {
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
-// -------- gnomon/neighborhoods/detail/sorting_network.hpp ----------------------------------------
-
-/// @file
-/// Sorts short lists of integers without branches: Batcher's bitonic sorting network (Batcher 1968,
-/// "Sorting networks and their applications"), on vectors of integers.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// A network on the vectors of integers of an instruction set. Vectors are passed by reference: by
-/// value, they would change the calling convention where the compiler's flags do not include the
-/// instruction set.
-template <class Instructions>
-class sorting_network {
-    using vector = typename Instructions::integers;
-    static constexpr std::size_t width = sizeof(vector) / sizeof(int);
-
-  public:
-    /// The least length that can be sorted and holds n integers.
-    [[nodiscard]] static constexpr std::size_t length_for(std::size_t n) {
-        return width * std::bit_ceil((n + width - 1) / width);
-    }
-
-    /// Sorts `list` in ascending order. O(n log^2 n).
-    /// Precondition: n = length_for(n), and `list` is aligned for a vector.
-    [[gnu::always_inline]] static void sort(std::int32_t* list, std::size_t n) {
-        auto* const all = reinterpret_cast<vector*>(list);
-        const std::size_t vectors = n / width;
-        for (std::size_t v = 0; v < vectors; ++v) sort_lanes<2>(all[v]);
-        for (std::size_t sorted = 1; sorted < vectors; sorted *= 2)
-            for (std::size_t v = 0; v < vectors; v += 2 * sorted) merge(all + v, sorted);
-    }
-
-    /// Whether two successive integers of `list` are equal apart from their lowest bits, the bits
-    /// of `ignored`. The integer after the list is the successor of the last one.
-    ///
-    /// Precondition: n = length_for(n), and no integer is negative.
-    [[nodiscard, gnu::always_inline]] static bool has_equal_successors(const std::int32_t* list,
-                                                                       std::size_t n,
-                                                                       std::int32_t ignored) {
-        vector equal = {};  // lanes are 0 or -1
-        for (std::size_t i = 0; i < n; i += width) {
-            vector these, next;
-            std::memcpy(&these, list + i, sizeof these);
-            std::memcpy(&next, list + i + 1, sizeof next);
-            equal |= (these ^ next) <= ignored;
-        }
-        std::int32_t any = 0;
-        for (std::size_t l = 0; l < width; ++l) any |= equal[l];
-        return any != 0;
-    }
-
-  private:
-    /// Merges two sorted lists of `vectors` vectors each, one after the other.
-    [[gnu::always_inline]] static void merge(vector* list, std::size_t vectors) {
-        // The second list backwards makes both one bitonic list.
-        for (std::size_t v = 0; v < vectors; ++v) {
-            vector& second = list[2 * vectors - 1 - v];
-            reverse(second, lanes_of_vector{});
-            exchange(list[v], second);
-        }
-        for (std::size_t apart = vectors / 2; apart > 0; apart /= 2)
-            for (std::size_t first = 0; first < 2 * vectors; first += 2 * apart)
-                for (std::size_t v = first; v < first + apart; ++v)
-                    exchange(list[v], list[v + apart]);
-        for (std::size_t v = 0; v < 2 * vectors; ++v) merge_lanes<width / 2>(list[v]);
-    }
-
-    /// Sorts the lanes of a vector, of which `Length` / 2 successive ones are sorted already.
-    template <std::size_t Length>
-    [[gnu::always_inline]] static void sort_lanes(vector& v) {
-        exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
-        merge_lanes<Length / 4>(v);
-        if constexpr (Length < width) sort_lanes<2 * Length>(v);
-    }
-
-    /// Sorts each 2 `Apart` successive lanes, which are a bitonic list.
-    template <std::size_t Apart>
-    [[gnu::always_inline]] static void merge_lanes(vector& v) {
-        if constexpr (Apart > 0) {
-            exchange_lanes<Apart, Apart>(v, lanes_of_vector{});
-            merge_lanes<Apart / 2>(v);
-        }
-    }
-
-    using lanes_of_vector = std::make_index_sequence<width>;
-
-    /// Sorts lanes l and l ^ `Partner`; the one without the bit `Upper` gets the lesser.
-    template <std::size_t Partner, std::size_t Upper, std::size_t... L>
-    [[gnu::always_inline]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
-        vector other = __builtin_shufflevector(v, v, (L ^ Partner)...);
-        exchange(v, other);
-        v = __builtin_shufflevector(v, other, ((L & Upper) != 0 ? L + width : L)...);
-    }
-
-    template <std::size_t... L>
-    [[gnu::always_inline]] static void reverse(vector& v, std::index_sequence<L...>) {
-        v = __builtin_shufflevector(v, v, (width - 1 - L)...);
-    }
-
-    /// Leaves in each lane of a the lesser integer, and in b the greater.
-    [[gnu::always_inline]] static void exchange(vector& a, vector& b) {
-        const vector lesser = a < b ? a : b;
-        b = a < b ? b : a;
-        a = lesser;
-    }
-};
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/detail/neighbor_order.hpp -----------------------------------------
-
-/// @file
-/// Sorts few neighbors into canonical order. The key of a neighbor is a 32-bit integer: the leading
-/// bits of its squared distance as a float, then its number in the list. Rounding to a float does
-/// not change the order of two distances, unless it makes them equal. So a sorting network of the
-/// keys gives the canonical order up to neighbors with equal leading bits; these are compared by
-/// their distances in double and by their indices.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// The canonical order of at most `Most` neighbors, which have the numbers 0 to n - 1. (A template,
-/// so that only users of a search compile it.)
-template <std::size_t Most = 128>
-class neighbor_order {
-  public:
-    static constexpr std::size_t most = Most;
-
-    /// Sorts n neighbors: number j has the squared distance squared[j] [m^2], finite and not
-    /// negative, and the index index_of(j). O(n log^2 n).
-    neighbor_order(std::span<const double> squared, auto&& index_of) {
-        constexpr double largest = std::numeric_limits<float>::max();
-        for (std::size_t j = 0; j < squared.size(); ++j) {
-            const auto rounded = static_cast<float>(std::min(squared[j], largest));
-            keys_[j] = (std::bit_cast<std::int32_t>(rounded) & ~number_bits) |
-                       static_cast<std::int32_t>(j);
-        }
-        if (!sort_keys(squared.size())) return;
-        sort_equal_keys(squared.size(), [&](std::size_t j) {
-            return neighbor{squared[j], index_of(j)};
-        });
-    }
-
-    /// The number of the neighbor of a rank; the nearest neighbor has the rank 0.
-    [[nodiscard]] std::size_t operator[](std::size_t rank) const { return number_of(keys_[rank]); }
-
-  private:
-    static constexpr std::int32_t number_bits = Most - 1;
-    static_assert(std::has_single_bit(Most));
-
-    [[nodiscard]] static std::size_t number_of(std::int32_t key) {
-        return static_cast<std::size_t>(key & number_bits);
-    }
-
-    /// Sorts the n keys.
-    /// @return whether two of them have equal leading bits
-    bool sort_keys(std::size_t n) {
-        return with_widest([&](auto instructions) {
-            using network = sorting_network<decltype(instructions)>;
-            const std::size_t length = network::length_for(n);
-            // The keys that fill the list up are greater than the others and differ in their
-            // leading bits.
-            for (std::size_t j = n; j <= length; ++j)
-                keys_[j] =
-                    std::numeric_limits<std::int32_t>::max() - static_cast<std::int32_t>(Most * j);
-            network::sort(keys_.data(), length);
-            return network::has_equal_successors(keys_.data(), length, number_bits);
-        });
-    }
-
-    /// Sorts the keys with equal leading bits by neighbor_of(number).
-    void sort_equal_keys(std::size_t n, auto&& neighbor_of) {
-        const auto end = keys_.begin() + static_cast<std::ptrdiff_t>(n);
-        for (auto first = keys_.begin(); first != end;) {
-            const auto last = std::find_if(first + 1, end, [&](std::int32_t key) {
-                return (key | number_bits) != (*first | number_bits);
-            });
-            std::sort(first, last, [&](std::int32_t a, std::int32_t b) {
-                return neighbor_of(number_of(a)) < neighbor_of(number_of(b));
-            });
-            first = last;
-        }
-    }
-
-    alignas(32) std::array<std::int32_t, Most + 1> keys_;  // in ascending order
-};
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/detail/found_neighbors.hpp ----------------------------------------
-
-/// @file
-/// The neighbors that a sweep found for one point, by their places in the tree: their moments and
-/// mean distance, in one pass over vectors of neighbors that stores nothing, and, on request, the
-/// neighbors in canonical order.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// Sums over the neighbors of a point.
-struct neighborhood_sums {
-    moments about_point;
-    double mean_distance = 0.0;  // from it [m]; 0 if there are none
-};
-
-/// A view of the neighbors of one point, in no particular order; valid until the search goes on to
-/// the next point. (A template, so that only users of a search compile it.)
-template <class Tree>
-class found_neighbors {
-  public:
-    /// The points at `places` of the tree, seen from that at `from`.
-    found_neighbors(const Tree& tree, std::size_t from, std::span<const std::uint32_t> places)
-        : tree_(tree), from_(from), places_(places) {}
-
-    [[nodiscard]] std::size_t size() const { return places_.size(); }
-
-    /// The moments [m], [m^2] of the neighbors about the point, and their mean distance. O(k).
-    [[nodiscard]] neighborhood_sums summed() const {
-        vector_sums all;
-        const std::size_t whole = size() / slim_pack::size * slim_pack::size;
-        for (std::size_t j = 0; j < whole; j += slim_pack::size) add(all, places_.data() + j);
-        if (whole < size()) {
-            std::array<std::uint32_t, slim_pack::size> last;
-            last.fill(static_cast<std::uint32_t>(from_));  // adds zeros
-            std::copy(places_.begin() + static_cast<std::ptrdiff_t>(whole), places_.end(),
-                      last.begin());
-            add(all, last.data());
-        }
-        neighborhood_sums r;
-        r.about_point.count = size();
-        r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
-        r.about_point.outer(0, 0) = all.xx.sum();
-        r.about_point.outer(1, 0) = all.xy.sum();
-        r.about_point.outer(2, 0) = all.xz.sum();
-        r.about_point.outer(1, 1) = all.yy.sum();
-        r.about_point.outer(2, 1) = all.yz.sum();
-        r.about_point.outer(2, 2) = all.zz.sum();
-        if (size() > 0) r.mean_distance = all.distance.sum() / static_cast<double>(size());
-        return r;
-    }
-
-    /// Replaces the content of `sorted` by the neighbors in canonical order. O(k log k), for few
-    /// neighbors O(k log^2 k).
-    template <class Allocator>
-    void sort_into(std::vector<neighbor, Allocator>& sorted) const {
-        sorted.resize(size());
-        if (size() <= order::most) {
-            in_order([&](std::size_t rank, const neighbor& q) { sorted[rank] = q; });
-        } else {
-            for (std::size_t j = 0; j < size(); ++j) sorted[j] = at(j);
-            std::sort(sorted.begin(), sorted.end());
-        }
-    }
-
-    /// Writes the indices of the neighbors in canonical order; `buffer` is memory for the sorting
-    /// of many neighbors. As long as sort_into(sorted).
-    template <class Allocator>
-    void sort_into(point_index* indices, std::vector<neighbor, Allocator>& buffer) const {
-        if (size() <= order::most) {
-            in_order([&](std::size_t rank, const neighbor& q) { indices[rank] = q.index; });
-        } else {
-            sort_into(buffer);
-            for (const neighbor& q : buffer) *indices++ = q.index;
-        }
-    }
-
-  private:
-    using order = neighbor_order<>;
-
-    struct vector_sums {
-        slim_pack x = 0.0, y = 0.0, z = 0.0;
-        slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
-        slim_pack distance = 0.0;
-    };
-
-    /// Adds as many neighbors as a vector has numbers.
-    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
-        const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
-        const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
-        const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
-        const slim_pack xx = x * x, yy = y * y, zz = z * z;
-        all.x += x;
-        all.y += y;
-        all.z += z;
-        all.xx += xx;
-        all.xy += x * y;
-        all.xz += x * z;
-        all.yy += yy;
-        all.yz += y * z;
-        all.zz += zz;
-        all.distance += root(xx + yy + zz);
-    }
-
-    [[nodiscard]] neighbor at(std::size_t j) const {
-        return {tree_.squared_distance(from_, places_[j]), tree_.index()[places_[j]]};
-    }
-
-    /// Calls write(rank, neighbor) for all neighbors.
-    /// Precondition: there are at most order::most.
-    void in_order(auto&& write) const {
-        std::array<double, order::most> squared;
-        for (std::size_t j = 0; j < size(); ++j)
-            squared[j] = tree_.squared_distance(from_, places_[j]);
-        const auto index_of = [&](std::size_t j) { return tree_.index()[places_[j]]; };
-        const order sorted({squared.data(), size()}, index_of);
-        for (std::size_t rank = 0; rank < size(); ++rank)
-            write(rank, neighbor{squared[sorted[rank]], index_of(sorted[rank])});
-    }
-
-    const Tree& tree_;
-    std::size_t from_;
-    std::span<const std::uint32_t> places_;
-};
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
 // -------- gnomon/neighborhoods/detail/place_search.hpp -------------------------------------------
 
 /// @file
@@ -4764,17 +4756,17 @@ template <class Tree>
 class nearest_search {
   public:
     nearest_search(const Tree& tree, const nearest_wanted& wanted)
-        : crowded_(tree.crowded()), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+        : tree_(tree), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
 
     void operator()(std::size_t group, auto&& visit) {
-        if (crowded_)
+        if (tree_.crowded())
             by_place_(group, visit);
         else
             by_leaf_(group, visit);
     }
 
   private:
-    bool crowded_;
+    const Tree& tree_;
     leaf_search<Tree> by_leaf_;
     place_search<Tree> by_place_;
 };
@@ -4946,15 +4938,15 @@ namespace gnomon::detail {
 
 /// The graph of n points of which find(i, found) finds the neighbors, and returns their note. The
 /// indices exist twice while it is built.
-/// @tparam Notes   whether the graph stores the notes; not in a `scratch_graph`
+/// @tparam Notes   whether the graph stores the notes
 /// @tparam Buffer  the vector that `find` takes
 /// @param memory   arrays of another graph, which are reused
-template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighbor>, execution X>
-[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find,
-                                    typename Graph::arrays memory = {}) {
+template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
+[[nodiscard]] adjacency collected_graph(std::size_t n, const X& run, auto&& find,
+                                        adjacency::arrays memory = {}) {
     auto& begin = memory.begin;
     begin.assign(n + 1, 0);
-    if constexpr (requires { memory.notes; }) memory.notes.resize(Notes ? n : 0);
+    memory.notes.resize(Notes ? n : 0);
     scratch<scratch<point_index>> indices_of_chunk(chunk_count(n));
     for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
         scratch<point_index>& indices = indices_of_chunk[first / chunk_size];
@@ -4974,7 +4966,7 @@ template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighb
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);
     }
-    return Graph(std::move(memory));
+    return adjacency(std::move(memory));
 }
 
 /// `knn` of some points only; the other points have no neighbors in the graph.
@@ -5011,7 +5003,7 @@ template <indexed_neighborhood N, class R, execution X, class Proj>
         sweep_graph(policy, index, team, memory);
         return adjacency(std::move(memory));
     } else {
-        return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
+        return collected_graph<notes_neighborhoods<N>, neighbor_buffer<N>>(
             index.size(), team,
             [&](std::size_t i, neighbor_buffer<N>& found) {
                 return find_noted(policy, index, i, found);
@@ -7593,7 +7585,8 @@ inline constexpr double largest_variance = 0.25 * std::numbers::pi * std::number
 inline constexpr double vague_trace = 0.1;
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
-/// then so sensitive to the normal that a linear error model does not hold.
+/// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a
+/// unit; a choice of ours, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
 /// The covariance of a normal about which nothing is known.
@@ -10713,7 +10706,8 @@ class unlabeled_cubes {
     }
 
   private:
-    /// In standard deviations: so narrow that the position of the grid has no influence.
+    /// In standard deviations of ranges: so narrow that the position of the grid has no influence.
+    /// (A choice of ours, not in the thesis.)
     static constexpr double side = 0.75;
 
     struct placed {
@@ -11755,11 +11749,12 @@ namespace gnomon {
 
 /// Parameters of `join_surfaces_of_revolution`.
 struct join_surfaces_of_revolution_options {
-    double sigma = 0.015;        ///< standard deviation of ranges [m]: radii of 2 sigma can be told
-    double max_radius = 0.25;    ///< of what is joined, the mean over its points; of a piece that
-                                 ///< is a segment, a quarter of the length [m]
-    double max_distance = 0.30;  ///< rho_max between points that hang together [m]
-    std::size_t min_points = 30;  ///< of what is joined
+    double sigma = 0.015;  ///< standard deviation of ranges [m]: radii of 2 sigma can be told
+    /// Largest mean distance of the points of a joined segment from its axis [m]; a segment may be
+    /// joined if it is at most four times as long.
+    double max_radius = 0.25;
+    double max_distance = 0.30;   ///< between points that are connected [m]; rho_max
+    std::size_t min_points = 30;  ///< the smallest size of a joined segment
 };
 
 namespace detail {
@@ -11844,7 +11839,8 @@ class revolution_joiner {
     }
 
     /// No wider than half of a cylinder, the variance of whose width is half of its squared radius,
-    /// and no longer than four radii: a stair is not, to which a vase hangs by a few stray points.
+    /// and no longer than four radii: excludes the step of a stair on which a vase stands and to
+    /// which a few unlabeled points connect it.
     [[nodiscard]] bool is_small(std::span<const point_index> part) const {
         scratch<Eigen::Vector3d> positions;
         positions.reserve(part.size());
@@ -11854,7 +11850,7 @@ class revolution_joiner {
         return spread[1] <= 0.5 * squared_radius && spread[0] <= 16.0 / 12.0 * squared_radius;
     }
 
-    /// Joins what hangs together: by Alg. 4.2, whatever the angle.
+    /// Unites connected points as Alg. 4.2 does, whatever the angle between their normals.
     template <execution X>
     void join_near(std::span<const point_index> some, const X& run) {
         const smooth_link<Surface> link(

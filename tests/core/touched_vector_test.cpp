@@ -20,7 +20,8 @@ struct thirteen {
 
 TEST(touched_vector, holds_n_default_values) {
     const auto expect = [](std::size_t n, const auto& run) {
-        const auto values = gnomon::detail::touched_vector<thirteen>(n, run);
+        std::vector<thirteen> values;
+        gnomon::detail::resize_touched(values, n, run);
         ASSERT_EQ(values.size(), n);
         for (const thirteen& v : values) ASSERT_TRUE(v.value == 13 && v.more[11] == 0.0);
     };

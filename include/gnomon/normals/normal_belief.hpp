@@ -58,7 +58,8 @@ inline constexpr double largest_variance = 0.25 * std::numbers::pi * std::number
 inline constexpr double vague_trace = 0.1;
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
-/// then so sensitive to the normal that a linear error model does not hold.
+/// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a
+/// unit; a choice of ours, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
 /// The covariance of a normal about which nothing is known.

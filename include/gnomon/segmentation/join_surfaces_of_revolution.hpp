@@ -40,11 +40,12 @@ namespace gnomon {
 
 /// Parameters of `join_surfaces_of_revolution`.
 struct join_surfaces_of_revolution_options {
-    double sigma = 0.015;        ///< standard deviation of ranges [m]: radii of 2 sigma can be told
-    double max_radius = 0.25;    ///< of what is joined, the mean over its points; of a piece that
-                                 ///< is a segment, a quarter of the length [m]
-    double max_distance = 0.30;  ///< rho_max between points that hang together [m]
-    std::size_t min_points = 30;  ///< of what is joined
+    double sigma = 0.015;  ///< standard deviation of ranges [m]: radii of 2 sigma can be told
+    /// Largest mean distance of the points of a joined segment from its axis [m]; a segment may be
+    /// joined if it is at most four times as long.
+    double max_radius = 0.25;
+    double max_distance = 0.30;   ///< between points that are connected [m]; rho_max
+    std::size_t min_points = 30;  ///< the smallest size of a joined segment
 };
 
 namespace detail {
@@ -129,7 +130,8 @@ class revolution_joiner {
     }
 
     /// No wider than half of a cylinder, the variance of whose width is half of its squared radius,
-    /// and no longer than four radii: a stair is not, to which a vase hangs by a few stray points.
+    /// and no longer than four radii: excludes the step of a stair on which a vase stands and to
+    /// which a few unlabeled points connect it.
     [[nodiscard]] bool is_small(std::span<const point_index> part) const {
         scratch<Eigen::Vector3d> positions;
         positions.reserve(part.size());
@@ -139,7 +141,7 @@ class revolution_joiner {
         return spread[1] <= 0.5 * squared_radius && spread[0] <= 16.0 / 12.0 * squared_radius;
     }
 
-    /// Joins what hangs together: by Alg. 4.2, whatever the angle.
+    /// Unites connected points as Alg. 4.2 does, whatever the angle between their normals.
     template <execution X>
     void join_near(std::span<const point_index> some, const X& run) {
         const smooth_link<Surface> link(

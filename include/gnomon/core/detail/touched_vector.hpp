@@ -45,14 +45,6 @@ void resize_touched(std::vector<T, Allocator>& values, std::size_t n, const X& r
     values.resize(n);
 }
 
-/// A vector of n values T{}, its pages mapped by all threads. O(n).
-template <class T, execution X>
-[[nodiscard]] std::vector<T> touched_vector(std::size_t n, const X& run) {
-    std::vector<T> values;
-    resize_touched(values, n, run);
-    return values;
-}
-
 /// An array of n uninitialized values, its pages mapped by all threads. O(n).
 template <class T, execution X>
 [[nodiscard]] std::unique_ptr<T[]> touched_array(std::size_t n, const X& run) {

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -13,12 +12,11 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
-#include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
+#include <gnomon/neighborhoods/detail/nearest_wanted.hpp>
 #include <gnomon/neighborhoods/detail/place_set.hpp>
 #include <gnomon/neighborhoods/detail/scratch_graph.hpp>
 #include <gnomon/neighborhoods/detail/swept_graph.hpp>
-#include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
@@ -26,15 +24,15 @@ namespace gnomon::detail {
 
 /// The graph of n points of which find(i, found) finds the neighbors, and returns their note. The
 /// indices exist twice while it is built.
-/// @tparam Notes   whether the graph stores the notes; not in a `scratch_graph`
+/// @tparam Notes   whether the graph stores the notes
 /// @tparam Buffer  the vector that `find` takes
 /// @param memory   arrays of another graph, which are reused
-template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighbor>, execution X>
-[[nodiscard]] Graph collected_graph(std::size_t n, const X& run, auto&& find,
-                                    typename Graph::arrays memory = {}) {
+template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
+[[nodiscard]] adjacency collected_graph(std::size_t n, const X& run, auto&& find,
+                                        adjacency::arrays memory = {}) {
     auto& begin = memory.begin;
     begin.assign(n + 1, 0);
-    if constexpr (requires { memory.notes; }) memory.notes.resize(Notes ? n : 0);
+    memory.notes.resize(Notes ? n : 0);
     scratch<scratch<point_index>> indices_of_chunk(chunk_count(n));
     for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
         scratch<point_index>& indices = indices_of_chunk[first / chunk_size];
@@ -54,7 +52,7 @@ template <bool Notes, class Graph = adjacency, class Buffer = std::vector<neighb
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);
     }
-    return Graph(std::move(memory));
+    return adjacency(std::move(memory));
 }
 
 /// `knn` of some points only; the other points have no neighbors in the graph.
@@ -91,7 +89,7 @@ template <indexed_neighborhood N, class R, execution X, class Proj>
         sweep_graph(policy, index, team, memory);
         return adjacency(std::move(memory));
     } else {
-        return collected_graph<notes_neighborhoods<N>, adjacency, neighbor_buffer<N>>(
+        return collected_graph<notes_neighborhoods<N>, neighbor_buffer<N>>(
             index.size(), team,
             [&](std::size_t i, neighbor_buffer<N>& found) {
                 return find_noted(policy, index, i, found);

@@ -67,17 +67,17 @@ template <class Tree>
 class nearest_search {
   public:
     nearest_search(const Tree& tree, const nearest_wanted& wanted)
-        : crowded_(tree.crowded()), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+        : tree_(tree), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
 
     void operator()(std::size_t group, auto&& visit) {
-        if (crowded_)
+        if (tree_.crowded())
             by_place_(group, visit);
         else
             by_leaf_(group, visit);
     }
 
   private:
-    bool crowded_;
+    const Tree& tree_;
     leaf_search<Tree> by_leaf_;
     place_search<Tree> by_place_;
 };

@@ -94,7 +94,8 @@ class unlabeled_cubes {
     }
 
   private:
-    /// In standard deviations: so narrow that the position of the grid has no influence.
+    /// In standard deviations of ranges: so narrow that the position of the grid has no influence.
+    /// (A choice of ours, not in the thesis.)
     static constexpr double side = 0.75;
 
     struct placed {
