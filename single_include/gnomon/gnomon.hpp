@@ -2111,17 +2111,26 @@ template <class T, execution X>
 // -------- gnomon/core/detail/memory_pool.hpp -----------------------------------------------------
 
 /// @file
-/// Memory that algorithms reuse from one call to the next. A `memory_pool` keeps the blocks that
-/// are returned to it. While a `pool_scope` exists, every `scratch` vector that is constructed on
-/// its thread takes its memory from the pool of that scope; without a scope, from operator new.
+/// Blocks of memory that are kept for the next call.
+///
+/// Which pieces of work run at the same time differs from call to call. So that the blocks of one
+/// call suffice for the next, whatever its order, a pool notes what one piece of work holds at
+/// most, and sets as many blocks aside as all threads hold that do the same.
 
 namespace gnomon::detail {
 
 /// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
 /// block is free, and returns its blocks when it is destroyed. Thread-safe.
 class memory_pool {
+    /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
+    /// size. So at most a fifth of a block is unused.
+    static constexpr std::size_t classes = 4 * std::numeric_limits<std::size_t>::digits;
+
   public:
     static constexpr std::size_t alignment = 64;  // [bytes], of all blocks: a cache line
+
+    /// The number of blocks that a piece of work holds, by the class of the size it asked for.
+    using holdings = std::array<std::uint32_t, classes>;
 
     memory_pool() = default;
     memory_pool(const memory_pool&) = delete;
@@ -2133,41 +2142,62 @@ class memory_pool {
                 ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
     }
 
-    /// At least `bytes` bytes. O(1). Throws std::bad_alloc.
-    [[nodiscard]] void* allocate(std::size_t bytes) {
-        const std::size_t smallest = size_class(bytes);
-        block* found = take(smallest);
-        if (found == nullptr) {
-            const std::size_t size = sizeof(block) + size_of(smallest);
-            found = new (::operator new(size, std::align_val_t{alignment})) block{smallest};
-            // All pages are mapped now: otherwise the resident memory would grow when a later user
-            // of the block writes to more of it.
-            auto* const bytes_of_block = reinterpret_cast<std::byte*>(found);
-            touch(bytes_of_block + sizeof(block), bytes_of_block + size);
-        }
+    /// At least `bytes` bytes, for the piece of work whose holdings these are, if it is not null.
+    /// O(1). Throws std::bad_alloc.
+    [[nodiscard]] void* allocate(std::size_t bytes, holdings* held) {
+        const std::size_t asked = size_class(bytes);
+        block* found = take(asked, held);
+        if (found == nullptr)
+            found = made(asked, ::operator new(bytes_of(asked), std::align_val_t{alignment}));
+        found->asked = asked;
         return found + 1;
     }
 
-    /// Returns a block that allocate() gave. O(1).
-    void deallocate(void* bytes) noexcept {
+    /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
+    void deallocate(void* bytes, holdings* held) noexcept {
         block* const returned = static_cast<block*>(bytes) - 1;
         const guard_of locked(guard_);
-        returned->next = free_[returned->size_class];
-        free_[returned->size_class] = returned;
+        if (held != nullptr && (*held)[returned->asked] > 0) {
+            --(*held)[returned->asked];
+            --held_[returned->asked];
+        }
+        put(returned);
+    }
+
+    /// A piece of work begins, on a thread of its own.
+    void begin() noexcept {
+        const guard_of locked(guard_);
+        threads_ = std::max(threads_, ++working_);
+    }
+
+    /// It ends; what it still holds belongs to its caller. O(classes).
+    void end(const holdings& held) noexcept {
+        const guard_of locked(guard_);
+        --working_;
+        for (std::size_t c = 0; c < classes; ++c) held_[c] -= held[c];
+        for (std::size_t c = 0; c < classes; ++c)
+            while (number_free_[c] < set_aside(c)) {
+                void* const memory =
+                    ::operator new(bytes_of(c), std::align_val_t{alignment}, std::nothrow);
+                if (memory == nullptr) return;  // work that needs it will say so
+                put(made(c, memory));
+            }
+    }
+
+    /// The number of its blocks that are not in use. O(classes).
+    [[nodiscard]] std::size_t free_blocks() const {
+        return std::accumulate(number_free_.begin(), number_free_.end(), std::size_t{0});
     }
 
   private:
     /// The header in front of the memory.
     struct alignas(alignment) block {
         std::size_t size_class;
+        std::size_t asked = 0;  // the class of the size that its user asked for
         block* next = nullptr;  // in the list of free blocks
     };
 
-    /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
-    /// size. So at most a fifth of a block is unused.
-    static constexpr std::size_t classes = 4 * std::numeric_limits<std::size_t>::digits;
-    /// A request may get a block of up to 16 times its size rather than a new one: the threads that
-    /// take part in a step are not the same in every call.
+    /// A request may get a block of up to 16 times its size rather than a new one.
     static constexpr std::size_t reach = 16;  // [size classes]; performance only
 
     [[nodiscard]] static std::size_t size_class(std::size_t bytes) {
@@ -2175,48 +2205,110 @@ class memory_pool {
         const std::size_t e = std::max<std::size_t>(std::bit_width(last), 3) - 3;
         return 4 * e + (last >> e);
     }
-    [[nodiscard]] static std::size_t size_of(std::size_t number) {
+    /// Of a block and its header.
+    [[nodiscard]] static std::size_t bytes_of(std::size_t number) {
         const std::size_t e = number < 8 ? 0 : number / 4 - 1;
-        return ((number - 4 * e + 1) << e) * alignment;
+        return sizeof(block) + ((number - 4 * e + 1) << e) * alignment;
     }
 
-    /// A free block of this size class, or of the next larger ones; null if there is none.
-    [[nodiscard]] block* take(std::size_t smallest) noexcept {
+    /// A block in new memory. All its pages are mapped now: otherwise the resident memory would
+    /// grow when a later user of the block writes to more of it.
+    [[nodiscard]] static block* made(std::size_t size_class, void* memory) noexcept {
+        auto* const bytes = static_cast<std::byte*>(memory);
+        touch(bytes + sizeof(block), bytes + bytes_of(size_class));
+        return new (memory) block{size_class};
+    }
+
+    /// A free block of the class asked for, or of the next larger ones, null if there is none; work
+    /// may have those of its class that are set aside.
+    [[nodiscard]] block* take(std::size_t asked, holdings* held) noexcept {
         const guard_of locked(guard_);
-        const std::size_t end = std::min(smallest + reach + 1, classes);
-        for (std::size_t number = smallest; number < end; ++number)
-            if (block* const found = free_[number]; found != nullptr) {
-                free_[number] = found->next;
-                return found;
+        block* found = nullptr;
+        const std::size_t end = std::min(asked + reach + 1, classes);
+        for (std::size_t c = asked; c < end && found == nullptr; ++c)
+            if (number_free_[c] > (held != nullptr && c == asked ? 0 : set_aside(c))) {
+                found = std::exchange(free_[c], free_[c]->next);
+                --number_free_[c];
             }
-        return nullptr;
+        if (held != nullptr) {
+            most_[asked] = std::max(most_[asked], ++(*held)[asked]);
+            ++held_[asked];
+        }
+        return found;
+    }
+
+    void put(block* returned) noexcept {
+        const std::size_t c = returned->size_class;
+        returned->next = std::exchange(free_[c], returned);
+        ++number_free_[c];
+    }
+
+    /// As many free blocks of this class as work may still ask for. (One thread asks for the same
+    /// ones in each call.)
+    [[nodiscard]] std::uint32_t set_aside(std::size_t c) const noexcept {
+        const std::uint32_t most = threads_ > 1 ? threads_ * most_[c] : 0;
+        return most - std::min(most, held_[c]);
     }
 
     mutex guard_;
     std::array<block*, classes> free_{};
+    holdings number_free_{};                   // the lengths of these lists
+    holdings held_{};                          // by all pieces of work together
+    holdings most_{};                          // that one piece of work held at once
+    std::uint32_t working_ = 0, threads_ = 0;  // pieces of work now, and at most
 };
 
-/// The pool of the innermost `pool_scope` on this thread; null if there is none.
-[[nodiscard]] inline memory_pool*& current_pool() noexcept {
+}  // namespace gnomon::detail
+
+// -------- gnomon/core/detail/scratch.hpp ---------------------------------------------------------
+
+/// @file
+/// Memory that algorithms reuse from one call to the next. While a `pool_scope` exists, every
+/// `scratch` vector that is constructed on its thread takes its memory from the pool of that scope;
+/// without a scope, from operator new.
+
+namespace gnomon::detail {
+
+/// The innermost `pool_scope` on a thread.
+struct pool_use {
+    memory_pool* pool = nullptr;
+    memory_pool::holdings* held = nullptr;
+};
+[[nodiscard]] inline pool_use& current_use() noexcept {
 #if defined(GNOMON_NO_THREADS)
-    static memory_pool* pool = nullptr;
+    static pool_use use;
 #else
-    static thread_local memory_pool* pool = nullptr;
+    static thread_local pool_use use;
 #endif
-    return pool;
+    return use;
 }
 
 /// While it exists, `scratch` vectors that are constructed on this thread use a pool; operator new
 /// if it is null.
 class pool_scope {
   public:
-    explicit pool_scope(memory_pool* pool) : outer_(std::exchange(current_pool(), pool)) {}
+    explicit pool_scope(memory_pool* pool, memory_pool::holdings* held = nullptr)
+        : outer_(std::exchange(current_use(), pool_use{pool, held})) {}
     pool_scope(const pool_scope&) = delete;
     pool_scope& operator=(const pool_scope&) = delete;
-    ~pool_scope() { current_pool() = outer_; }
+    ~pool_scope() { current_use() = outer_; }
 
   private:
-    memory_pool* outer_;
+    pool_use outer_;
+};
+
+/// The same for one of several pieces of work that may run at the same time.
+class work_scope {
+  public:
+    explicit work_scope(memory_pool& pool) : pool_(pool), scope_(&pool, &held_) { pool_.begin(); }
+    work_scope(const work_scope&) = delete;
+    work_scope& operator=(const work_scope&) = delete;
+    ~work_scope() { pool_.end(held_); }
+
+  private:
+    memory_pool& pool_;
+    memory_pool::holdings held_{};
+    pool_scope scope_;
 };
 
 /// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
@@ -2224,15 +2316,17 @@ class pool_scope {
 /// only.)
 [[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes,
                                                         std::size_t alignment) {
-    if (pool != nullptr) return pool->allocate(bytes);
+    const pool_use now = current_use();
+    if (pool != nullptr) return pool->allocate(bytes, now.pool == pool ? now.held : nullptr);
     return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
                ? ::operator new(bytes, std::align_val_t{alignment})
                : ::operator new(bytes);
 }
 [[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory,
                                             std::size_t alignment) noexcept {
+    const pool_use now = current_use();
     if (pool != nullptr)
-        pool->deallocate(memory);
+        pool->deallocate(memory, now.pool == pool ? now.held : nullptr);
     else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
         ::operator delete(memory, std::align_val_t{alignment});
     else
@@ -2249,7 +2343,7 @@ class pooled {
 
     static_assert(alignof(T) <= memory_pool::alignment);
 
-    pooled() noexcept : pool_(current_pool()) {}
+    pooled() noexcept : pool_(current_use().pool) {}
     template <class U>
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
@@ -16697,7 +16791,7 @@ class pooled_run {
 
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
         run_(chunks, [&](std::size_t c) {
-            const pool_scope scope(&pool_);
+            const work_scope scope(pool_);
             work(c);
         });
     }

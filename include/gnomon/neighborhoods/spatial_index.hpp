@@ -22,7 +22,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/index_iterator.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>

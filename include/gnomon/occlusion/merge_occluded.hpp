@@ -21,7 +21,7 @@
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>

@@ -20,8 +20,8 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>

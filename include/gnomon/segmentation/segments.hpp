@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>

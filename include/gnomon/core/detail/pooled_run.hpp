@@ -6,7 +6,7 @@
 #include <concepts>
 #include <cstddef>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 
 namespace gnomon::detail {
@@ -19,7 +19,7 @@ class pooled_run {
 
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
         run_(chunks, [&](std::size_t c) {
-            const pool_scope scope(&pool_);
+            const work_scope scope(pool_);
             work(c);
         });
     }

@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <utility>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/point.hpp>
 
 namespace gnomon::detail {

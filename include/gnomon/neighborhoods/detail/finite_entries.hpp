@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/kept_array.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>

@@ -13,7 +13,7 @@
 #include <utility>
 
 #include <gnomon/core/detail/instruction_set.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/neighborhoods/detail/leaf_list.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/place_set.hpp>

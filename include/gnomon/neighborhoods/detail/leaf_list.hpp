@@ -16,7 +16,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/instruction_set.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>

@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/neighborhoods/detail/nearest_wanted.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>

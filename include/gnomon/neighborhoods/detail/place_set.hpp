@@ -9,7 +9,7 @@
 #include <cstdint>
 #include <span>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/execution.hpp>

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>

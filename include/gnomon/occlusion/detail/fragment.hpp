@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>

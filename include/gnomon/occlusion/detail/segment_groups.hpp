@@ -12,7 +12,7 @@
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/neighborhoods/knn.hpp>

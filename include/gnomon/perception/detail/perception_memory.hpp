@@ -26,14 +26,22 @@ class perception_memory {
     perception_memory& operator=(perception_memory&&) = default;
     ~perception_memory() = default;
 
-    /// For the scratch vectors of all steps.
-    [[nodiscard]] memory_pool& pool() {
-        if (!pool_) pool_ = std::make_unique<memory_pool>();
-        return *pool_;
-    }
+    /// For the scratch vectors of all steps: those of the calling thread, which are the same in each
+    /// call, and those of the work that it shares with other threads.
+    [[nodiscard]] memory_pool& pool() { return both().of_caller; }
+    [[nodiscard]] memory_pool& pool_of_work() { return both().of_work; }
 
   private:
-    std::unique_ptr<memory_pool> pool_;
+    struct pools {
+        memory_pool of_caller, of_work;
+    };
+
+    [[nodiscard]] pools& both() {
+        if (!pools_) pools_ = std::make_unique<pools>();
+        return *pools_;
+    }
+
+    std::unique_ptr<pools> pools_;
 };
 
 }  // namespace gnomon::detail

@@ -13,8 +13,8 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/pooled_run.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/stopwatch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -41,7 +41,7 @@
 
 namespace gnomon::detail {
 
-/// One call of the chain. All its steps take scratch memory from the pool of the result, and write
+/// One call of the chain. All its steps take scratch memory from the pools of the result, and write
 /// their results over those of the last call.
 template <class Chain, class R, class Estimate, execution X, class Proj>
 class perception_run {
@@ -52,7 +52,7 @@ class perception_run {
           points_(points),
           result_(result),
           progress_(run),
-          run_(run, result.memory.pool()),
+          run_(run, result.memory.pool_of_work()),
           projection_(projection) {}
 
     void operator()() {

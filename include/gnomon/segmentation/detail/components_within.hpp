@@ -20,8 +20,8 @@
 #include <cstdint>
 #include <utility>
 
-#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>

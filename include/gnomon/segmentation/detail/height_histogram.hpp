@@ -8,7 +8,7 @@
 #include <limits>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 
