@@ -172,7 +172,8 @@ namespace detail {
 // -------- gnomon/core/detail/thread_team.hpp -----------------------------------------------------
 
 /// @file
-/// All use of threads in gnomon: the number of hardware threads, a mutex, and a team of threads
+/// All use of threads in gnomon: the number of hardware threads, a mutex, variables of each
+/// thread, and a team of threads
 /// that stays alive between the steps of an algorithm. On platforms without threads, and where
 /// GNOMON_NO_THREADS is defined, the calling thread does all work.
 ///
@@ -204,6 +205,13 @@ struct guard_of {
     explicit guard_of(mutex&) {}
 };
 
+/// A variable of type T.
+template <class T>
+[[nodiscard]] T& thread_value() noexcept {
+    static T value{};
+    return value;
+}
+
 /// The calling thread alone.
 class thread_team {
   public:
@@ -223,6 +231,13 @@ class thread_team {
 
 using mutex = std::mutex;
 using guard_of = std::lock_guard<std::mutex>;
+
+/// A variable of type T that each thread has of its own.
+template <class T>
+[[nodiscard]] T& thread_value() noexcept {
+    static thread_local T value{};
+    return value;
+}
 
 /// The calling thread and helpers, which start with the first work.
 class thread_team {
@@ -2058,6 +2073,137 @@ struct eigen_decomposition {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/core/detail/scratch.hpp ---------------------------------------------------------
+
+/// @file
+/// Memory that algorithms reuse from one call to the next. While a `pool_scope` exists, every
+/// `scratch` vector that is constructed on its thread takes its memory from the pool of that scope;
+/// without a scope, from operator new.
+
+namespace gnomon::detail {
+
+/// Where the memory of scratch vectors comes from; `memory_pool` is one. (An interface, so that
+/// algorithms compile without it.)
+class memory_source {
+  public:
+    static constexpr std::size_t alignment = 64;  // [bytes], of all memory: a cache line
+
+    [[nodiscard]] virtual void* allocate(std::size_t bytes) = 0;
+    virtual void deallocate(void* bytes) noexcept = 0;
+
+  protected:
+    memory_source() = default;
+    ~memory_source() = default;
+};
+
+/// The source of the innermost `pool_scope` on this thread; null if there is none.
+[[nodiscard]] inline memory_source*& current_pool() noexcept {
+    return thread_value<memory_source*>();
+}
+
+/// While it exists, `scratch` vectors that are constructed on this thread use a pool; operator new
+/// if it is null.
+class pool_scope {
+  public:
+    explicit pool_scope(memory_source* pool) : outer_(std::exchange(current_pool(), pool)) {}
+    pool_scope(const pool_scope&) = delete;
+    pool_scope& operator=(const pool_scope&) = delete;
+    ~pool_scope() { current_pool() = outer_; }
+
+  private:
+    memory_source* outer_;
+};
+
+/// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
+/// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
+/// only.)
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
+                                                        std::size_t alignment) {
+    if (pool != nullptr) return pool->allocate(bytes);
+    return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
+               ? ::operator new(bytes, std::align_val_t{alignment})
+               : ::operator new(bytes);
+}
+[[gnu::noinline]] inline void deallocate_to(memory_source* pool, void* memory,
+                                            std::size_t alignment) noexcept {
+    if (pool != nullptr)
+        pool->deallocate(memory);
+    else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
+        ::operator delete(memory, std::align_val_t{alignment});
+    else
+        ::operator delete(memory);
+}
+
+/// An allocator over the pool that was current on its thread when it was constructed.
+template <class T>
+class pooled {
+  public:
+    using value_type = T;
+    using propagate_on_container_move_assignment = std::true_type;
+    using propagate_on_container_swap = std::true_type;
+
+    static_assert(alignof(T) <= memory_source::alignment);
+
+    pooled() noexcept : pool_(current_pool()) {}
+    template <class U>
+    explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
+
+    [[nodiscard]] T* allocate(std::size_t n) {
+        return static_cast<T*>(allocate_from(pool_, n * sizeof(T), alignof(T)));
+    }
+    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values, alignof(T)); }
+
+    /// Copies of a container use the pool that is current when they are made.
+    [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }
+
+    [[nodiscard]] memory_source* pool() const noexcept { return pool_; }
+    template <class U>
+    friend bool operator==(const pooled& a, const pooled<U>& b) noexcept {
+        return a.pool() == b.pool();
+    }
+
+  private:
+    memory_source* pool_;
+};
+
+/// A vector that an algorithm needs only while it runs.
+template <class T>
+using scratch = std::vector<T, pooled<T>>;
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/neighbor.hpp ------------------------------------------------------
+
+/// @file
+/// What a search finds: a point by its index and how far it is.
+
+namespace gnomon {
+
+/// A point found by a search. The canonical order is by distance, ties by index.
+struct neighbor {
+    double squared_distance;  ///< [m^2], see squared_distance()
+    point_index index;
+
+    friend bool operator==(const neighbor&, const neighbor&) = default;
+    friend bool operator<(const neighbor& a, const neighbor& b) {
+        if (a.squared_distance != b.squared_distance)
+            return a.squared_distance < b.squared_distance;
+        return a.index < b.index;
+    }
+};
+
+/// Which of several points at the distance of the k-th neighbor are returned.
+enum class tie_rule : bool {
+    by_index,  ///< exactly k neighbors: of equals those of smaller index
+    /// All of them, up to 2 k neighbors in total; distances are equal if their squares differ by
+    /// less than 1e-9 of their value. The result then depends neither on the order of the points
+    /// nor on a rigid motion of the cloud, except for the rounding of the moved coordinates. Clouds
+    /// of depth cameras, whose ranges are quantised, have many ties.
+    all
+};
+
+}  // namespace gnomon
+
 // -------- gnomon/core/detail/touched_vector.hpp --------------------------------------------------
 
 /// @file
@@ -2107,301 +2253,6 @@ template <class T, execution X>
 }
 
 }  // namespace gnomon::detail
-
-// -------- gnomon/core/detail/memory_pool.hpp -----------------------------------------------------
-
-/// @file
-/// Blocks of memory that are kept for the next call.
-///
-/// Which pieces of work run at the same time differs from call to call. So that the blocks of one
-/// call suffice for the next, whatever its order, a pool notes what one piece of work holds at
-/// most, and sets as many blocks aside as all threads hold that do the same.
-
-namespace gnomon::detail {
-
-/// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
-/// block is free, and returns its blocks when it is destroyed. Thread-safe.
-class memory_pool {
-    /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
-    /// size. So at most a fifth of a block is unused.
-    static constexpr std::size_t classes = 4 * std::numeric_limits<std::size_t>::digits;
-
-  public:
-    static constexpr std::size_t alignment = 64;  // [bytes], of all blocks: a cache line
-
-    /// The number of blocks that a piece of work holds, by the class of the size it asked for.
-    using holdings = std::array<std::uint32_t, classes>;
-
-    memory_pool() = default;
-    memory_pool(const memory_pool&) = delete;
-    memory_pool& operator=(const memory_pool&) = delete;
-    /// Precondition: all blocks have been returned.
-    ~memory_pool() {
-        for (block* first : free_)
-            while (first != nullptr)
-                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
-    }
-
-    /// At least `bytes` bytes, for the piece of work whose holdings these are, if it is not null.
-    /// O(1). Throws std::bad_alloc.
-    [[nodiscard]] void* allocate(std::size_t bytes, holdings* held) {
-        const std::size_t asked = size_class(bytes);
-        block* found = take(asked, held);
-        if (found == nullptr)
-            found = made(asked, ::operator new(bytes_of(asked), std::align_val_t{alignment}));
-        found->asked = asked;
-        return found + 1;
-    }
-
-    /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
-    void deallocate(void* bytes, holdings* held) noexcept {
-        block* const returned = static_cast<block*>(bytes) - 1;
-        const guard_of locked(guard_);
-        if (held != nullptr && (*held)[returned->asked] > 0) {
-            --(*held)[returned->asked];
-            --held_[returned->asked];
-        }
-        put(returned);
-    }
-
-    /// A piece of work begins, on a thread of its own.
-    void begin() noexcept {
-        const guard_of locked(guard_);
-        threads_ = std::max(threads_, ++working_);
-    }
-
-    /// It ends; what it still holds belongs to its caller. O(classes).
-    void end(const holdings& held) noexcept {
-        const guard_of locked(guard_);
-        --working_;
-        for (std::size_t c = 0; c < classes; ++c) held_[c] -= held[c];
-        for (std::size_t c = 0; c < classes; ++c)
-            while (number_free_[c] < set_aside(c)) {
-                void* const memory =
-                    ::operator new(bytes_of(c), std::align_val_t{alignment}, std::nothrow);
-                if (memory == nullptr) return;  // work that needs it will say so
-                put(made(c, memory));
-            }
-    }
-
-    /// The number of its blocks that are not in use. O(classes).
-    [[nodiscard]] std::size_t free_blocks() const {
-        return std::accumulate(number_free_.begin(), number_free_.end(), std::size_t{0});
-    }
-
-  private:
-    /// The header in front of the memory.
-    struct alignas(alignment) block {
-        std::size_t size_class;
-        std::size_t asked = 0;  // the class of the size that its user asked for
-        block* next = nullptr;  // in the list of free blocks
-    };
-
-    /// A request may get a block of up to 16 times its size rather than a new one.
-    static constexpr std::size_t reach = 16;  // [size classes]; performance only
-
-    [[nodiscard]] static std::size_t size_class(std::size_t bytes) {
-        const std::size_t last = (std::max<std::size_t>(bytes, 1) - 1) / alignment;
-        const std::size_t e = std::max<std::size_t>(std::bit_width(last), 3) - 3;
-        return 4 * e + (last >> e);
-    }
-    /// Of a block and its header.
-    [[nodiscard]] static std::size_t bytes_of(std::size_t number) {
-        const std::size_t e = number < 8 ? 0 : number / 4 - 1;
-        return sizeof(block) + ((number - 4 * e + 1) << e) * alignment;
-    }
-
-    /// A block in new memory. All its pages are mapped now: otherwise the resident memory would
-    /// grow when a later user of the block writes to more of it.
-    [[nodiscard]] static block* made(std::size_t size_class, void* memory) noexcept {
-        auto* const bytes = static_cast<std::byte*>(memory);
-        touch(bytes + sizeof(block), bytes + bytes_of(size_class));
-        return new (memory) block{size_class};
-    }
-
-    /// A free block of the class asked for, or of the next larger ones, null if there is none; work
-    /// may have those of its class that are set aside.
-    [[nodiscard]] block* take(std::size_t asked, holdings* held) noexcept {
-        const guard_of locked(guard_);
-        block* found = nullptr;
-        const std::size_t end = std::min(asked + reach + 1, classes);
-        for (std::size_t c = asked; c < end && found == nullptr; ++c)
-            if (number_free_[c] > (held != nullptr && c == asked ? 0 : set_aside(c))) {
-                found = std::exchange(free_[c], free_[c]->next);
-                --number_free_[c];
-            }
-        if (held != nullptr) {
-            most_[asked] = std::max(most_[asked], ++(*held)[asked]);
-            ++held_[asked];
-        }
-        return found;
-    }
-
-    void put(block* returned) noexcept {
-        const std::size_t c = returned->size_class;
-        returned->next = std::exchange(free_[c], returned);
-        ++number_free_[c];
-    }
-
-    /// As many free blocks of this class as work may still ask for. (One thread asks for the same
-    /// ones in each call.)
-    [[nodiscard]] std::uint32_t set_aside(std::size_t c) const noexcept {
-        const std::uint32_t most = threads_ > 1 ? threads_ * most_[c] : 0;
-        return most - std::min(most, held_[c]);
-    }
-
-    mutex guard_;
-    std::array<block*, classes> free_{};
-    holdings number_free_{};                   // the lengths of these lists
-    holdings held_{};                          // by all pieces of work together
-    holdings most_{};                          // that one piece of work held at once
-    std::uint32_t working_ = 0, threads_ = 0;  // pieces of work now, and at most
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/core/detail/scratch.hpp ---------------------------------------------------------
-
-/// @file
-/// Memory that algorithms reuse from one call to the next. While a `pool_scope` exists, every
-/// `scratch` vector that is constructed on its thread takes its memory from the pool of that scope;
-/// without a scope, from operator new.
-
-namespace gnomon::detail {
-
-/// The innermost `pool_scope` on a thread.
-struct pool_use {
-    memory_pool* pool = nullptr;
-    memory_pool::holdings* held = nullptr;
-};
-[[nodiscard]] inline pool_use& current_use() noexcept {
-#if defined(GNOMON_NO_THREADS)
-    static pool_use use;
-#else
-    static thread_local pool_use use;
-#endif
-    return use;
-}
-
-/// While it exists, `scratch` vectors that are constructed on this thread use a pool; operator new
-/// if it is null.
-class pool_scope {
-  public:
-    explicit pool_scope(memory_pool* pool, memory_pool::holdings* held = nullptr)
-        : outer_(std::exchange(current_use(), pool_use{pool, held})) {}
-    pool_scope(const pool_scope&) = delete;
-    pool_scope& operator=(const pool_scope&) = delete;
-    ~pool_scope() { current_use() = outer_; }
-
-  private:
-    pool_use outer_;
-};
-
-/// The same for one of several pieces of work that may run at the same time.
-class work_scope {
-  public:
-    explicit work_scope(memory_pool& pool) : pool_(pool), scope_(&pool, &held_) { pool_.begin(); }
-    work_scope(const work_scope&) = delete;
-    work_scope& operator=(const work_scope&) = delete;
-    ~work_scope() { pool_.end(held_); }
-
-  private:
-    memory_pool& pool_;
-    memory_pool::holdings held_{};
-    pool_scope scope_;
-};
-
-/// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
-/// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
-/// only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes,
-                                                        std::size_t alignment) {
-    const pool_use now = current_use();
-    if (pool != nullptr) return pool->allocate(bytes, now.pool == pool ? now.held : nullptr);
-    return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
-               ? ::operator new(bytes, std::align_val_t{alignment})
-               : ::operator new(bytes);
-}
-[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory,
-                                            std::size_t alignment) noexcept {
-    const pool_use now = current_use();
-    if (pool != nullptr)
-        pool->deallocate(memory, now.pool == pool ? now.held : nullptr);
-    else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
-        ::operator delete(memory, std::align_val_t{alignment});
-    else
-        ::operator delete(memory);
-}
-
-/// An allocator over the pool that was current on its thread when it was constructed.
-template <class T>
-class pooled {
-  public:
-    using value_type = T;
-    using propagate_on_container_move_assignment = std::true_type;
-    using propagate_on_container_swap = std::true_type;
-
-    static_assert(alignof(T) <= memory_pool::alignment);
-
-    pooled() noexcept : pool_(current_use().pool) {}
-    template <class U>
-    explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
-
-    [[nodiscard]] T* allocate(std::size_t n) {
-        return static_cast<T*>(allocate_from(pool_, n * sizeof(T), alignof(T)));
-    }
-    void deallocate(T* values, std::size_t) noexcept { deallocate_to(pool_, values, alignof(T)); }
-
-    /// Copies of a container use the pool that is current when they are made.
-    [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }
-
-    [[nodiscard]] memory_pool* pool() const noexcept { return pool_; }
-    template <class U>
-    friend bool operator==(const pooled& a, const pooled<U>& b) noexcept {
-        return a.pool() == b.pool();
-    }
-
-  private:
-    memory_pool* pool_;
-};
-
-/// A vector that an algorithm needs only while it runs.
-template <class T>
-using scratch = std::vector<T, pooled<T>>;
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/neighbor.hpp ------------------------------------------------------
-
-/// @file
-/// What a search finds: a point by its index and how far it is.
-
-namespace gnomon {
-
-/// A point found by a search. The canonical order is by distance, ties by index.
-struct neighbor {
-    double squared_distance;  ///< [m^2], see squared_distance()
-    point_index index;
-
-    friend bool operator==(const neighbor&, const neighbor&) = default;
-    friend bool operator<(const neighbor& a, const neighbor& b) {
-        if (a.squared_distance != b.squared_distance)
-            return a.squared_distance < b.squared_distance;
-        return a.index < b.index;
-    }
-};
-
-/// Which of several points at the distance of the k-th neighbor are returned.
-enum class tie_rule : bool {
-    by_index,  ///< exactly k neighbors: of equals those of smaller index
-    /// All of them, up to 2 k neighbors in total; distances are equal if their squares differ by
-    /// less than 1e-9 of their value. The result then depends neither on the order of the points
-    /// nor on a rigid motion of the cloud, except for the rounding of the moved coordinates. Clouds
-    /// of depth cameras, whose ranges are quantised, have many ties.
-    all
-};
-
-}  // namespace gnomon
 
 // -------- gnomon/core/detail/kept_array.hpp ------------------------------------------------------
 
@@ -16776,6 +16627,199 @@ void write_ply(const std::string& path, const R& points, const properties& colum
 
 // -------- gnomon/gnomon.hpp ----------------------------------------------------------------------
 
+// -------- gnomon/core/detail/memory_pool.hpp -----------------------------------------------------
+
+/// @file
+/// Blocks of memory that are kept for the next call.
+///
+/// Which pieces of work run at the same time differs from call to call. So that the blocks of one
+/// call suffice for the next, whatever its order, a pool records what one piece of work holds at
+/// most, and sets as many blocks aside as all threads hold that do the same.
+
+namespace gnomon::detail {
+
+/// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
+/// block is free, and returns its blocks when it is destroyed. Thread-safe.
+class memory_pool final : public memory_source {
+    /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
+    /// size. So at most a fifth of a block is unused.
+    static constexpr std::size_t classes = 4 * std::numeric_limits<std::size_t>::digits;
+
+  public:
+    /// The number of blocks that a piece of work holds, by the class of the requested size.
+    using holdings = std::array<std::uint32_t, classes>;
+
+    /// A piece of work, on the thread where it runs.
+    struct work {
+        const memory_pool* pool = nullptr;
+        holdings* held = nullptr;
+    };
+
+    memory_pool() = default;
+    memory_pool(const memory_pool&) = delete;
+    memory_pool& operator=(const memory_pool&) = delete;
+    /// Precondition: all blocks have been returned.
+    ~memory_pool() {
+        for (block* first : free_)
+            while (first != nullptr)
+                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
+    }
+
+    /// At least `bytes` bytes. O(1). Throws std::bad_alloc.
+    [[nodiscard]] void* allocate(std::size_t bytes) override {
+        const std::size_t requested = size_class(bytes);
+        block* found = take(requested);
+        if (found == nullptr)
+            found =
+                made(requested, ::operator new(bytes_of(requested), std::align_val_t{alignment}));
+        found->requested = requested;
+        return found + 1;
+    }
+
+    /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
+    void deallocate(void* bytes) noexcept override {
+        block* const returned = static_cast<block*>(bytes) - 1;
+        const guard_of locked(guard_);
+        holdings* const held = held_here();
+        if (held != nullptr && (*held)[returned->requested] > 0) {
+            --(*held)[returned->requested];
+            --held_[returned->requested];
+        }
+        put(returned);
+    }
+
+    /// The work of this thread.
+    [[nodiscard]] static work& current_work() noexcept { return thread_value<work>(); }
+
+    /// A piece of work begins, on a thread of its own.
+    void begin() noexcept {
+        const guard_of locked(guard_);
+        threads_ = std::max(threads_, ++working_);
+    }
+
+    /// It ends; what it still holds belongs to its caller. O(classes).
+    void end(const holdings& held) noexcept {
+        const guard_of locked(guard_);
+        --working_;
+        for (std::size_t c = 0; c < classes; ++c) held_[c] -= held[c];
+        for (std::size_t c = 0; c < classes; ++c)
+            while (number_free_[c] < set_aside(c)) {
+                void* const memory =
+                    ::operator new(bytes_of(c), std::align_val_t{alignment}, std::nothrow);
+                if (memory == nullptr) return;  // allocate() will throw
+                put(made(c, memory));
+            }
+    }
+
+    /// The number of its blocks that are not in use. O(classes).
+    [[nodiscard]] std::size_t free_blocks() const {
+        std::size_t all = 0;
+        for (const std::size_t of_class : number_free_) all += of_class;
+        return all;
+    }
+
+  private:
+    /// The header in front of the memory.
+    struct alignas(alignment) block {
+        std::size_t size_class;
+        std::size_t requested = 0;  // the class of the size that its user requested
+        block* next = nullptr;      // in the list of free blocks
+    };
+
+    /// A request may get a block of up to 16 times its size rather than a new one.
+    static constexpr std::size_t reach = 16;  // [size classes]; performance only
+
+    [[nodiscard]] static std::size_t size_class(std::size_t bytes) {
+        const std::size_t last = (std::max<std::size_t>(bytes, 1) - 1) / alignment;
+        const std::size_t e = std::max<std::size_t>(std::bit_width(last), 3) - 3;
+        return 4 * e + (last >> e);
+    }
+    /// Of a block and its header.
+    [[nodiscard]] static std::size_t bytes_of(std::size_t number) {
+        const std::size_t e = number < 8 ? 0 : number / 4 - 1;
+        return sizeof(block) + ((number - 4 * e + 1) << e) * alignment;
+    }
+
+    /// A block in new memory. All its pages are mapped now: otherwise the resident memory would
+    /// grow when a later user of the block writes to more of it.
+    [[nodiscard]] static block* made(std::size_t size_class, void* memory) noexcept {
+        auto* const bytes = static_cast<std::byte*>(memory);
+        touch(bytes + sizeof(block), bytes + bytes_of(size_class));
+        return new (memory) block{size_class};
+    }
+
+    /// The holdings of this thread's work in this pool; null outside of work.
+    [[nodiscard]] holdings* held_here() const noexcept {
+        const work here = current_work();
+        return here.pool == this ? here.held : nullptr;
+    }
+
+    /// A free block of the requested class, or of the next larger ones, null if there is none; work
+    /// may have those of its class that are set aside.
+    [[nodiscard]] block* take(std::size_t requested) noexcept {
+        holdings* const held = held_here();
+        const guard_of locked(guard_);
+        block* found = nullptr;
+        const std::size_t end = std::min(requested + reach + 1, classes);
+        for (std::size_t c = requested; c < end && found == nullptr; ++c)
+            if (number_free_[c] > (held != nullptr && c == requested ? 0 : set_aside(c))) {
+                found = std::exchange(free_[c], free_[c]->next);
+                --number_free_[c];
+            }
+        if (held != nullptr) {
+            most_[requested] = std::max(most_[requested], ++(*held)[requested]);
+            ++held_[requested];
+        }
+        return found;
+    }
+
+    void put(block* returned) noexcept {
+        const std::size_t c = returned->size_class;
+        returned->next = std::exchange(free_[c], returned);
+        ++number_free_[c];
+    }
+
+    /// The number of free blocks of this class that work may still request. (One thread requests
+    /// the same ones in each call.)
+    [[nodiscard]] std::uint32_t set_aside(std::size_t c) const noexcept {
+        const std::uint32_t most = threads_ > 1 ? threads_ * most_[c] : 0;
+        return most - std::min(most, held_[c]);
+    }
+
+    mutex guard_;
+    std::array<block*, classes> free_{};
+    holdings number_free_{};                   // the lengths of these lists
+    holdings held_{};                          // by all pieces of work together
+    holdings most_{};                          // that one piece of work held at once
+    std::uint32_t working_ = 0, threads_ = 0;  // pieces of work now, and at most
+};
+
+/// While it exists, this thread does one of several pieces of work that may run at the same time,
+/// and its `scratch` vectors use the pool.
+class work_scope {
+  public:
+    explicit work_scope(memory_pool& pool)
+        : pool_(pool),
+          scope_(&pool),
+          outer_(std::exchange(memory_pool::current_work(), {&pool, &held_})) {
+        pool_.begin();
+    }
+    work_scope(const work_scope&) = delete;
+    work_scope& operator=(const work_scope&) = delete;
+    ~work_scope() {
+        pool_.end(held_);
+        memory_pool::current_work() = outer_;
+    }
+
+  private:
+    memory_pool& pool_;
+    memory_pool::holdings held_{};
+    pool_scope scope_;
+    memory_pool::work outer_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/pooled_run.hpp ------------------------------------------------------
 
 /// @file
@@ -16851,14 +16895,22 @@ class perception_memory {
     perception_memory& operator=(perception_memory&&) = default;
     ~perception_memory() = default;
 
-    /// For the scratch vectors of all steps.
-    [[nodiscard]] memory_pool& pool() {
-        if (!pool_) pool_ = std::make_unique<memory_pool>();
-        return *pool_;
-    }
+    /// For the scratch vectors of all steps: those of the calling thread, which are the same in each
+    /// call, and those of the work that it shares with other threads.
+    [[nodiscard]] memory_pool& pool() { return both().of_caller; }
+    [[nodiscard]] memory_pool& pool_of_work() { return both().of_work; }
 
   private:
-    std::unique_ptr<memory_pool> pool_;
+    struct pools {
+        memory_pool of_caller, of_work;
+    };
+
+    [[nodiscard]] pools& both() {
+        if (!pools_) pools_ = std::make_unique<pools>();
+        return *pools_;
+    }
+
+    std::unique_ptr<pools> pools_;
 };
 
 }  // namespace gnomon::detail
@@ -16914,7 +16966,7 @@ struct perception_result {
 
 namespace gnomon::detail {
 
-/// One call of the chain. All its steps take scratch memory from the pool of the result, and write
+/// One call of the chain. All its steps take scratch memory from the pools of the result, and write
 /// their results over those of the last call.
 template <class Chain, class R, class Estimate, execution X, class Proj>
 class perception_run {
@@ -16925,7 +16977,7 @@ class perception_run {
           points_(points),
           result_(result),
           progress_(run),
-          run_(run, result.memory.pool()),
+          run_(run, result.memory.pool_of_work()),
           projection_(projection) {}
 
     void operator()() {

@@ -2,17 +2,20 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <vector>
 
 #include <gtest/gtest.h>
 
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 
 namespace {
 
-using gnomon::detail::memory_pool, gnomon::detail::scratch;
+using gnomon::detail::memory_pool, gnomon::detail::pool_scope, gnomon::detail::scratch,
+    gnomon::detail::work_scope;
 
 /// Law: a block holds the bytes that were asked for, and is aligned.
 TEST(memory_pool, gives_blocks_of_any_size) {
@@ -20,7 +23,7 @@ TEST(memory_pool, gives_blocks_of_any_size) {
     std::vector<void*> blocks;
     std::vector<std::size_t> sizes;
     for (std::size_t size = 0; size < 3'000'000; size = size * 9 / 8 + 1) {
-        void* const block = pool.allocate(size, nullptr);
+        void* const block = pool.allocate(size);
         EXPECT_EQ(reinterpret_cast<std::uintptr_t>(block) % memory_pool::alignment, 0u);
         std::memset(block, static_cast<int>(blocks.size()), size);
         blocks.push_back(block);
@@ -30,84 +33,72 @@ TEST(memory_pool, gives_blocks_of_any_size) {
         const auto* const bytes = static_cast<const unsigned char*>(blocks[b]);
         for (std::size_t i = 0; i < sizes[b]; ++i)
             ASSERT_EQ(bytes[i], static_cast<unsigned char>(b)) << sizes[b];
-        pool.deallocate(blocks[b], nullptr);
+        pool.deallocate(blocks[b]);
     }
 }
 
 TEST(memory_pool, reuses_blocks) {
     memory_pool pool;
-    void* const small = pool.allocate(100, nullptr);
-    void* const large = pool.allocate(100'000, nullptr);
-    pool.deallocate(small, nullptr);
-    pool.deallocate(large, nullptr);
-    EXPECT_EQ(pool.allocate(90'000, nullptr), large) << "of about this size";
-    EXPECT_EQ(pool.allocate(128, nullptr), small);
-    pool.deallocate(large, nullptr);
-    void* const medium = pool.allocate(20'000, nullptr);
+    void* const small = pool.allocate(100);
+    void* const large = pool.allocate(100'000);
+    pool.deallocate(small);
+    pool.deallocate(large);
+    EXPECT_EQ(pool.allocate(90'000), large) << "of about this size";
+    EXPECT_EQ(pool.allocate(128), small);
+    pool.deallocate(large);
+    void* const medium = pool.allocate(20'000);
     EXPECT_EQ(medium, large) << "a larger one rather than a new one";
-    void* const tiny = pool.allocate(8, nullptr);
+    void* const tiny = pool.allocate(8);
     EXPECT_NE(tiny, small) << "in use";
-    pool.deallocate(medium, nullptr);
-    void* const other = pool.allocate(8, nullptr);
+    pool.deallocate(medium);
+    void* const other = pool.allocate(8);
     EXPECT_NE(other, large) << "more than 16 times as large";
-    for (void* const block : {small, tiny, other}) pool.deallocate(block, nullptr);
+    for (void* const block : {small, tiny, other}) pool.deallocate(block);
 }
 
-/// After work on two threads, what one piece of work held is there for two at a time, and others do
-/// not take it: in which order they ran does not tell.
-TEST(memory_pool, sets_aside_what_work_may_ask_for) {
+/// Two pieces of work begin and end, so that the pool knows of two threads.
+void work_twice(memory_pool& pool) {
+    const work_scope first(pool);
+    const work_scope second(pool);
+}
+
+/// After work on two threads, there are blocks for two such pieces of work at a time, and others do
+/// not take them: the order in which they ran makes no difference.
+TEST(memory_pool, sets_aside_what_work_may_request) {
     memory_pool pool;
-    memory_pool::holdings a{}, b{};
-    pool.begin();
-    pool.begin();
-    pool.end(a);
-    pool.end(b);
-    pool.begin();  // alone
-    void* const first = pool.allocate(1000, &a);
-    void* const second = pool.allocate(1000, &a);
-    pool.deallocate(first, &a);
-    pool.deallocate(second, &a);
-    pool.end(a);
+    work_twice(pool);
+    {
+        const work_scope alone(pool);
+        const scratch<char> a(1000), b(1000);
+    }
     EXPECT_EQ(pool.free_blocks(), 4u);
-    pool.begin();
-    pool.begin();
-    const std::vector<void*> outer{pool.allocate(900, nullptr), pool.allocate(1000, nullptr)};
-    EXPECT_EQ(pool.free_blocks(), 4u) << "blocks set aside are not for others";
-    const std::vector<void*> held{pool.allocate(1000, &a), pool.allocate(1000, &b),
-                                  pool.allocate(1000, &a), pool.allocate(1000, &b)};
-    EXPECT_EQ(pool.free_blocks(), 0u);
-    for (std::size_t i = 0; i < held.size(); ++i) pool.deallocate(held[i], i % 2 == 0 ? &a : &b);
-    pool.end(a);
-    pool.end(b);
-    for (void* const block : outer) pool.deallocate(block, nullptr);
-    EXPECT_EQ(pool.free_blocks(), held.size() + outer.size());
+    {
+        const pool_scope caller(&pool);
+        const scratch<char> less(900), equal(1000);
+        EXPECT_EQ(pool.free_blocks(), 4u) << "blocks set aside are not for others";
+        const work_scope first(pool);
+        const scratch<char> a(1000), b(1000);
+        const work_scope second(pool);
+        const scratch<char> c(1000), d(1000);
+        EXPECT_EQ(pool.free_blocks(), 0u);
+    }
+    EXPECT_EQ(pool.free_blocks(), 6u);
 }
 
-/// What work leaves to its caller does not lack in the next call.
+/// What work leaves to its caller is not missing in the next call.
 TEST(memory_pool, replaces_what_work_leaves_to_its_caller) {
     memory_pool pool;
-    memory_pool::holdings first{}, second{};
-    pool.begin();
-    pool.begin();
-    void* const kept = pool.allocate(1000, &first);
-    pool.end(first);
-    pool.end(second);
-    EXPECT_EQ(pool.free_blocks(), 2u) << "one for each thread";
+    work_twice(pool);
     for (int call = 0; call < 3; ++call) {
-        first = {};
-        second = {};
-        pool.begin();
-        pool.begin();
-        void* const a = pool.allocate(1000, &first);
-        void* const b = pool.allocate(1000, &second);
-        EXPECT_NE(a, b);
-        pool.deallocate(a, &first);
-        pool.end(first);
-        pool.end(second);
-        EXPECT_EQ(pool.free_blocks(), 2u) << "b is its caller's now; two may work all the same";
-        pool.deallocate(b, nullptr);
+        std::optional<scratch<char>> left;
+        {
+            const work_scope work(pool);
+            left.emplace(1000);
+        }
+        EXPECT_EQ(pool.free_blocks(), 2u) << "one for each thread";
+        left.reset();
+        EXPECT_EQ(pool.free_blocks(), 3u);
     }
-    pool.deallocate(kept, nullptr);
 }
 
 /// Many threads take blocks, write and return them.

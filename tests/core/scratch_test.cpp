@@ -43,7 +43,7 @@ TEST(scratch, is_from_the_pool_of_the_innermost_scope) {
         outside = scratch<int>();
         outside.shrink_to_fit();
     }
-    EXPECT_EQ(gnomon::detail::current_use().pool, nullptr);
+    EXPECT_EQ(gnomon::detail::current_pool(), nullptr);
 }
 
 /// Vectors of one size are in the memory of the last call.
@@ -63,10 +63,10 @@ TEST(pooled_run, gives_the_pool_to_all_threads) {
     memory_pool pool;
     const gnomon::team team(3);
     const gnomon::detail::pooled_run run(team, pool);
-    std::vector<memory_pool*> seen(100, nullptr);
+    std::vector<gnomon::detail::memory_source*> seen(100, nullptr);
     run(seen.size(), [&](std::size_t c) { seen[c] = scratch<int>().get_allocator().pool(); });
-    for (memory_pool* const p : seen) EXPECT_EQ(p, &pool);
-    EXPECT_EQ(gnomon::detail::current_use().pool, nullptr);
+    for (const auto* const p : seen) EXPECT_EQ(p, &pool);
+    EXPECT_EQ(gnomon::detail::current_pool(), nullptr);
 }
 
 /// A user's policy may keep a subset of the index longer than the call in which it made it.

@@ -3,7 +3,7 @@
 /// Blocks of memory that are kept for the next call.
 ///
 /// Which pieces of work run at the same time differs from call to call. So that the blocks of one
-/// call suffice for the next, whatever its order, a pool notes what one piece of work holds at
+/// call suffice for the next, whatever its order, a pool records what one piece of work holds at
 /// most, and sets as many blocks aside as all threads hold that do the same.
 #pragma once
 
@@ -14,9 +14,9 @@
 #include <cstdint>
 #include <limits>
 #include <new>
-#include <numeric>
 #include <utility>
 
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
 
@@ -24,16 +24,20 @@ namespace gnomon::detail {
 
 /// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
 /// block is free, and returns its blocks when it is destroyed. Thread-safe.
-class memory_pool {
+class memory_pool final : public memory_source {
     /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
     /// size. So at most a fifth of a block is unused.
     static constexpr std::size_t classes = 4 * std::numeric_limits<std::size_t>::digits;
 
   public:
-    static constexpr std::size_t alignment = 64;  // [bytes], of all blocks: a cache line
-
-    /// The number of blocks that a piece of work holds, by the class of the size it asked for.
+    /// The number of blocks that a piece of work holds, by the class of the requested size.
     using holdings = std::array<std::uint32_t, classes>;
+
+    /// A piece of work, on the thread where it runs.
+    struct work {
+        const memory_pool* pool = nullptr;
+        holdings* held = nullptr;
+    };
 
     memory_pool() = default;
     memory_pool(const memory_pool&) = delete;
@@ -45,27 +49,31 @@ class memory_pool {
                 ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
     }
 
-    /// At least `bytes` bytes, for the piece of work whose holdings these are, if it is not null.
-    /// O(1). Throws std::bad_alloc.
-    [[nodiscard]] void* allocate(std::size_t bytes, holdings* held) {
-        const std::size_t asked = size_class(bytes);
-        block* found = take(asked, held);
+    /// At least `bytes` bytes. O(1). Throws std::bad_alloc.
+    [[nodiscard]] void* allocate(std::size_t bytes) override {
+        const std::size_t requested = size_class(bytes);
+        block* found = take(requested);
         if (found == nullptr)
-            found = made(asked, ::operator new(bytes_of(asked), std::align_val_t{alignment}));
-        found->asked = asked;
+            found =
+                made(requested, ::operator new(bytes_of(requested), std::align_val_t{alignment}));
+        found->requested = requested;
         return found + 1;
     }
 
     /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
-    void deallocate(void* bytes, holdings* held) noexcept {
+    void deallocate(void* bytes) noexcept override {
         block* const returned = static_cast<block*>(bytes) - 1;
         const guard_of locked(guard_);
-        if (held != nullptr && (*held)[returned->asked] > 0) {
-            --(*held)[returned->asked];
-            --held_[returned->asked];
+        holdings* const held = held_here();
+        if (held != nullptr && (*held)[returned->requested] > 0) {
+            --(*held)[returned->requested];
+            --held_[returned->requested];
         }
         put(returned);
     }
+
+    /// The work of this thread.
+    [[nodiscard]] static work& current_work() noexcept { return thread_value<work>(); }
 
     /// A piece of work begins, on a thread of its own.
     void begin() noexcept {
@@ -82,22 +90,24 @@ class memory_pool {
             while (number_free_[c] < set_aside(c)) {
                 void* const memory =
                     ::operator new(bytes_of(c), std::align_val_t{alignment}, std::nothrow);
-                if (memory == nullptr) return;  // work that needs it will say so
+                if (memory == nullptr) return;  // allocate() will throw
                 put(made(c, memory));
             }
     }
 
     /// The number of its blocks that are not in use. O(classes).
     [[nodiscard]] std::size_t free_blocks() const {
-        return std::accumulate(number_free_.begin(), number_free_.end(), std::size_t{0});
+        std::size_t all = 0;
+        for (const std::size_t of_class : number_free_) all += of_class;
+        return all;
     }
 
   private:
     /// The header in front of the memory.
     struct alignas(alignment) block {
         std::size_t size_class;
-        std::size_t asked = 0;  // the class of the size that its user asked for
-        block* next = nullptr;  // in the list of free blocks
+        std::size_t requested = 0;  // the class of the size that its user requested
+        block* next = nullptr;      // in the list of free blocks
     };
 
     /// A request may get a block of up to 16 times its size rather than a new one.
@@ -122,20 +132,27 @@ class memory_pool {
         return new (memory) block{size_class};
     }
 
-    /// A free block of the class asked for, or of the next larger ones, null if there is none; work
+    /// The holdings of this thread's work in this pool; null outside of work.
+    [[nodiscard]] holdings* held_here() const noexcept {
+        const work here = current_work();
+        return here.pool == this ? here.held : nullptr;
+    }
+
+    /// A free block of the requested class, or of the next larger ones, null if there is none; work
     /// may have those of its class that are set aside.
-    [[nodiscard]] block* take(std::size_t asked, holdings* held) noexcept {
+    [[nodiscard]] block* take(std::size_t requested) noexcept {
+        holdings* const held = held_here();
         const guard_of locked(guard_);
         block* found = nullptr;
-        const std::size_t end = std::min(asked + reach + 1, classes);
-        for (std::size_t c = asked; c < end && found == nullptr; ++c)
-            if (number_free_[c] > (held != nullptr && c == asked ? 0 : set_aside(c))) {
+        const std::size_t end = std::min(requested + reach + 1, classes);
+        for (std::size_t c = requested; c < end && found == nullptr; ++c)
+            if (number_free_[c] > (held != nullptr && c == requested ? 0 : set_aside(c))) {
                 found = std::exchange(free_[c], free_[c]->next);
                 --number_free_[c];
             }
         if (held != nullptr) {
-            most_[asked] = std::max(most_[asked], ++(*held)[asked]);
-            ++held_[asked];
+            most_[requested] = std::max(most_[requested], ++(*held)[requested]);
+            ++held_[requested];
         }
         return found;
     }
@@ -146,8 +163,8 @@ class memory_pool {
         ++number_free_[c];
     }
 
-    /// As many free blocks of this class as work may still ask for. (One thread asks for the same
-    /// ones in each call.)
+    /// The number of free blocks of this class that work may still request. (One thread requests
+    /// the same ones in each call.)
     [[nodiscard]] std::uint32_t set_aside(std::size_t c) const noexcept {
         const std::uint32_t most = threads_ > 1 ? threads_ * most_[c] : 0;
         return most - std::min(most, held_[c]);
@@ -159,6 +176,30 @@ class memory_pool {
     holdings held_{};                          // by all pieces of work together
     holdings most_{};                          // that one piece of work held at once
     std::uint32_t working_ = 0, threads_ = 0;  // pieces of work now, and at most
+};
+
+/// While it exists, this thread does one of several pieces of work that may run at the same time,
+/// and its `scratch` vectors use the pool.
+class work_scope {
+  public:
+    explicit work_scope(memory_pool& pool)
+        : pool_(pool),
+          scope_(&pool),
+          outer_(std::exchange(memory_pool::current_work(), {&pool, &held_})) {
+        pool_.begin();
+    }
+    work_scope(const work_scope&) = delete;
+    work_scope& operator=(const work_scope&) = delete;
+    ~work_scope() {
+        pool_.end(held_);
+        memory_pool::current_work() = outer_;
+    }
+
+  private:
+    memory_pool& pool_;
+    memory_pool::holdings held_{};
+    pool_scope scope_;
+    memory_pool::work outer_;
 };
 
 }  // namespace gnomon::detail

@@ -6,7 +6,7 @@
 #include <concepts>
 #include <cstddef>
 
-#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/core/execution.hpp>
 
 namespace gnomon::detail {

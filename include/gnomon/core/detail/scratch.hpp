@@ -11,68 +11,56 @@
 #include <utility>
 #include <vector>
 
-#include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/core/detail/thread_team.hpp>
 
 namespace gnomon::detail {
 
-/// The innermost `pool_scope` on a thread.
-struct pool_use {
-    memory_pool* pool = nullptr;
-    memory_pool::holdings* held = nullptr;
+/// Where the memory of scratch vectors comes from; `memory_pool` is one. (An interface, so that
+/// algorithms compile without it.)
+class memory_source {
+  public:
+    static constexpr std::size_t alignment = 64;  // [bytes], of all memory: a cache line
+
+    [[nodiscard]] virtual void* allocate(std::size_t bytes) = 0;
+    virtual void deallocate(void* bytes) noexcept = 0;
+
+  protected:
+    memory_source() = default;
+    ~memory_source() = default;
 };
-[[nodiscard]] inline pool_use& current_use() noexcept {
-#if defined(GNOMON_NO_THREADS)
-    static pool_use use;
-#else
-    static thread_local pool_use use;
-#endif
-    return use;
+
+/// The source of the innermost `pool_scope` on this thread; null if there is none.
+[[nodiscard]] inline memory_source*& current_pool() noexcept {
+    return thread_value<memory_source*>();
 }
 
 /// While it exists, `scratch` vectors that are constructed on this thread use a pool; operator new
 /// if it is null.
 class pool_scope {
   public:
-    explicit pool_scope(memory_pool* pool, memory_pool::holdings* held = nullptr)
-        : outer_(std::exchange(current_use(), pool_use{pool, held})) {}
+    explicit pool_scope(memory_source* pool) : outer_(std::exchange(current_pool(), pool)) {}
     pool_scope(const pool_scope&) = delete;
     pool_scope& operator=(const pool_scope&) = delete;
-    ~pool_scope() { current_use() = outer_; }
+    ~pool_scope() { current_pool() = outer_; }
 
   private:
-    pool_use outer_;
-};
-
-/// The same for one of several pieces of work that may run at the same time.
-class work_scope {
-  public:
-    explicit work_scope(memory_pool& pool) : pool_(pool), scope_(&pool, &held_) { pool_.begin(); }
-    work_scope(const work_scope&) = delete;
-    work_scope& operator=(const work_scope&) = delete;
-    ~work_scope() { pool_.end(held_); }
-
-  private:
-    memory_pool& pool_;
-    memory_pool::holdings held_{};
-    pool_scope scope_;
+    memory_source* outer_;
 };
 
 /// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
 /// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
 /// only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_pool* pool, std::size_t bytes,
+[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
                                                         std::size_t alignment) {
-    const pool_use now = current_use();
-    if (pool != nullptr) return pool->allocate(bytes, now.pool == pool ? now.held : nullptr);
+    if (pool != nullptr) return pool->allocate(bytes);
     return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
                ? ::operator new(bytes, std::align_val_t{alignment})
                : ::operator new(bytes);
 }
-[[gnu::noinline]] inline void deallocate_to(memory_pool* pool, void* memory,
+[[gnu::noinline]] inline void deallocate_to(memory_source* pool, void* memory,
                                             std::size_t alignment) noexcept {
-    const pool_use now = current_use();
     if (pool != nullptr)
-        pool->deallocate(memory, now.pool == pool ? now.held : nullptr);
+        pool->deallocate(memory);
     else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
         ::operator delete(memory, std::align_val_t{alignment});
     else
@@ -87,9 +75,9 @@ class pooled {
     using propagate_on_container_move_assignment = std::true_type;
     using propagate_on_container_swap = std::true_type;
 
-    static_assert(alignof(T) <= memory_pool::alignment);
+    static_assert(alignof(T) <= memory_source::alignment);
 
-    pooled() noexcept : pool_(current_use().pool) {}
+    pooled() noexcept : pool_(current_pool()) {}
     template <class U>
     explicit(false) pooled(const pooled<U>& other) noexcept : pool_(other.pool()) {}
 
@@ -101,14 +89,14 @@ class pooled {
     /// Copies of a container use the pool that is current when they are made.
     [[nodiscard]] pooled select_on_container_copy_construction() const { return {}; }
 
-    [[nodiscard]] memory_pool* pool() const noexcept { return pool_; }
+    [[nodiscard]] memory_source* pool() const noexcept { return pool_; }
     template <class U>
     friend bool operator==(const pooled& a, const pooled<U>& b) noexcept {
         return a.pool() == b.pool();
     }
 
   private:
-    memory_pool* pool_;
+    memory_source* pool_;
 };
 
 /// A vector that an algorithm needs only while it runs.

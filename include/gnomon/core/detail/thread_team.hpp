@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// All use of threads in gnomon: the number of hardware threads, a mutex, and a team of threads
+/// All use of threads in gnomon: the number of hardware threads, a mutex, variables of each
+/// thread, and a team of threads
 /// that stays alive between the steps of an algorithm. On platforms without threads, and where
 /// GNOMON_NO_THREADS is defined, the calling thread does all work.
 ///
@@ -38,6 +39,13 @@ struct guard_of {
     explicit guard_of(mutex&) {}
 };
 
+/// A variable of type T.
+template <class T>
+[[nodiscard]] T& thread_value() noexcept {
+    static T value{};
+    return value;
+}
+
 /// The calling thread alone.
 class thread_team {
   public:
@@ -57,6 +65,13 @@ class thread_team {
 
 using mutex = std::mutex;
 using guard_of = std::lock_guard<std::mutex>;
+
+/// A variable of type T that each thread has of its own.
+template <class T>
+[[nodiscard]] T& thread_value() noexcept {
+    static thread_local T value{};
+    return value;
+}
 
 /// The calling thread and helpers, which start with the first work.
 class thread_team {
