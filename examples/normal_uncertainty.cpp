@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// How far can I trust a normal? Estimates normals with their covariances, colors a scan by them,
-/// and, where the truth is known, looks whether they keep what they promise.
+/// and, where the truth is known, tests whether the errors agree with the covariances.
 
 #include <array>
 #include <cmath>

@@ -57,14 +57,15 @@ static_assert(gnomon::size_preference<prefer_flat>);
 // [own_size_preference]
 
 // [own_dissimilarity]
-// Oriented points are alike up to 5 cm apart and, unlike `two_thresholds`, with normals to the same
-// side.
+// Oriented points are alike up to `radius` apart and, unlike `two_thresholds`, with normals to the
+// same side.
 struct same_side {
     double radius = 0.05;  // [m]
 
     auto criterion() const {
-        return [](double squared_distance, const Eigen::Vector3d& n_i, const Eigen::Vector3d& n_j) {
-            return squared_distance <= 0.05 * 0.05 && n_i.dot(n_j) >= 0.99;
+        return [limit = radius * radius](double squared_distance, const Eigen::Vector3d& n_i,
+                                         const Eigen::Vector3d& n_j) {
+            return squared_distance <= limit && n_i.dot(n_j) >= 0.99;
         };
     }
 };

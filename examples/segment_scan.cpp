@@ -186,6 +186,7 @@ class timed_step {
 /// Adds the steps of `perception`.
 void add_steps(json& seconds, const auto& steps) {
     seconds.update({{"preprocessing", steps.preprocessing},
+                    {"index", steps.index},
                     {"normals", steps.normals},
                     {"segmentation", steps.segmentation},
                     {"merging", steps.merging},

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a point is, and the few tools that everything above shares.
+/// Points, ranges of points, view points, executions, and the types that all other headers share.
 #pragma once
 
 #include <gnomon/core/angle.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which points are neighbors.
+/// Neighbor search: the index, the neighborhoods and their graphs.
 #pragma once
 
 #include <gnomon/neighborhoods/adaptive_knn.hpp>

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What the surface is at a point. normals/registry.hpp stays outside, as it needs Boost.Hana.
+/// Estimation, repair, orientation and quality of normals. normals/registry.hpp stays outside, as
+/// it needs Boost.Hana.
 #pragma once
 
 #include <gnomon/normals/averaging.hpp>

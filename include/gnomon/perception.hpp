@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// All of the above, in one call.
+/// The chain of all steps, from points to surfaces: `perception` and its result.
 #pragma once
 
 #include <gnomon/perception/perception.hpp>

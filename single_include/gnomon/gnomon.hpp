@@ -172,10 +172,10 @@ namespace detail {
 // -------- gnomon/core/detail/thread_team.hpp -----------------------------------------------------
 
 /// @file
-/// All use of threads in gnomon: the number of hardware threads, a mutex, variables of each
-/// thread, and a team of threads
-/// that stays alive between the steps of an algorithm. On platforms without threads, and where
-/// GNOMON_NO_THREADS is defined, the calling thread does all work.
+/// All use of threads and of thread-local values in gnomon: the number of hardware threads, a
+/// mutex, variables of each thread, and a team of threads that stays alive between the steps of an
+/// algorithm. On platforms without threads, and where GNOMON_NO_THREADS is defined, the calling
+/// thread does all work.
 ///
 /// To start a thread, or to wake one, takes as long as many a step; so a thread without work polls
 /// for a millisecond before it sleeps, and the caller does not wait for threads that have not yet
@@ -306,7 +306,7 @@ class thread_team {
         for (unsigned i = inside_; i != closed; i = inside_) wait_while(inside_, i);
     }
 
-    /// What a helper does; a work that it finds closed it does not touch.
+    /// The loop of a helper: waits for a call, joins the work if it is open, and leaves.
     void help(unsigned heard) {
         for (;;) {
             wait_while(calls_, heard);
@@ -414,11 +414,14 @@ namespace detail {
 
 /// The same execution for an algorithm of several steps: its threads stay from the first step to
 /// the last.
-template <execution X>
-[[nodiscard]] const X& staying(const X& run) {
-    return run;
-}
 [[nodiscard]] inline team staying(const threads& run) { return team(run.count()); }
+template <execution X>
+[[nodiscard]] decltype(auto) staying(const X& run) {
+    if constexpr (requires { run.staying(); })
+        return run.staying();
+    else
+        return (run);
+}
 
 /// Points per chunk of work (performance only): enough to hide the cost of handing out a chunk, few
 /// enough to balance the load.
@@ -777,8 +780,8 @@ template <point P>
     return std::abs(p.x()) < limit && std::abs(p.y()) < limit && std::abs(p.z()) < limit;
 }
 
-/// The squared Euclidean distance, in double [m^2]. All searches compare these values and break
-/// ties by the index of the point.
+/// The squared Euclidean distance, in double [m^2]. Searches compare these values unless
+/// `search_options` name another metric, and break ties by the index of the point.
 [[nodiscard]] inline double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     const double dx = p.x() - q.x();
     const double dy = p.y() - q.y();
@@ -792,7 +795,7 @@ template <point P>
 
 /// @file
 /// Ranges of points. A `point_range` is a random-access sized range whose elements are points, or
-/// become points under a projection. Algorithms never copy, reorder or resize it; they read it
+/// become points under a projection. Algorithms never change, reorder or resize it; they read it
 /// through `position_view`, by index and in double.
 
 namespace gnomon {
@@ -1499,11 +1502,6 @@ class supervised {
 
 namespace detail {
 
-template <class X, class OnStep>
-[[nodiscard]] auto staying(const supervised<X, OnStep>& run) {
-    return run.staying();
-}
-
 /// Announces a step to executions that want to know.
 template <execution X>
 void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {
@@ -1791,10 +1789,9 @@ class pack_of {
             bits |= at_most(a.at_[v], limit) << v * width;
         return bits;
     }
-    /// The square roots.
+    /// The square roots. (std::sqrt, which may have to set errno, would be called one by one.)
     [[gnu::always_inline]] friend pack_of root(const pack_of& a) {
         return of([&](std::size_t v) {
-        // std::sqrt, which may have to set errno, would be called one by one.
 #if GNOMON_LANE_BITS == 512
             return static_cast<vector>(_mm512_maskz_sqrt_pd(0xff, static_cast<__m512d>(a.at_[v])));
 #elif GNOMON_LANE_BITS == 256
@@ -2175,13 +2172,13 @@ using scratch = std::vector<T, pooled<T>>;
 // -------- gnomon/neighborhoods/neighbor.hpp ------------------------------------------------------
 
 /// @file
-/// What a search finds: a point by its index and how far it is.
+/// The result of a search: a point by its index and how far it is.
 
 namespace gnomon {
 
 /// A point found by a search. The canonical order is by distance, ties by index.
 struct neighbor {
-    double squared_distance;  ///< [m^2], see squared_distance()
+    double squared_distance;  ///< [m^2], of the metric of the search; by default squared_distance()
     point_index index;
 
     friend bool operator==(const neighbor&, const neighbor&) = default;
@@ -2290,9 +2287,6 @@ class kept_array {
         }
         size_ = n;
     }
-
-    /// Gives the memory back.
-    void release() { kept_array().swap(*this); }
 
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] T* data() { return values_.get(); }
@@ -2502,7 +2496,7 @@ struct leaf_box {
 // -------- gnomon/neighborhoods/detail/leaf_subtree.hpp -------------------------------------------
 
 /// @file
-/// A node of a tree in preorder without pointers: the leaves below it say where its children are.
+/// A node of a tree in preorder without pointers: the leaves below it determine its children.
 
 namespace gnomon::detail {
 
@@ -2824,7 +2818,8 @@ class place_set {
 
     static_assert(leaf_tree::leaf_size == 32);
     scratch<std::uint32_t> leaves_;
-    scratch<std::uint32_t> before_;  // each leaf: how many places of the set
+    scratch<std::uint32_t>
+        before_;  // entry l: the places in the leaves before leaf l; the last: in all
 };
 
 }  // namespace gnomon::detail
@@ -2856,7 +2851,7 @@ template <class Sorted, class Proj = std::identity>
 // -------- gnomon/neighborhoods/metric.hpp --------------------------------------------------------
 
 /// @file
-/// How far one position is from another: the Minkowski distances (sum |d_a|^p)^(1/p) over the three
+/// Distances between positions: the Minkowski distances (sum |d_a|^p)^(1/p) over the three
 /// coordinate differences d_a, among them the Manhattan distance (p = 1), the Euclidean distance
 /// (p = 2) and the maximum distance (p = infinity).
 ///
@@ -3009,8 +3004,8 @@ class tree_query {
         const std::size_t begin = leaf * leaf_tree::leaf_size;
         const double *x = tree_.at(0) + begin, *y = tree_.at(1) + begin, *z = tree_.at(2) + begin;
         std::array<double, leaf_tree::leaf_size> squared;
-        for (std::size_t l = 0; l < squared.size();
-             ++l)  // of fixed length, for vector instructions
+        // Of fixed length, for vector instructions.
+        for (std::size_t l = 0; l < squared.size(); ++l)
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
         for (std::size_t l = 0; l < size; ++l) {
@@ -3121,8 +3116,8 @@ struct search_options {
 
 namespace gnomon::detail {
 
-/// The base of `spatial_index` and `indexed_subset`, which say what tree to search, and which
-/// places of it count.
+/// The base of `spatial_index` and `indexed_subset`, which provide the tree, and the set
+/// of places to search.
 template <class Index>
 class index_queries {
   public:
@@ -3137,7 +3132,7 @@ class index_queries {
         return found;
     }
 
-    /// All points at most `radius` [m] from `p`, nearest first.
+    /// All points at most `radius` [m] from `p`, nearest first. O(log n + m log m) for m found.
     /// @throws std::invalid_argument  also if the radius is negative or NaN
     [[nodiscard]] std::vector<neighbor> within(const Eigen::Vector3d& p, double radius,
                                                const search_options& options = {}) const {
@@ -3147,6 +3142,7 @@ class index_queries {
     }
 
     /// The k points nearest to `p` of those at most `radius` [m] away, nearest first.
+    /// O(log n + m log m) for m found.
     /// @throws std::invalid_argument  also if the radius is negative or NaN
     [[nodiscard]] std::vector<neighbor> nearest_within(const Eigen::Vector3d& p, std::size_t k,
                                                        double radius,
@@ -3156,7 +3152,7 @@ class index_queries {
         return found;
     }
 
-    /// nearest(), in the memory of `found`.
+    /// nearest(), in the memory of `found`. The same errors and complexity; so below.
     void nearest_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                       const search_options& options = {}) const {
         search({.k = k}, found, p, options);
@@ -3207,8 +3203,8 @@ class index_queries {
 ///     auto surface = gnomon::estimate_normals(index, gnomon::knn{.k = 30});
 ///     for (const gnomon::neighbor& q : index.within(position, 0.05)) ...
 ///
-/// The index is a kd-tree whose leaves hold 32 points (Klasing 2010, App. A.1). Answers are exact
-/// and unique: ties are broken by the index of the point.
+/// The index is a kd-tree whose leaves hold 32 points (Klasing 2010, App. A.1). By default
+/// answers are exact and unique, ties broken by the index of the point; see `search_options`.
 
 namespace gnomon {
 
@@ -3232,9 +3228,10 @@ class indexed_subset;
 }
 
 /// Models `point_range` and `has_viewpoints`: stands for the points that it was built from, in
-/// their order. Copies their positions in double (about 40 bytes a point) and their view points,
-/// so that the points may be destroyed. Points that are not finite are counted, and never found. A
-/// value: copies are independent. Queries are const and thread-safe.
+/// their order. Copies their positions in double (about 35 bytes a point, 67 after rebuild(),
+/// which keeps its working memory) and their view points, so that the points may be destroyed.
+/// Points that are not finite are counted, and never found. A value: copies are independent.
+/// Queries are const and thread-safe.
 class spatial_index : public detail::index_queries<spatial_index> {
   public:
     /// Those of the points.
@@ -3244,7 +3241,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
     spatial_index() = default;
 
     /// @param points  any point range of n points [m]
-    /// @throws std::invalid_argument  if the view points are for another number of points
+    /// @throws std::invalid_argument  if the view points are for another number of points, or for
+    ///                                2^32 - 1 points or more
     /// Complexity: O(n log n), on as many threads as `run` has. The same bytes for every execution.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
@@ -3253,24 +3251,36 @@ class spatial_index : public detail::index_queries<spatial_index> {
         tree_.release_scratch();
     }
 
-    /// Replaces the points, in the memory of the index; allocates only to grow. If this
-    /// throws, the index is of no points.
+    /// Makes this the index of no points; keeps the memory of the tree.
+    void clear() {
+        tree_.clear();
+        viewpoints = {};
+    }
+
+    /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
+    /// index is of no points. Precondition: `points` does not refer to this index.
+    /// @throws and complexity as for the constructor
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
-        tree_.clear();
-        detail::with_table_of(
-            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
-        epsilon_ = detail::epsilon_of<view>(points);
-        tree_.rebuild(view(points, std::move(projection)), run);
+        try {
+            detail::with_table_of(points, [this](auto&& table) {
+                viewpoints = std::forward<decltype(table)>(table);
+            });
+            epsilon_ = detail::epsilon_of<view>(points);
+            tree_.rebuild(view(points, std::move(projection)), run);
+        } catch (...) {
+            clear();
+            throw;
+        }
     }
 
     /// The number of points, finite or not.
     [[nodiscard]] std::size_t size() const { return tree_.points(); }
     /// The number of finite points, which are those that queries find.
     [[nodiscard]] std::size_t finite() const { return tree_.size(); }
-    /// Whether point i is finite, so that queries find it.
+    /// Whether point i is finite, so that queries find it. Precondition: i < size().
     [[nodiscard]] bool is_finite(std::size_t i) const {
         return tree_.place_of(i) != detail::leaf_tree::no_place;
     }
@@ -3434,8 +3444,10 @@ struct any_visitor {
 /// execution, make_visitor) calls visit(i, found) for each finite point i, in any order and from
 /// several threads, with a visitor that make_visitor() returns for each chunk of work, and at the
 /// end of the chunk its finish(), if it has one. `found` is valid during the call: its `size()`;
-/// the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that order, by
-/// `summed()`, their moments `about_point` and `mean_distance`.
+/// the neighbors in the order of the policy, by `sort_into(neighbors)`, for vectors with any
+/// allocator; and without that order, by `summed()`, their moments `about_point` and
+/// `mean_distance`. A policy that finds the same number of neighbors of every one of n finite
+/// points may return it from neighbors_of_each(n), an optional.
 template <class N>
 concept sweeping_neighborhood =
     indexed_neighborhood<N> && requires(const N& policy, const spatial_index& index) {
@@ -3527,6 +3539,8 @@ class adjacency {
               std::vector<neighborhood_note> notes = {})
         : adjacency(arrays{std::move(begin), std::move(indices), std::move(notes)}) {}
 
+    /// The same graph from its arrays.
+    /// @throws std::invalid_argument  as above
     explicit adjacency(arrays all) : arrays_(std::move(all)) {
         const auto& [begin, indices, notes] = arrays_;
         detail::require(!begin.empty() && begin.front() == 0 && begin.back() == indices.size() &&
@@ -3541,13 +3555,13 @@ class adjacency {
         return arrays_.begin.empty() ? 0 : arrays_.begin.size() - 1;
     }
 
-    /// The neighbors of point i, in the order in which they were found.
+    /// The neighbors of point i, in the order of the policy. Precondition: i < size().
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
         return {arrays_.indices.data() + arrays_.begin[i],
                 arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
-    /// What the search noted of the neighborhood of point i.
+    /// What the search noted of the neighborhood of point i. Precondition: i < size().
     [[nodiscard]] neighborhood_note note(std::size_t i) const {
         return arrays_.notes.empty() ? neighborhood_note{} : arrays_.notes[i];
     }
@@ -4764,6 +4778,16 @@ class scratch_graph {
 
 namespace gnomon::detail {
 
+/// Writes the indices of the neighbors that a sweep found, in their order.
+void write_indices(const auto& found, point_index* to, scratch<neighbor>& buffer) {
+    if constexpr (requires { found.sort_into(to, buffer); }) {
+        found.sort_into(to, buffer);
+    } else {
+        found.sort_into(buffer);
+        for (const neighbor& q : buffer) *to++ = q.index;
+    }
+}
+
 /// Writes the neighbors of each point to their place in the graph, which is known beforehand.
 class neighborhood_writer {
   public:
@@ -4773,7 +4797,7 @@ class neighborhood_writer {
 
     void operator()(std::size_t i, const auto& found) {
         assert(found.size() == begin_[i + 1] - begin_[i]);
-        found.sort_into(indices_ + begin_[i], buffer_);
+        write_indices(found, indices_ + begin_[i], buffer_);
     }
 
   private:
@@ -4819,7 +4843,7 @@ class neighborhood_recorder {
     void operator()(std::size_t i, const auto& found) {
         const std::size_t before = seen_.indices.size();
         seen_.indices.resize(before + found.size());
-        found.sort_into(seen_.indices.data() + before, buffer_);
+        write_indices(found, seen_.indices.data() + before, buffer_);
         all_.sizes[i + 1] = found.size();
         seen_.points.push_back(static_cast<point_index>(i));
     }
@@ -5513,7 +5537,7 @@ class tangent_plane {
 
 /// @file
 /// The neighbors of any neighborhood in angular order: counterclockwise around the point in its
-/// tangent plane, which the averaging estimators want and k nearest neighbors do not have.
+/// tangent plane, which the averaging estimators require and k nearest neighbors do not have.
 ///
 /// Klasing 2010, Sec. 3.2.4 assumes "some sensible order".
 
@@ -5526,7 +5550,10 @@ namespace detail {
 /// @return the note of the sorted one
 inline neighborhood_note sort_angularly(const auto& points, std::size_t i,
                                         std::vector<neighbor>& found, neighborhood_note note) {
-    static thread_local std::vector<planar_point> fan;  // kept, so that no point allocates
+    struct kept_fan {
+        std::vector<planar_point> points;
+    };
+    std::vector<planar_point>& fan = thread_value<kept_fan>().points;  // so that no point allocates
     note.open = true;
     const Eigen::Vector3d p = points[i];
     if (!is_finite(p)) return note;
@@ -5617,7 +5644,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
 
 namespace gnomon {
 
-/// Models `indexed_neighborhood`; its notes say which stars are open, and which are certified.
+/// Models `indexed_neighborhood`; its notes state which stars are open, and which are certified.
 struct delaunay {
     std::size_t k = 20;     ///< neighbors that are triangulated at first, and define the plane
     int max_doublings = 4;  ///< of k, as long as there is no certificate
@@ -5646,7 +5673,10 @@ neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
                                  std::vector<neighbor, Allocator>& found) const {
     require_valid();
     // Kept between calls, so that no point costs an allocation.
-    static thread_local std::vector<detail::planar_point> star;
+    struct kept_star {
+        std::vector<detail::planar_point> points;
+    };
+    std::vector<detail::planar_point>& star = detail::thread_value<kept_star>().points;
     const Eigen::Vector3d p = index[i];
     std::size_t wanted = k;
     knn{.k = wanted}.find(index, i, found);
@@ -6426,8 +6456,8 @@ class neighbor_gatherer {
 
 namespace gnomon {
 
-/// The estimator's own result, with its members `normal` and `trust`, and two
-/// figures of its neighborhood (Klasing 2010, Sec. 4.2.5).
+/// The estimator's own result, with its members `normal` and `trust`, and two figures of
+/// its neighborhood (Klasing 2010, Sec. 4.2.5).
 template <class Estimate>
 struct surfel : Estimate {
     double mean_distance = 0.0;  ///< rho_bar, mean distance to the neighbors [m], Eq. (4.2)
@@ -6830,7 +6860,8 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
 ///         neighbor distance (float points far from the origin) or the neighborhood is not
-///         certified; `not_finite` as well where a ray estimator has a view point that is not.
+///         certified; `not_finite` as well where a ray estimator has a view point that is not
+///         finite.
 /// @throws std::invalid_argument  if graph and points differ in size, an index is out of range, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point.
@@ -6840,20 +6871,33 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
 [[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
+    std::vector<surfel<estimate_t<E>>> surface;
+    estimate_normals_into(surface, points, graph, estimate, run, std::move(projection));
+    return surface;
+}
+
+/// The same in the memory of `surface`, whose content it replaces; allocates only to grow.
+/// @throws and complexity as above
+template <class R, neighborhood_graph G, estimator E, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
+                           const G& graph, const E& estimate, const X& run = {},
+                           Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: graph and points differ in size");
-    std::vector<surfel<estimate_t<E>>> surface(p.size());
+    detail::resize_touched(surface, p.size(), run);
     detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
         detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints,
                             detail::epsilon_of<position_view<R, Proj>>(points),
                             detail::stored_neighborhoods(graph), estimate, surface);
     });
-    return surface;
 }
 
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
 /// what a search needs while it runs.
+/// @throws and complexity as for estimate_normals
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
@@ -6864,8 +6908,8 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
         const auto& index = detail::index_of(points, team, projection);
         detail::estimate_indexed(surface, index, policy, estimate, team);
     } else {
-        surface = estimate_normals(points, policy(points, team, projection), estimate, team,
-                                   std::move(projection));
+        estimate_normals_into(surface, points, policy(points, team, projection), estimate, team,
+                              std::move(projection));
     }
 }
 
@@ -7531,7 +7575,7 @@ inline constexpr double vague_trace = 0.1;
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
 /// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a
-/// unit; a choice of ours, not in the thesis.)
+/// unit; chosen here, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
 /// The covariance of a normal about which nothing is known.
@@ -7541,8 +7585,8 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
 /// finite has overflowed: nothing is known. The smaller eigenvalue is not set below what rounding
 /// of the larger one hides.
 [[nodiscard]] inline tangent_matrix limited_covariance(const tangent_matrix& p) {
-    const bool is_definite =
-        p.p11 > 0.0 && p.p12 * p.p12 < p.p11 * p.p22;                // also if these underflow
+    // Also if these products underflow.
+    const bool is_definite = p.p11 > 0.0 && p.p12 * p.p12 < p.p11 * p.p22;
     if (is_definite && p.p11 + p.p22 <= largest_variance) return p;  // performance only
     const double mean = 0.5 * p.p11 + 0.5 * p.p22;
     const double half_difference = 0.5 * p.p11 - 0.5 * p.p22;
@@ -8256,10 +8300,10 @@ struct plane_filter {
 
     void require_parameters() const {
         require_sigma(sigma);
-        require(max_iterations >= 1, "plane_filter: needs an iteration");
+        require(max_iterations >= 1, "plane_ekf, plane_ukf: needs an iteration");
         require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
                     std::isfinite(prior_distance),
-                "plane_filter: the prior's deviations must be positive and finite");
+                "plane_ekf, plane_ukf: the prior's deviations must be positive and finite");
     }
 
     /// The information of the prior about the difference from the state.
@@ -8305,7 +8349,7 @@ struct plane_filter {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
 /// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of
-/// the prior. `not_finite` where the view point is.
+/// the prior. `not_finite` where the view point is not finite.
 using plane_ekf = detail::plane_filter<detail::by_derivative>;
 
 /// The iterated unscented Kalman filter, for strong noise and grazing rays; otherwise as
@@ -9183,7 +9227,7 @@ struct sample_consensus {
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
                                        neighborhood_view neighbors) const {
         require_sigma(sigma);
-        require(trials >= 1, "sample_consensus: needs a trial");
+        require(trials >= 1, "ransac_plane, mlesac_plane: needs a trial");
         if (neighbors.size() < 3) return {};
         const std::size_t n = neighbors.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {
@@ -9351,7 +9395,7 @@ namespace gnomon {
 ///
 /// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2. The
 /// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
-/// points do not form a plane with this normal. `not_finite` where the view point is.
+/// points do not form a plane with this normal. `not_finite` where the view point is not finite.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
 template <estimator E>
@@ -14593,7 +14637,7 @@ class occlusion_merger {
 /// of which tests all pairs with a new segment and merges the accepted ones, until there are none.
 /// Two segments that are certainly not coplanar are not joined through a third one. A narrow gap,
 /// which the thesis always closes, stays open where free space was observed (docs/thesis-notes.md,
-/// A16). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
+/// A18). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
 /// also on their normals. merge_occluded_literally is the algorithm as printed.
 
 namespace gnomon {
@@ -16697,7 +16741,8 @@ class memory_pool final : public memory_source {
         threads_ = std::max(threads_, ++working_);
     }
 
-    /// It ends; what it still holds belongs to its caller. O(classes).
+    /// It ends; what it still holds belongs to its caller. O(classes), and the mapping of the
+    /// blocks that are set aside.
     void end(const holdings& held) noexcept {
         const guard_of locked(guard_);
         --working_;
@@ -16712,7 +16757,8 @@ class memory_pool final : public memory_source {
     }
 
     /// The number of its blocks that are not in use. O(classes).
-    [[nodiscard]] std::size_t free_blocks() const {
+    [[nodiscard]] std::size_t free_blocks() {
+        const guard_of locked(guard_);
         std::size_t all = 0;
         for (const std::size_t of_class : number_free_) all += of_class;
         return all;
@@ -16850,7 +16896,7 @@ class pooled_run {
 // -------- gnomon/core/detail/stopwatch.hpp -------------------------------------------------------
 
 /// @file
-/// How long a step takes.
+/// Measures elapsed time.
 
 #if defined(GNOMON_NO_THREADS)
 #include <chrono>
@@ -16858,10 +16904,10 @@ class pooled_run {
 
 namespace gnomon::detail {
 
-/// Starts when it is made.
+/// Starts at construction.
 class stopwatch {
   public:
-    /// Since then [s].
+    /// The time since construction [s].
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(clock::now() - start_).count();
     }
@@ -16918,17 +16964,9 @@ class perception_memory {
 // -------- gnomon/perception/perception_result.hpp ------------------------------------------------
 
 /// @file
-/// What `perception` returns, and what it removes first.
+/// What `perception` returns.
 
 namespace gnomon {
-
-/// What is removed first: floor and ceiling, where they are found.
-struct floor_and_ceiling {
-    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
-    find_floor_options floor{};
-    find_ceiling_options ceiling{};
-    crop_height_options bands{};
-};
 
 /// What was perceived in n points.
 template <class Estimate>
@@ -16947,7 +16985,8 @@ struct perception_result {
     std::optional<plane> floor;             ///< if it was searched for and found
     std::optional<double> ceiling;          ///< its height above the floor [m]
     std::vector<point_index> kept;          ///< the points that were not removed, ascending
-    spatial_index index;                    ///< of the kept points; empty if an index was given
+    spatial_index index;                    ///< of the kept points; empty if an index was
+                                            ///< given and no point was removed
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
     segments initial_segments;              ///< of the n points, before merging
     segments surfaces;                      ///< of the n points, after all steps
@@ -16996,8 +17035,6 @@ class perception_run {
     }
 
   private:
-    static constexpr std::size_t steps = 8;
-
     /// What the second merging reuses of the first one.
     struct merging {
         std::optional<visibility> seen = {};
@@ -17005,9 +17042,17 @@ class perception_run {
         std::size_t gaps = 0;  ///< in the result
     };
 
+    /// The number of steps: not all chains merge, or split and merge again.
+    [[nodiscard]] std::size_t steps() const {
+        if constexpr (merge_policy<decltype(chain_.merge)>)
+            return chain_.splitting ? 8 : 7;
+        else
+            return 6;
+    }
+
     /// Announces a step, and adds its time to `seconds`.
     void step(const char* name, double& seconds, auto&& work) {
-        begin_step(progress_, name, ++step_, steps);
+        begin_step(progress_, name, ++step_, steps());
         const stopwatch watch;
         work();
         seconds += watch.seconds();
@@ -17023,7 +17068,7 @@ class perception_run {
         result_.floor.reset();
         result_.ceiling.reset();
         if (chain_.leave_out) {
-            const floor_and_ceiling& out = *chain_.leave_out;
+            const auto& out = *chain_.leave_out;
             if (const auto guess = guess_floor(points_, out.up, projection_))
                 result_.floor = find_floor(points_, *guess, out.floor, projection_);
             if (result_.floor) {
@@ -17041,6 +17086,7 @@ class perception_run {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index>) {
+            result_.index.clear();
             given_ = &points_;
             return;
         } else {
@@ -17170,6 +17216,14 @@ class perception_run {
 ///     chain.into(seen, next_scan, team);
 
 namespace gnomon {
+
+/// What is removed first: floor and ceiling, where they are found.
+struct floor_and_ceiling {
+    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
+    find_floor_options floor{};
+    find_ceiling_options ceiling{};
+    crop_height_options bands{};
+};
 
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};

@@ -56,7 +56,7 @@ TEST(memory_pool, reuses_blocks) {
     for (void* const block : {small, tiny, other}) pool.deallocate(block);
 }
 
-/// Two pieces of work begin and end, so that the pool knows of two threads.
+/// Two pieces of work begin and end, so that the pool serves two threads.
 void work_twice(memory_pool& pool) {
     const work_scope first(pool);
     const work_scope second(pool);

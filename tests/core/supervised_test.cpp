@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <atomic>
+#include <concepts>
 #include <cstddef>
 #include <string>
 #include <thread>
@@ -31,6 +32,10 @@ TEST(stop_token, sees_requests_of_its_source_when_copied) {
 
 static_assert(gnomon::execution<supervised<gnomon::sequential>>);
 static_assert(gnomon::execution<supervised<gnomon::team>>);
+/// The threads under any supervision stay from one step to the next.
+static_assert(std::same_as<decltype(gnomon::detail::staying(
+                               supervised(supervised<gnomon::threads>(gnomon::threads{})))),
+                           supervised<gnomon::team>>);
 
 TEST(supervised, runs_each_chunk_once) {
     for (const unsigned t : {1u, 2u, 4u}) {

@@ -11,8 +11,8 @@ import sys
 import tempfile
 
 program = sys.argv[1]
-STEPS = ["read", "spacing", "preprocessing", "normals", "segmentation", "merging", "assignment",
-         "description", "picture", "writing"]
+STEPS = ["read", "spacing", "preprocessing", "index", "normals", "segmentation", "merging",
+         "assignment",         "description", "picture", "writing"]
 
 
 def check(condition, message):

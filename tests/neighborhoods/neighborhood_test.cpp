@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -11,7 +13,11 @@
 #include <gnomon/neighborhoods/hybrid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighborhoods_into.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_svd.hpp>
 
 namespace {
 
@@ -43,6 +49,55 @@ static_assert(!gnomon::neighborhood<int, clouds::cloud>);
 static_assert(!gnomon::neighborhood<gnomon::knn, std::vector<int>>);
 static_assert(gnomon::neighborhood_graph<std::vector<std::vector<gnomon::point_index>>>);
 static_assert(!gnomon::neighborhood_graph<std::vector<int>>);
+
+/// The least that a sweeping policy has: knn, point after point.
+struct plain_sweep {
+    gnomon::knn policy{.k = 10};
+
+    struct answer {
+        std::vector<gnomon::neighbor> found;
+
+        [[nodiscard]] std::size_t size() const { return found.size(); }
+        template <class Allocator>
+        void sort_into(std::vector<gnomon::neighbor, Allocator>& neighbors) const {
+            neighbors.assign(found.begin(), found.end());
+        }
+    };
+
+    gnomon::adjacency operator()(const auto& points, const auto& run, auto projection) const {
+        return policy(points, run, projection);
+    }
+    void find(const gnomon::spatial_index& index, std::size_t i, auto& found) const {
+        policy.find(index, i, found);
+    }
+    void sweep(const gnomon::spatial_index& index, const auto& run, auto make_visitor) const {
+        run(1, [&](std::size_t) {
+            auto visit = make_visitor();
+            answer a;
+            for (std::size_t i = 0; i < index.size(); ++i) {
+                if (!index.is_finite(i)) continue;
+                find(index, i, a.found);
+                visit(i, a);
+            }
+            if constexpr (requires { visit.finish(); }) visit.finish();
+        });
+    }
+};
+static_assert(gnomon::sweeping_neighborhood<plain_sweep>);
+
+/// What the page on the concept asks of a model is enough.
+TEST(neighborhood, a_sweep_needs_no_more_than_its_definition) {
+    clouds::cloud points = clouds::sheet(500, 4);
+    points[7].x() = std::numeric_limits<double>::quiet_NaN();
+    gnomon::adjacency graph;
+    gnomon::neighborhoods_into(graph, points, plain_sweep{});
+    EXPECT_EQ(graph, gnomon::knn{.k = 10}(points));
+    const auto expected =
+        gnomon::estimate_normals(points, gnomon::knn{.k = 10}, gnomon::plane_svd{});
+    const auto surface = gnomon::estimate_normals(points, plain_sweep{}, gnomon::plane_svd{});
+    for (std::size_t i = 0; i < points.size(); ++i)
+        EXPECT_EQ(surface[i].normal, expected[i].normal);
+}
 
 TEST(neighborhood, laws_hold_for_every_model_on_every_cloud) {
     auto all = clouds::degenerate();

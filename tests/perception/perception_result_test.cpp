@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -6,11 +8,24 @@
 #include <gtest/gtest.h>
 
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/core/supervised.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/plane_fit.hpp>
+#include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/perception/perception.hpp>
 #include <gnomon/perception/perception_result.hpp>
 
 namespace {
+
+/// A square wall, seen from the origin.
+gnomon::scan wall() {
+    gnomon::scan scan;
+    for (int i = 0; i < 40; ++i)
+        for (int j = 0; j < 40; ++j) scan.points.emplace_back(2.0, 0.02 * i, 0.02 * j);
+    return scan;
+}
 
 TEST(perception_result, begins_empty) {
     const gnomon::perception_result<gnomon::plane_fit> none;
@@ -23,9 +38,7 @@ TEST(perception_result, begins_empty) {
 
 /// Copies and moved results are values like any other, and can be used for the next call.
 TEST(perception_result, is_a_value) {
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 40; ++i)
-        for (int j = 0; j < 40; ++j) points.emplace_back(2.0, 0.02 * i, 0.02 * j);
+    const std::vector<Eigen::Vector3d> points = wall().points;
     const gnomon::perception<> chain;
     auto first = chain(points);
     ASSERT_EQ(first.surfaces.size(), 1u);
@@ -40,6 +53,39 @@ TEST(perception_result, is_a_value) {
     copy = first;
     chain.into(copy, points, gnomon::team(2));
     EXPECT_EQ(copy.surfaces, moved.surfaces);
+}
+
+/// The result of one call holds nothing of the call before.
+TEST(perception_result, has_no_index_if_one_was_given) {
+    const gnomon::scan scan = wall();
+    const gnomon::perception<> chain;
+    auto result = chain(scan);
+    EXPECT_EQ(result.index.size(), scan.size());
+    chain.into(result, gnomon::spatial_index(scan));
+    EXPECT_EQ(result.index.size(), 0u);
+    EXPECT_EQ(result.surfaces.size(), 1u);
+}
+
+/// A caller who follows the progress hears of as many steps as were announced.
+TEST(perception_result, comes_after_as_many_steps_as_announced) {
+    const gnomon::scan scan = wall();
+    const auto expect_all = [&](const auto& chain, std::size_t expected) {
+        std::size_t last = 0, all = 0;
+        const auto on_step = [&](const char*, std::size_t step, std::size_t steps) {
+            EXPECT_EQ(step, last + 1);
+            last = step;
+            all = steps;
+        };
+        (void)chain(scan, gnomon::supervised(gnomon::sequential{}, {}, on_step));
+        EXPECT_EQ(last, expected);
+        EXPECT_EQ(all, expected);
+    };
+    expect_all(gnomon::perception<>{}, 8);
+    expect_all(gnomon::perception<>{.splitting = std::nullopt}, 7);
+    expect_all(gnomon::perception{.neighborhood = gnomon::knn{.k = 30},
+                                  .estimate = gnomon::plane_pca{},
+                                  .merge = gnomon::no_merging{}},
+               6);
 }
 
 }  // namespace

@@ -70,11 +70,14 @@ namespace detail {
 
 /// The same execution for an algorithm of several steps: its threads stay from the first step to
 /// the last.
-template <execution X>
-[[nodiscard]] const X& staying(const X& run) {
-    return run;
-}
 [[nodiscard]] inline team staying(const threads& run) { return team(run.count()); }
+template <execution X>
+[[nodiscard]] decltype(auto) staying(const X& run) {
+    if constexpr (requires { run.staying(); })
+        return run.staying();
+    else
+        return (run);
+}
 
 /// Points per chunk of work (performance only): enough to hide the cost of handing out a chunk, few
 /// enough to balance the load.

@@ -101,8 +101,8 @@ template <point P>
     return std::abs(p.x()) < limit && std::abs(p.y()) < limit && std::abs(p.z()) < limit;
 }
 
-/// The squared Euclidean distance, in double [m^2]. All searches compare these values and break
-/// ties by the index of the point.
+/// The squared Euclidean distance, in double [m^2]. Searches compare these values unless
+/// `search_options` name another metric, and break ties by the index of the point.
 [[nodiscard]] inline double squared_distance(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
     const double dx = p.x() - q.x();
     const double dy = p.y() - q.y();

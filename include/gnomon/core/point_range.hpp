@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Ranges of points. A `point_range` is a random-access sized range whose elements are points, or
-/// become points under a projection. Algorithms never copy, reorder or resize it; they read it
+/// become points under a projection. Algorithms never change, reorder or resize it; they read it
 /// through `position_view`, by index and in double.
 #pragma once
 

@@ -105,11 +105,6 @@ class supervised {
 
 namespace detail {
 
-template <class X, class OnStep>
-[[nodiscard]] auto staying(const supervised<X, OnStep>& run) {
-    return run.staying();
-}
-
 /// Announces a step to executions that want to know.
 template <execution X>
 void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {

@@ -39,6 +39,8 @@ class adjacency {
               std::vector<neighborhood_note> notes = {})
         : adjacency(arrays{std::move(begin), std::move(indices), std::move(notes)}) {}
 
+    /// The same graph from its arrays.
+    /// @throws std::invalid_argument  as above
     explicit adjacency(arrays all) : arrays_(std::move(all)) {
         const auto& [begin, indices, notes] = arrays_;
         detail::require(!begin.empty() && begin.front() == 0 && begin.back() == indices.size() &&
@@ -53,13 +55,13 @@ class adjacency {
         return arrays_.begin.empty() ? 0 : arrays_.begin.size() - 1;
     }
 
-    /// The neighbors of point i, in the order in which they were found.
+    /// The neighbors of point i, in the order of the policy. Precondition: i < size().
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
         return {arrays_.indices.data() + arrays_.begin[i],
                 arrays_.indices.data() + arrays_.begin[i + 1]};
     }
 
-    /// What the search noted of the neighborhood of point i.
+    /// What the search noted of the neighborhood of point i. Precondition: i < size().
     [[nodiscard]] neighborhood_note note(std::size_t i) const {
         return arrays_.notes.empty() ? neighborhood_note{} : arrays_.notes[i];
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The neighbors of any neighborhood in angular order: counterclockwise around the point in its
-/// tangent plane, which the averaging estimators want and k nearest neighbors do not have.
+/// tangent plane, which the averaging estimators require and k nearest neighbors do not have.
 ///
 /// Klasing 2010, Sec. 3.2.4 assumes "some sensible order".
 #pragma once
@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -37,7 +38,10 @@ namespace detail {
 /// @return the note of the sorted one
 inline neighborhood_note sort_angularly(const auto& points, std::size_t i,
                                         std::vector<neighbor>& found, neighborhood_note note) {
-    static thread_local std::vector<planar_point> fan;  // kept, so that no point allocates
+    struct kept_fan {
+        std::vector<planar_point> points;
+    };
+    std::vector<planar_point>& fan = thread_value<kept_fan>().points;  // so that no point allocates
     note.open = true;
     const Eigen::Vector3d p = points[i];
     if (!is_finite(p)) return note;

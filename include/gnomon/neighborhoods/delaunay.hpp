@@ -18,6 +18,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -33,7 +34,7 @@
 
 namespace gnomon {
 
-/// Models `indexed_neighborhood`; its notes say which stars are open, and which are certified.
+/// Models `indexed_neighborhood`; its notes state which stars are open, and which are certified.
 struct delaunay {
     std::size_t k = 20;     ///< neighbors that are triangulated at first, and define the plane
     int max_doublings = 4;  ///< of k, as long as there is no certificate
@@ -62,7 +63,10 @@ neighborhood_note delaunay::find(const spatial_index& index, std::size_t i,
                                  std::vector<neighbor, Allocator>& found) const {
     require_valid();
     // Kept between calls, so that no point costs an allocation.
-    static thread_local std::vector<detail::planar_point> star;
+    struct kept_star {
+        std::vector<detail::planar_point> points;
+    };
+    std::vector<detail::planar_point>& star = detail::thread_value<kept_star>().points;
     const Eigen::Vector3d p = index[i];
     std::size_t wanted = k;
     knn{.k = wanted}.find(index, i, found);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How far one position is from another: the Minkowski distances (sum |d_a|^p)^(1/p) over the three
+/// Distances between positions: the Minkowski distances (sum |d_a|^p)^(1/p) over the three
 /// coordinate differences d_a, among them the Manhattan distance (p = 1), the Euclidean distance
 /// (p = 2) and the maximum distance (p = infinity).
 ///

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What a search finds: a point by its index and how far it is.
+/// The result of a search: a point by its index and how far it is.
 #pragma once
 
 #include <gnomon/core/point.hpp>
@@ -9,7 +9,7 @@ namespace gnomon {
 
 /// A point found by a search. The canonical order is by distance, ties by index.
 struct neighbor {
-    double squared_distance;  ///< [m^2], see squared_distance()
+    double squared_distance;  ///< [m^2], of the metric of the search; by default squared_distance()
     point_index index;
 
     friend bool operator==(const neighbor&, const neighbor&) = default;

@@ -86,8 +86,10 @@ struct any_visitor {
 /// execution, make_visitor) calls visit(i, found) for each finite point i, in any order and from
 /// several threads, with a visitor that make_visitor() returns for each chunk of work, and at the
 /// end of the chunk its finish(), if it has one. `found` is valid during the call: its `size()`;
-/// the neighbors in the order of the policy, by `sort_into(neighbors)`; and without that order, by
-/// `summed()`, their moments `about_point` and `mean_distance`.
+/// the neighbors in the order of the policy, by `sort_into(neighbors)`, for vectors with any
+/// allocator; and without that order, by `summed()`, their moments `about_point` and
+/// `mean_distance`. A policy that finds the same number of neighbors of every one of n finite
+/// points may return it from neighbors_of_each(n), an optional.
 template <class N>
 concept sweeping_neighborhood =
     indexed_neighborhood<N> && requires(const N& policy, const spatial_index& index) {

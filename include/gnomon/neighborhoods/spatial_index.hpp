@@ -8,8 +8,8 @@
 ///     auto surface = gnomon::estimate_normals(index, gnomon::knn{.k = 30});
 ///     for (const gnomon::neighbor& q : index.within(position, 0.05)) ...
 ///
-/// The index is a kd-tree whose leaves hold 32 points (Klasing 2010, App. A.1). Answers are exact
-/// and unique: ties are broken by the index of the point.
+/// The index is a kd-tree whose leaves hold 32 points (Klasing 2010, App. A.1). By default
+/// answers are exact and unique, ties broken by the index of the point; see `search_options`.
 #pragma once
 
 #include <concepts>
@@ -53,9 +53,10 @@ class indexed_subset;
 }
 
 /// Models `point_range` and `has_viewpoints`: stands for the points that it was built from, in
-/// their order. Copies their positions in double (about 40 bytes a point) and their view points,
-/// so that the points may be destroyed. Points that are not finite are counted, and never found. A
-/// value: copies are independent. Queries are const and thread-safe.
+/// their order. Copies their positions in double (about 35 bytes a point, 67 after rebuild(),
+/// which keeps its working memory) and their view points, so that the points may be destroyed.
+/// Points that are not finite are counted, and never found. A value: copies are independent.
+/// Queries are const and thread-safe.
 class spatial_index : public detail::index_queries<spatial_index> {
   public:
     /// Those of the points.
@@ -65,7 +66,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
     spatial_index() = default;
 
     /// @param points  any point range of n points [m]
-    /// @throws std::invalid_argument  if the view points are for another number of points
+    /// @throws std::invalid_argument  if the view points are for another number of points, or for
+    ///                                2^32 - 1 points or more
     /// Complexity: O(n log n), on as many threads as `run` has. The same bytes for every execution.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
@@ -74,24 +76,36 @@ class spatial_index : public detail::index_queries<spatial_index> {
         tree_.release_scratch();
     }
 
-    /// Replaces the points, in the memory of the index; allocates only to grow. If this
-    /// throws, the index is of no points.
+    /// Makes this the index of no points; keeps the memory of the tree.
+    void clear() {
+        tree_.clear();
+        viewpoints = {};
+    }
+
+    /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
+    /// index is of no points. Precondition: `points` does not refer to this index.
+    /// @throws and complexity as for the constructor
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
-        tree_.clear();
-        detail::with_table_of(
-            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
-        epsilon_ = detail::epsilon_of<view>(points);
-        tree_.rebuild(view(points, std::move(projection)), run);
+        try {
+            detail::with_table_of(points, [this](auto&& table) {
+                viewpoints = std::forward<decltype(table)>(table);
+            });
+            epsilon_ = detail::epsilon_of<view>(points);
+            tree_.rebuild(view(points, std::move(projection)), run);
+        } catch (...) {
+            clear();
+            throw;
+        }
     }
 
     /// The number of points, finite or not.
     [[nodiscard]] std::size_t size() const { return tree_.points(); }
     /// The number of finite points, which are those that queries find.
     [[nodiscard]] std::size_t finite() const { return tree_.size(); }
-    /// Whether point i is finite, so that queries find it.
+    /// Whether point i is finite, so that queries find it. Precondition: i < size().
     [[nodiscard]] bool is_finite(std::size_t i) const {
         return tree_.place_of(i) != detail::leaf_tree::no_place;
     }

@@ -80,7 +80,8 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 /// @return n surface elements; a point without a usable normal has the zero vector and a trust that
 ///         says why. `weak` as well where an ulp of the coordinates exceeds 5 % of the mean
 ///         neighbor distance (float points far from the origin) or the neighborhood is not
-///         certified; `not_finite` as well where a ray estimator has a view point that is not.
+///         certified; `not_finite` as well where a ray estimator has a view point that is not
+///         finite.
 /// @throws std::invalid_argument  if graph and points differ in size, an index is out of range, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point.
@@ -90,20 +91,33 @@ template <class R, neighborhood_graph G, estimator E, execution X = sequential,
 [[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate,
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
+    std::vector<surfel<estimate_t<E>>> surface;
+    estimate_normals_into(surface, points, graph, estimate, run, std::move(projection));
+    return surface;
+}
+
+/// The same in the memory of `surface`, whose content it replaces; allocates only to grow.
+/// @throws and complexity as above
+template <class R, neighborhood_graph G, estimator E, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
+                           const G& graph, const E& estimate, const X& run = {},
+                           Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
     detail::require(graph.size() == p.size(), "estimate_normals: graph and points differ in size");
-    std::vector<surfel<estimate_t<E>>> surface(p.size());
+    detail::resize_touched(surface, p.size(), run);
     detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
         detail::estimate_at(run, p.size(), std::identity{}, p, viewpoints,
                             detail::epsilon_of<position_view<R, Proj>>(points),
                             detail::stored_neighborhoods(graph), estimate, surface);
     });
-    return surface;
 }
 
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
 /// what a search needs while it runs.
+/// @throws and complexity as for estimate_normals
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
@@ -114,8 +128,8 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
         const auto& index = detail::index_of(points, team, projection);
         detail::estimate_indexed(surface, index, policy, estimate, team);
     } else {
-        surface = estimate_normals(points, policy(points, team, projection), estimate, team,
-                                   std::move(projection));
+        estimate_normals_into(surface, points, policy(points, team, projection), estimate, team,
+                              std::move(projection));
     }
 }
 

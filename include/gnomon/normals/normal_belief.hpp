@@ -59,7 +59,7 @@ inline constexpr double vague_trace = 0.1;
 
 /// A ray is grazing if the cosine between ray and normal is below this (88.9 degrees): its range is
 /// then so sensitive to the normal that a linear error model does not hold. (A cosine, without a
-/// unit; a choice of ours, not in the thesis.)
+/// unit; chosen here, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
 /// The covariance of a normal about which nothing is known.
@@ -69,8 +69,8 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
 /// finite has overflowed: nothing is known. The smaller eigenvalue is not set below what rounding
 /// of the larger one hides.
 [[nodiscard]] inline tangent_matrix limited_covariance(const tangent_matrix& p) {
-    const bool is_definite =
-        p.p11 > 0.0 && p.p12 * p.p12 < p.p11 * p.p22;                // also if these underflow
+    // Also if these products underflow.
+    const bool is_definite = p.p11 > 0.0 && p.p12 * p.p12 < p.p11 * p.p22;
     if (is_definite && p.p11 + p.p22 <= largest_variance) return p;  // performance only
     const double mean = 0.5 * p.p11 + 0.5 * p.p22;
     const double half_difference = 0.5 * p.p11 - 0.5 * p.p22;

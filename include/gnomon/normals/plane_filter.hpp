@@ -99,10 +99,10 @@ struct plane_filter {
 
     void require_parameters() const {
         require_sigma(sigma);
-        require(max_iterations >= 1, "plane_filter: needs an iteration");
+        require(max_iterations >= 1, "plane_ekf, plane_ukf: needs an iteration");
         require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
                     std::isfinite(prior_distance),
-                "plane_filter: the prior's deviations must be positive and finite");
+                "plane_ekf, plane_ukf: the prior's deviations must be positive and finite");
     }
 
     /// The information of the prior about the difference from the state.
@@ -148,7 +148,7 @@ struct plane_filter {
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
 /// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of
-/// the prior. `not_finite` where the view point is.
+/// the prior. `not_finite` where the view point is not finite.
 using plane_ekf = detail::plane_filter<detail::by_derivative>;
 
 /// The iterated unscented Kalman filter, for strong noise and grazing rays; otherwise as

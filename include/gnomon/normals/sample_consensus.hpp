@@ -102,7 +102,7 @@ struct sample_consensus {
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
                                        neighborhood_view neighbors) const {
         require_sigma(sigma);
-        require(trials >= 1, "sample_consensus: needs a trial");
+        require(trials >= 1, "ransac_plane, mlesac_plane: needs a trial");
         if (neighbors.size() < 3) return {};
         const std::size_t n = neighbors.size() + 1;
         const auto offset = [&](std::size_t j) -> Eigen::Vector3d {

@@ -30,7 +30,7 @@ namespace gnomon {
 ///
 /// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2. The
 /// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
-/// points do not form a plane with this normal. `not_finite` where the view point is.
+/// points do not form a plane with this normal. `not_finite` where the view point is not finite.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
 template <estimator E>

@@ -7,7 +7,7 @@
 /// of which tests all pairs with a new segment and merges the accepted ones, until there are none.
 /// Two segments that are certainly not coplanar are not joined through a third one. A narrow gap,
 /// which the thesis always closes, stays open where free space was observed (docs/thesis-notes.md,
-/// A16). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
+/// A18). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
 /// also on their normals. merge_occluded_literally is the algorithm as printed.
 #pragma once
 

@@ -15,6 +15,7 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -35,6 +36,14 @@
 #include <gnomon/segmentation/split_outliers.hpp>
 
 namespace gnomon {
+
+/// What is removed first: floor and ceiling, where they are found.
+struct floor_and_ceiling {
+    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
+    find_floor_options floor{};
+    find_ceiling_options ceiling{};
+    crop_height_options bands{};
+};
 
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What `perception` returns, and what it removes first.
+/// What `perception` returns.
 #pragma once
 
 #include <optional>
 #include <vector>
-
-#include <Eigen/Core>
 
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
@@ -14,18 +12,9 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/perception/detail/perception_memory.hpp>
-#include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
-
-/// What is removed first: floor and ceiling, where they are found.
-struct floor_and_ceiling {
-    Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
-    find_floor_options floor{};
-    find_ceiling_options ceiling{};
-    crop_height_options bands{};
-};
 
 /// What was perceived in n points.
 template <class Estimate>
@@ -44,7 +33,8 @@ struct perception_result {
     std::optional<plane> floor;             ///< if it was searched for and found
     std::optional<double> ceiling;          ///< its height above the floor [m]
     std::vector<point_index> kept;          ///< the points that were not removed, ascending
-    spatial_index index;                    ///< of the kept points; empty if an index was given
+    spatial_index index;                    ///< of the kept points; empty if an index was
+                                            ///< given and no point was removed
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
     segments initial_segments;              ///< of the n points, before merging
     segments surfaces;                      ///< of the n points, after all steps

@@ -43,9 +43,6 @@ class kept_array {
         size_ = n;
     }
 
-    /// Gives the memory back.
-    void release() { kept_array().swap(*this); }
-
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] T* data() { return values_.get(); }
     [[nodiscard]] const T* data() const { return values_.get(); }

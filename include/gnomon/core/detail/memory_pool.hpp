@@ -81,7 +81,8 @@ class memory_pool final : public memory_source {
         threads_ = std::max(threads_, ++working_);
     }
 
-    /// It ends; what it still holds belongs to its caller. O(classes).
+    /// It ends; what it still holds belongs to its caller. O(classes), and the mapping of the
+    /// blocks that are set aside.
     void end(const holdings& held) noexcept {
         const guard_of locked(guard_);
         --working_;
@@ -96,7 +97,8 @@ class memory_pool final : public memory_source {
     }
 
     /// The number of its blocks that are not in use. O(classes).
-    [[nodiscard]] std::size_t free_blocks() const {
+    [[nodiscard]] std::size_t free_blocks() {
+        const guard_of locked(guard_);
         std::size_t all = 0;
         for (const std::size_t of_class : number_free_) all += of_class;
         return all;

@@ -88,10 +88,9 @@ class pack_of {
             bits |= at_most(a.at_[v], limit) << v * width;
         return bits;
     }
-    /// The square roots.
+    /// The square roots. (std::sqrt, which may have to set errno, would be called one by one.)
     [[gnu::always_inline]] friend pack_of root(const pack_of& a) {
         return of([&](std::size_t v) {
-        // std::sqrt, which may have to set errno, would be called one by one.
 #if GNOMON_LANE_BITS == 512
             return static_cast<vector>(_mm512_maskz_sqrt_pd(0xff, static_cast<__m512d>(a.at_[v])));
 #elif GNOMON_LANE_BITS == 256

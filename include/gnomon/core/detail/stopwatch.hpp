@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How long a step takes.
+/// Measures elapsed time.
 #pragma once
 
 #include <gnomon/core/detail/thread_team.hpp>  // <thread> has the clocks of <chrono>, not its calendars
@@ -11,10 +11,10 @@
 
 namespace gnomon::detail {
 
-/// Starts when it is made.
+/// Starts at construction.
 class stopwatch {
   public:
-    /// Since then [s].
+    /// The time since construction [s].
     [[nodiscard]] double seconds() const {
         return std::chrono::duration<double>(clock::now() - start_).count();
     }

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// All use of threads in gnomon: the number of hardware threads, a mutex, variables of each
-/// thread, and a team of threads
-/// that stays alive between the steps of an algorithm. On platforms without threads, and where
-/// GNOMON_NO_THREADS is defined, the calling thread does all work.
+/// All use of threads and of thread-local values in gnomon: the number of hardware threads, a
+/// mutex, variables of each thread, and a team of threads that stays alive between the steps of an
+/// algorithm. On platforms without threads, and where GNOMON_NO_THREADS is defined, the calling
+/// thread does all work.
 ///
 /// To start a thread, or to wake one, takes as long as many a step; so a thread without work polls
 /// for a millisecond before it sleeps, and the caller does not wait for threads that have not yet
@@ -140,7 +140,7 @@ class thread_team {
         for (unsigned i = inside_; i != closed; i = inside_) wait_while(inside_, i);
     }
 
-    /// What a helper does; a work that it finds closed it does not touch.
+    /// The loop of a helper: waits for a call, joins the work if it is open, and leaves.
     void help(unsigned heard) {
         for (;;) {
             wait_while(calls_, heard);

@@ -17,8 +17,8 @@
 
 namespace gnomon::detail {
 
-/// The base of `spatial_index` and `indexed_subset`, which say what tree to search, and which
-/// places of it count.
+/// The base of `spatial_index` and `indexed_subset`, which provide the tree, and the set
+/// of places to search.
 template <class Index>
 class index_queries {
   public:
@@ -33,7 +33,7 @@ class index_queries {
         return found;
     }
 
-    /// All points at most `radius` [m] from `p`, nearest first.
+    /// All points at most `radius` [m] from `p`, nearest first. O(log n + m log m) for m found.
     /// @throws std::invalid_argument  also if the radius is negative or NaN
     [[nodiscard]] std::vector<neighbor> within(const Eigen::Vector3d& p, double radius,
                                                const search_options& options = {}) const {
@@ -43,6 +43,7 @@ class index_queries {
     }
 
     /// The k points nearest to `p` of those at most `radius` [m] away, nearest first.
+    /// O(log n + m log m) for m found.
     /// @throws std::invalid_argument  also if the radius is negative or NaN
     [[nodiscard]] std::vector<neighbor> nearest_within(const Eigen::Vector3d& p, std::size_t k,
                                                        double radius,
@@ -52,7 +53,7 @@ class index_queries {
         return found;
     }
 
-    /// nearest(), in the memory of `found`.
+    /// nearest(), in the memory of `found`. The same errors and complexity; so below.
     void nearest_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                       const search_options& options = {}) const {
         search({.k = k}, found, p, options);

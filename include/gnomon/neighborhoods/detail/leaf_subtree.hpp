@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A node of a tree in preorder without pointers: the leaves below it say where its children are.
+/// A node of a tree in preorder without pointers: the leaves below it determine its children.
 #pragma once
 
 #include <array>

@@ -80,7 +80,8 @@ class place_set {
 
     static_assert(leaf_tree::leaf_size == 32);
     scratch<std::uint32_t> leaves_;
-    scratch<std::uint32_t> before_;  // each leaf: how many places of the set
+    scratch<std::uint32_t>
+        before_;  // entry l: the places in the leaves before leaf l; the last: in all
 };
 
 }  // namespace gnomon::detail

@@ -25,6 +25,16 @@
 
 namespace gnomon::detail {
 
+/// Writes the indices of the neighbors that a sweep found, in their order.
+void write_indices(const auto& found, point_index* to, scratch<neighbor>& buffer) {
+    if constexpr (requires { found.sort_into(to, buffer); }) {
+        found.sort_into(to, buffer);
+    } else {
+        found.sort_into(buffer);
+        for (const neighbor& q : buffer) *to++ = q.index;
+    }
+}
+
 /// Writes the neighbors of each point to their place in the graph, which is known beforehand.
 class neighborhood_writer {
   public:
@@ -34,7 +44,7 @@ class neighborhood_writer {
 
     void operator()(std::size_t i, const auto& found) {
         assert(found.size() == begin_[i + 1] - begin_[i]);
-        found.sort_into(indices_ + begin_[i], buffer_);
+        write_indices(found, indices_ + begin_[i], buffer_);
     }
 
   private:
@@ -80,7 +90,7 @@ class neighborhood_recorder {
     void operator()(std::size_t i, const auto& found) {
         const std::size_t before = seen_.indices.size();
         seen_.indices.resize(before + found.size());
-        found.sort_into(seen_.indices.data() + before, buffer_);
+        write_indices(found, seen_.indices.data() + before, buffer_);
         all_.sizes[i + 1] = found.size();
         seen_.points.push_back(static_cast<point_index>(i));
     }

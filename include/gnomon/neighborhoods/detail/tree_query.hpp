@@ -122,8 +122,8 @@ class tree_query {
         const std::size_t begin = leaf * leaf_tree::leaf_size;
         const double *x = tree_.at(0) + begin, *y = tree_.at(1) + begin, *z = tree_.at(2) + begin;
         std::array<double, leaf_tree::leaf_size> squared;
-        for (std::size_t l = 0; l < squared.size();
-             ++l)  // of fixed length, for vector instructions
+        // Of fixed length, for vector instructions.
+        for (std::size_t l = 0; l < squared.size(); ++l)
             squared[l] = metric_.squared(at_[0] - x[l], at_[1] - y[l], at_[2] - z[l]);
         const std::size_t size = std::min(squared.size(), tree_.size() - begin);
         for (std::size_t l = 0; l < size; ++l) {

@@ -71,8 +71,6 @@ class perception_run {
     }
 
   private:
-    static constexpr std::size_t steps = 8;
-
     /// What the second merging reuses of the first one.
     struct merging {
         std::optional<visibility> seen = {};
@@ -80,9 +78,17 @@ class perception_run {
         std::size_t gaps = 0;  ///< in the result
     };
 
+    /// The number of steps: not all chains merge, or split and merge again.
+    [[nodiscard]] std::size_t steps() const {
+        if constexpr (merge_policy<decltype(chain_.merge)>)
+            return chain_.splitting ? 8 : 7;
+        else
+            return 6;
+    }
+
     /// Announces a step, and adds its time to `seconds`.
     void step(const char* name, double& seconds, auto&& work) {
-        begin_step(progress_, name, ++step_, steps);
+        begin_step(progress_, name, ++step_, steps());
         const stopwatch watch;
         work();
         seconds += watch.seconds();
@@ -98,7 +104,7 @@ class perception_run {
         result_.floor.reset();
         result_.ceiling.reset();
         if (chain_.leave_out) {
-            const floor_and_ceiling& out = *chain_.leave_out;
+            const auto& out = *chain_.leave_out;
             if (const auto guess = guess_floor(points_, out.up, projection_))
                 result_.floor = find_floor(points_, *guess, out.floor, projection_);
             if (result_.floor) {
@@ -116,6 +122,7 @@ class perception_run {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index>) {
+            result_.index.clear();
             given_ = &points_;
             return;
         } else {
