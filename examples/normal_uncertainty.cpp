@@ -49,8 +49,8 @@ sim::true_scan scan_of(const options& o) {
                          {.sigma = o.sigma, .seed = 1}, o.threads);
 }
 
-/// One line per class: how far off the normals are that promise to be within it. At edges, where
-/// two surfaces meet, no plane is true: these neighborhoods are counted apart.
+/// One line per class: the errors of the normals whose estimated deviation is in it. At edges,
+/// where two surfaces meet, no plane is true: these neighborhoods are counted apart.
 void print_calibration(const sim::true_scan& truth, const auto& surface,
                        const std::vector<double>& deviations, const gnomon::adjacency& graph) {
     std::array<std::size_t, 6> points{};
@@ -73,7 +73,7 @@ void print_calibration(const sim::true_scan& truth, const auto& surface,
         errors[c] += error * error;
         within += gnomon::nees(surface[i], truth.normals[i]) < 5.991;
     }
-    std::printf("%-12s %10s %12s %12s\n", "deviation", "points", "promised", "found");
+    std::printf("%-12s %10s %12s %12s\n", "deviation", "points", "estimated", "found");
     for (std::size_t c = 0; c < points.size(); ++c) {
         if (points[c] == 0) continue;
         const auto n = static_cast<double>(points[c]);

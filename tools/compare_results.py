@@ -67,6 +67,10 @@ TIMED_RELATIONS = {
 
 # Differences that are wanted: (path with wildcards as printed, "[" written "[[]"; reason).
 ALLOWED = [
+    ("chapter3/fig_3_9.json: benchmarks: fig_3_9/plates:10000/method:literal_plane_ekf/*"
+     "near_weak_percent*",
+     "4 of 10,010 covariances of Alg. 3.2 are nothing but rounding, 1e-8 rad^2 and less, some "
+     "negative; the tangent plane's coordinates are computed in another order, so their axes differ"),
 ]
 
 differences = []

@@ -39,7 +39,7 @@ inline constexpr option<options> known_options[] = {
     common::threads<options>,
 };
 
-/// The options that the words say, or nothing if they ask for help.
+/// The options on the command line, or nothing if they include --help.
 /// @throws usage_error  if there is a word that makes no sense
 inline std::optional<options> options_from(const std::vector<std::string>& words) {
     return options_from<options>(words, known_options, take_scan<options>);

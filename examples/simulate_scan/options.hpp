@@ -121,7 +121,7 @@ inline const option<options> known_options[] = {
     common::out<options>,
 };
 
-/// The options that the words say, or nothing if they ask for help.
+/// The options on the command line, or nothing if they include --help.
 /// @throws usage_error  if there is a word that makes no sense
 inline std::optional<options> options_from(const std::vector<std::string>& words) {
     return options_from<options>(words, known_options, [](options&, const std::string& word) {

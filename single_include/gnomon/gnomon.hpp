@@ -1193,7 +1193,8 @@ struct spectrum {
     /// docs/thesis-notes.md, A34.
     /// @param sigma_n   Pauly's surface variation in [0, 1/3]
     /// @param sigma_ar  aspect ratio s_2 / s_1 in [0, 1]
-    /// @return          sigma_sv in [0, 1]
+    /// @return          sigma_sv, in [0, 1] where s_3 <= s_2:
+    ///                  sigma_n <= sigma_ar^2 / (1 + 2 sigma_ar^2)
     [[nodiscard]] static double surface_variation_from_pauly(double sigma_n,
                                                              double sigma_ar = 1.0) {
         const double r =  // s_3 / s_1
@@ -5061,8 +5062,8 @@ concept size_preference = requires(const P& preference, const neighborhood_shape
     { preference(shape) } -> std::convertible_to<double>;
 };
 
-/// The smallest size, of doublings, at which the neighborhood is not that of a single scan line;
-/// the least one-sided if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
+/// Doubles the size until the neighborhood is not that of a single scan line; takes the least
+/// elongated one if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
 /// instead of after it.
 struct prefer_isotropic {
     double min_aspect_ratio = 0.1;  ///< sigma_ar

@@ -67,7 +67,8 @@ struct spectrum {
     /// docs/thesis-notes.md, A34.
     /// @param sigma_n   Pauly's surface variation in [0, 1/3]
     /// @param sigma_ar  aspect ratio s_2 / s_1 in [0, 1]
-    /// @return          sigma_sv in [0, 1]
+    /// @return          sigma_sv, in [0, 1] where s_3 <= s_2:
+    ///                  sigma_n <= sigma_ar^2 / (1 + 2 sigma_ar^2)
     [[nodiscard]] static double surface_variation_from_pauly(double sigma_n,
                                                              double sigma_ar = 1.0) {
         const double r =  // s_3 / s_1

@@ -46,8 +46,8 @@ concept size_preference = requires(const P& preference, const neighborhood_shape
     { preference(shape) } -> std::convertible_to<double>;
 };
 
-/// The smallest size, of doublings, at which the neighborhood is not that of a single scan line;
-/// the least one-sided if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
+/// Doubles the size until the neighborhood is not that of a single scan line; takes the least
+/// elongated one if there is none. Klasing 2010, Sec. 3.2.9, Eq. (3.19), before the estimate
 /// instead of after it.
 struct prefer_isotropic {
     double min_aspect_ratio = 0.1;  ///< sigma_ar
