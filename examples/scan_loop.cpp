@@ -35,7 +35,7 @@ int main() {
                                      std::printf("%zu/%zu %s\n", number, steps, step);
                                  });
 
-    gnomon::perception_result<gnomon::plane_fit> seen;  // keeps its memory from scan to scan
+    gnomon::perception_result<> seen;  // keeps its memory from scan to scan
     try {
         for (int frame = 0; frame < 3; ++frame) {
             const gnomon::scan scan = next_scan(room, frame);

@@ -6251,7 +6251,7 @@ concept eigen_4vector = eigen_object<P> && P::SizeAtCompileTime == 4;
 template <class R, class Proj = std::identity>
 concept refused_points =
     !point_range<R, Proj> && (eigen_object<R> || std::is_pointer_v<R> || indexed_range<R> ||
-                              requires(const R& r) { std::ranges::begin(r); });
+                              requires(R& r) { std::ranges::begin(r); });
 
 /// Does not compile: the static assertion names the remedy. Its return type is deduced, so that
 /// compilers instantiate it where it is called, before they complain about the result.
@@ -6310,20 +6310,30 @@ concept no_neighborhood = !neighborhood<N, R, Proj> && !neighborhood_graph<N>;
 template <class E>
 concept execution_before_estimator = !estimator<E> && execution<E>;
 
+/// estimate_normals(points, neighborhood, estimator, projection), or with a number of threads
+template <class X>
+concept no_execution = !execution<X>;
+
 /// Whether explain_mistaken_call has a remedy for these arguments of estimate_normals. Other types
 /// that are no estimators are not among them. A variable, so that compilers do not list its terms
 /// where they report other errors.
-template <class R, class N, class E, class Proj = std::identity>
+template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 inline constexpr bool mistaken_call =
-    graph_before_points<R, N, Proj> || refused_points<R, Proj> ||
+    no_execution<X> || graph_before_points<R, N, Proj> || refused_points<R, Proj> ||
     (point_range<R, Proj> && no_neighborhood<N, R, Proj>) || execution_before_estimator<E>;
 
 /// Does not compile: the static assertion names the remedy. Its return type is deduced, so that
 /// compilers instantiate it where it is called, before they complain about the result.
 /// Precondition: mistaken_call.
-template <class R, class N, class E, class Proj = std::identity>
+template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 constexpr auto explain_mistaken_call() {
-    if constexpr (graph_before_points<R, N, Proj>) {
+    if constexpr (no_execution<X> && std::is_arithmetic_v<X>) {
+        static_assert(never<X>, "a number is not an execution: write gnomon::threads{4}");
+    } else if constexpr (no_execution<X>) {
+        static_assert(never<X>,
+                      "the execution comes before the projection: estimate_normals(points, "
+                      "neighborhood, estimator, {}, projection)");
+    } else if constexpr (graph_before_points<R, N, Proj>) {
         static_assert(never<R>,
                       "the points come before the graph: estimate_normals(points, graph, "
                       "estimator)");
@@ -6935,9 +6945,9 @@ template <class R, class N = knn, estimator E = plane_pca, execution X = sequent
 /// in another order.
 template <class R, class N = knn, class E = plane_pca, class X = sequential,
           class Proj = std::identity>
-    requires(detail::mistaken_call<R, N, E, Proj>)
+    requires(detail::mistaken_call<R, N, E, Proj, X>)
 auto estimate_normals(const R&, const N& = {}, const E& = {}, const X& = {}, const Proj& = {}) {
-    (void)detail::explain_mistaken_call<R, N, E, Proj>();
+    (void)detail::explain_mistaken_call<R, N, E, Proj, X>();
     return std::vector<surfel<decltype(detail::expected_estimate<N, E>())>>{};
 }
 
@@ -7531,7 +7541,9 @@ struct tangent_basis {
 
 /// @file
 /// The covariance of a normal. A unit vector has two degrees of freedom: the covariance is that of
-/// the small rotation from the estimated to the true normal, in rad^2, and zero along the normal.
+/// the difference of the true and the estimated normal in the tangent plane, in rad^2, and zero
+/// along the normal. (The covariance of the rotation vector has the same eigenvalues, in directions
+/// turned by 90 degrees about the normal.)
 ///
 /// Klasing 2010, Sec. 3.2.7 proposes trace and determinant as scalar measures.
 
@@ -16970,7 +16982,8 @@ class perception_memory {
 namespace gnomon {
 
 /// What was perceived in n points.
-template <class Estimate>
+/// @tparam Estimate  what the estimator gives: estimate_t<Estimator>
+template <class Estimate = plane_fit>
 struct perception_result {
     /// How long the steps took [s].
     struct durations {
@@ -17269,27 +17282,36 @@ struct perception {
         return chain;
     }
 
+    using result_type = perception_result<estimate_t<Estimator>>;
+
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
     /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
     ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
-        -> perception_result<estimate_t<Estimator>> {
-        perception_result<estimate_t<Estimator>> result;
+    [[nodiscard]] result_type operator()(const R& points, const X& run = {},
+                                         Proj projection = {}) const {
+        result_type result;
         into(result, points, run, std::move(projection));
         return result;
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified.
+    /// is unspecified, and can be replaced by the next call.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
-    void into(perception_result<estimate_t<Estimator>>& result, const R& points, const X& run = {},
-              Proj projection = {}) const {
+    void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
         const auto& team = detail::staying(run);
         detail::perception_run(*this, points, result, team, projection)();
+    }
+
+    /// Refused: the result of another estimator; `result_type` is the one of this.
+    template <class Other>
+        requires(!std::same_as<Other, estimate_t<Estimator>>)
+    void into(perception_result<Other>&, const auto&...) const {
+        static_assert(detail::never<Other>,
+                      "the result is of another estimator: write decltype(chain)::result_type");
     }
 };
 

@@ -85,7 +85,7 @@ struct plain_sweep {
 };
 static_assert(gnomon::sweeping_neighborhood<plain_sweep>);
 
-/// What the page on the concept asks of a model is enough.
+/// A model of the minimal complete definition is enough.
 TEST(neighborhood, a_sweep_needs_no_more_than_its_definition) {
     clouds::cloud points = clouds::sheet(500, 4);
     points[7].x() = std::numeric_limits<double>::quiet_NaN();

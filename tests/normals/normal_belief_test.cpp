@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <vector>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -10,6 +11,10 @@
 #include "laws/clouds.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/normals/normal_belief.hpp>
+#include <gnomon/normals/plane_eif.hpp>
+#include <gnomon/normals/plane_filter.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/with_covariance.hpp>
 
 namespace {
 
@@ -125,6 +130,27 @@ TEST(normal_belief, tangent_basis_round_trip_is_exact) {
         for (const double sign : {1.0, -1.0})  // a normal and its antipode are one
             EXPECT_LT((frame.towards(sign * moved) - Eigen::Vector3d(d1, d2, 0.0)).norm(), 1e-12);
     }
+}
+
+/// The covariance is that of the normal's difference: of a patch that is wide along y and narrow
+/// along z, the normal may deviate along z, by a rotation about y.
+void expect_deviation_along_z(const auto& estimate) {
+    gnomon::random_stream random(5);
+    std::vector<Eigen::Vector3d> neighbors;
+    for (int i = 0; i < 60; ++i)
+        neighbors.emplace_back(2.0 + 0.005 * random.gaussian(), 0.2 * random.gaussian(),
+                               0.02 * random.gaussian());
+    const auto belief =
+        estimate(Eigen::Vector3d(2.0, 0.0, 0.0), neighbors, Eigen::Vector3d::Zero());
+    ASSERT_TRUE(gnomon::usable(belief.trust));
+    EXPECT_GT(belief.covariance(2, 2), 30.0 * belief.covariance(1, 1));
+}
+
+TEST(normal_belief, is_of_the_difference_of_normals) {
+    expect_deviation_along_z(gnomon::plane_eif{.sigma = 0.005});
+    expect_deviation_along_z(gnomon::plane_ekf{.sigma = 0.005});
+    expect_deviation_along_z(gnomon::plane_ukf{.sigma = 0.005});
+    expect_deviation_along_z(gnomon::with_covariance<gnomon::plane_pca>{.sigma = 0.005});
 }
 
 }  // namespace

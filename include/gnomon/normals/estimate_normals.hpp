@@ -154,9 +154,9 @@ template <class R, class N = knn, estimator E = plane_pca, execution X = sequent
 /// in another order.
 template <class R, class N = knn, class E = plane_pca, class X = sequential,
           class Proj = std::identity>
-    requires(detail::mistaken_call<R, N, E, Proj>)
+    requires(detail::mistaken_call<R, N, E, Proj, X>)
 auto estimate_normals(const R&, const N& = {}, const E& = {}, const X& = {}, const Proj& = {}) {
-    (void)detail::explain_mistaken_call<R, N, E, Proj>();
+    (void)detail::explain_mistaken_call<R, N, E, Proj, X>();
     return std::vector<surfel<decltype(detail::expected_estimate<N, E>())>>{};
 }
 

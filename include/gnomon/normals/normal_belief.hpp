@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The covariance of a normal. A unit vector has two degrees of freedom: the covariance is that of
-/// the small rotation from the estimated to the true normal, in rad^2, and zero along the normal.
+/// the difference of the true and the estimated normal in the tangent plane, in rad^2, and zero
+/// along the normal. (The covariance of the rotation vector has the same eigenvalues, in directions
+/// turned by 90 degrees about the normal.)
 ///
 /// Klasing 2010, Sec. 3.2.7 proposes trace and determinant as scalar measures.
 #pragma once

@@ -19,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include <gnomon/core/detail/refused_points.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
@@ -88,27 +89,36 @@ struct perception {
         return chain;
     }
 
+    using result_type = perception_result<estimate_t<Estimator>>;
+
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
     /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
     ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] auto operator()(const R& points, const X& run = {}, Proj projection = {}) const
-        -> perception_result<estimate_t<Estimator>> {
-        perception_result<estimate_t<Estimator>> result;
+    [[nodiscard]] result_type operator()(const R& points, const X& run = {},
+                                         Proj projection = {}) const {
+        result_type result;
         into(result, points, run, std::move(projection));
         return result;
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified.
+    /// is unspecified, and can be replaced by the next call.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
-    void into(perception_result<estimate_t<Estimator>>& result, const R& points, const X& run = {},
-              Proj projection = {}) const {
+    void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
         const auto& team = detail::staying(run);
         detail::perception_run(*this, points, result, team, projection)();
+    }
+
+    /// Refused: the result of another estimator; `result_type` is the one of this.
+    template <class Other>
+        requires(!std::same_as<Other, estimate_t<Estimator>>)
+    void into(perception_result<Other>&, const auto&...) const {
+        static_assert(detail::never<Other>,
+                      "the result is of another estimator: write decltype(chain)::result_type");
     }
 };
 

@@ -9,6 +9,7 @@
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/perception/detail/perception_memory.hpp>
@@ -17,7 +18,8 @@
 namespace gnomon {
 
 /// What was perceived in n points.
-template <class Estimate>
+/// @tparam Estimate  what the estimator gives: estimate_t<Estimator>
+template <class Estimate = plane_fit>
 struct perception_result {
     /// How long the steps took [s].
     struct durations {

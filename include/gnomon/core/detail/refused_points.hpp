@@ -29,7 +29,7 @@ concept eigen_4vector = eigen_object<P> && P::SizeAtCompileTime == 4;
 template <class R, class Proj = std::identity>
 concept refused_points =
     !point_range<R, Proj> && (eigen_object<R> || std::is_pointer_v<R> || indexed_range<R> ||
-                              requires(const R& r) { std::ranges::begin(r); });
+                              requires(R& r) { std::ranges::begin(r); });
 
 /// Does not compile: the static assertion names the remedy. Its return type is deduced, so that
 /// compilers instantiate it where it is called, before they complain about the result.
