@@ -6,7 +6,6 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cassert>
 #include <cerrno>
 #include <charconv>
 #include <cmath>
@@ -851,6 +850,22 @@ class position_view {
     [[no_unique_address]] Proj projection_;
 };
 
+namespace detail {
+
+/// The machine epsilon of the numbers that the coordinates of a range are stored in: the range
+/// states it by a member epsilon(), or they are those of the view.
+template <class View, class R>
+[[nodiscard]] double epsilon_of(const R& points) {
+    if constexpr (requires {
+                      { points.epsilon() } -> std::same_as<double>;
+                  })
+        return points.epsilon();
+    else
+        return static_cast<double>(std::numeric_limits<typename View::scalar>::epsilon());
+}
+
+}  // namespace detail
+
 }  // namespace gnomon
 
 // -------- gnomon/core/normal_range.hpp -----------------------------------------------------------
@@ -944,6 +959,35 @@ class random_stream {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/reset_on_move.hpp ---------------------------------------------------
+
+/// @file
+/// Numbers that describe a container, such as its size: they go with its memory when it is moved.
+
+namespace gnomon::detail {
+
+/// A value of a trivial type that is T{} after it was moved from.
+template <class T>
+class reset_on_move {
+  public:
+    reset_on_move() = default;
+    explicit(false) reset_on_move(T value) : value_(value) {}
+    reset_on_move(const reset_on_move&) = default;
+    reset_on_move(reset_on_move&& other) noexcept : value_(std::exchange(other.value_, T{})) {}
+    reset_on_move& operator=(const reset_on_move&) = default;
+    reset_on_move& operator=(reset_on_move&& other) noexcept {
+        value_ = std::exchange(other.value_, T{});
+        return *this;
+    }
+
+    explicit(false) operator T() const { return value_; }
+
+  private:
+    T value_{};
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/viewpoints.hpp -------------------------------------------------------------
 
 /// @file
@@ -1021,7 +1065,7 @@ class viewpoint_table {
 
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
-    scope scope_ = scope::none;
+    detail::reset_on_move<scope> scope_;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.
@@ -1075,6 +1119,11 @@ struct viewed_points {
     [[nodiscard]] auto end() const { return std::ranges::end(*range); }
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(std::ranges::size(*range));
+    }
+    [[nodiscard]] auto epsilon() const
+        requires requires { range->epsilon(); }
+    {
+        return range->epsilon();
     }
 };
 
@@ -1381,7 +1430,9 @@ class subset_view {
     /// O(indices).
     /// @throws std::invalid_argument  for an index out of range, such as those of a larger cloud
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
-        : points_(points, std::move(projection)), indices_(indices) {
+        : points_(points, std::move(projection)),
+          indices_(indices),
+          epsilon_(detail::epsilon_of<position_view<R, Proj>>(points)) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index is out of range");
         viewpoints = viewpoints_of(points, indices);
@@ -1399,9 +1450,13 @@ class subset_view {
     /// The position of the i-th selected point [m].
     [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const { return points_[indices_[i]]; }
 
+    /// The machine epsilon of the numbers that the points came in: float or double.
+    [[nodiscard]] double epsilon() const { return epsilon_; }
+
   private:
     position_view<R, Proj> points_;
     std::span<const point_index> indices_;
+    double epsilon_;
 };
 
 }  // namespace gnomon
@@ -1462,6 +1517,13 @@ struct no_progress {
     void operator()(const char*, std::size_t, std::size_t) const {}
 };
 
+/// Announces a step to executions that have begin_step().
+template <execution X>
+void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {
+    if constexpr (requires { run.begin_step(name, step, steps); })
+        run.begin_step(name, step, steps);
+}
+
 }  // namespace detail
 
 /// An execution that throws `stopped` before the next chunk of work once a stop is requested, and
@@ -1487,12 +1549,16 @@ class supervised {
     void begin_step(const char* name, std::size_t step, std::size_t steps) const {
         if (stop_.stop_requested()) throw stopped();
         on_step_(name, step, steps);
+        detail::begin_step(run_, name, step, steps);
     }
 
     /// The same supervision of an execution whose threads stay from one step to the next.
-    [[nodiscard]] auto staying() const {
-        using staying_run = std::remove_cvref_t<decltype(detail::staying(run_))>;
-        return supervised<staying_run, OnStep>(detail::staying(run_), stop_, on_step_);
+    [[nodiscard]] decltype(auto) staying() const {
+        using staying_run = decltype(detail::staying(run_));
+        if constexpr (std::is_reference_v<staying_run>)
+            return (*this);
+        else
+            return supervised<staying_run, OnStep>(detail::staying(run_), stop_, on_step_);
     }
 
   private:
@@ -1501,16 +1567,6 @@ class supervised {
     OnStep on_step_;
 };
 
-namespace detail {
-
-/// Announces a step to executions that want to know.
-template <execution X>
-void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {
-    if constexpr (requires { run.begin_step(name, step, steps); })
-        run.begin_step(name, step, steps);
-}
-
-}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/core/trust.hpp ------------------------------------------------------------------
@@ -2265,24 +2321,22 @@ class kept_array {
   public:
     kept_array() = default;
     kept_array(const kept_array& other) { *this = other; }
-    kept_array(kept_array&& other) noexcept { swap(other); }
+    kept_array(kept_array&&) = default;
     kept_array& operator=(const kept_array& other) {
         if (this == &other) return *this;
         resize(other.size_, sequential{});
         std::copy_n(other.values_.get(), size_, values_.get());
         return *this;
     }
-    kept_array& operator=(kept_array&& other) noexcept {
-        swap(other);
-        return *this;
-    }
+    kept_array& operator=(kept_array&&) = default;
+    ~kept_array() = default;
 
     /// Makes it an array of n values. Allocates if n is larger than ever before.
     template <execution X>
     void resize(std::size_t n, const X& run) {
         if (n > capacity_) {
             values_.reset();  // first, so that old and new memory do not add up
-            capacity_ = 0;
+            size_ = capacity_ = 0;
             values_ = touched_array<T>(n, run);
             capacity_ = n;
         }
@@ -2296,15 +2350,9 @@ class kept_array {
     [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
 
   private:
-    void swap(kept_array& other) noexcept {
-        std::swap(values_, other.values_);
-        std::swap(size_, other.size_);
-        std::swap(capacity_, other.capacity_);
-    }
-
     std::unique_ptr<T[]> values_;
-    std::size_t size_ = 0;
-    std::size_t capacity_ = 0;
+    reset_on_move<std::size_t> size_;
+    reset_on_move<std::size_t> capacity_;
 };
 
 }  // namespace gnomon::detail
@@ -2736,8 +2784,8 @@ class leaf_tree {
         return children;
     }
 
-    std::size_t size_ = 0;
-    std::size_t leaves_ = 0;
+    reset_on_move<std::size_t> size_;
+    reset_on_move<std::size_t> leaves_;
     bool crowded_ = false;
     std::array<kept_array<double>, 3> at_;
     kept_array<point_index> index_;
@@ -3210,21 +3258,6 @@ class index_queries {
 namespace gnomon {
 
 namespace detail {
-
-/// The machine epsilon of the numbers that the coordinates of a range are stored in.
-template <class View, class R>
-[[nodiscard]] double epsilon_of(const R& points) {
-    if constexpr (requires {
-                      { points.epsilon() } -> std::same_as<double>;
-                  })
-        return points.epsilon();
-    else
-        return static_cast<double>(std::numeric_limits<typename View::scalar>::epsilon());
-}
-
-}  // namespace detail
-
-namespace detail {
 class indexed_subset;
 }
 
@@ -3238,8 +3271,17 @@ class spatial_index : public detail::index_queries<spatial_index> {
     /// Those of the points.
     viewpoint_table viewpoints;
 
-    /// Of no points.
+    /// Of no points. So is an index that was moved from.
     spatial_index() = default;
+    spatial_index(const spatial_index&) = default;
+    spatial_index(spatial_index&&) = default;
+    /// If this throws, the index is as before.
+    spatial_index& operator=(const spatial_index& other) {
+        spatial_index copy(other);
+        return *this = std::move(copy);
+    }
+    spatial_index& operator=(spatial_index&&) = default;
+    ~spatial_index() = default;
 
     /// @param points  any point range of n points [m]
     /// @throws std::invalid_argument  if the view points are for another number of points, or for
@@ -3362,6 +3404,8 @@ namespace detail {
 template <class R, execution X, class Proj>
 [[nodiscard]] decltype(auto) index_of(const R& points, const X& run, const Proj& projection) {
     if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
+        require(points.viewpoints.covers(points.size()),
+                "the view points are for another number of points");
         return (points);
     } else {
         return spatial_index(points, run, projection);
@@ -4797,7 +4841,8 @@ class neighborhood_writer {
         : begin_(begin), indices_(indices) {}
 
     void operator()(std::size_t i, const auto& found) {
-        assert(found.size() == begin_[i + 1] - begin_[i]);
+        require(found.size() == begin_[i + 1] - begin_[i],
+                "the neighborhood finds another number of neighbors than neighbors_of_each()");
         write_indices(found, indices_ + begin_[i], buffer_);
     }
 
@@ -6302,6 +6347,10 @@ namespace gnomon::detail {
 template <class R, class N, class Proj>
 concept graph_before_points = neighborhood_graph<R> && point_range<N, Proj>;
 
+/// estimate_normals(neighborhood, points, ...)
+template <class R, class N, class Proj>
+concept neighborhood_before_points = !indexed_range<R> && point_range<N, Proj>;
+
 /// Neither a neighborhood of these points nor a graph.
 template <class N, class R, class Proj>
 concept no_neighborhood = !neighborhood<N, R, Proj> && !neighborhood_graph<N>;
@@ -6319,8 +6368,9 @@ concept no_execution = !execution<X>;
 /// where they report other errors.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 inline constexpr bool mistaken_call =
-    no_execution<X> || graph_before_points<R, N, Proj> || refused_points<R, Proj> ||
-    (point_range<R, Proj> && no_neighborhood<N, R, Proj>) || execution_before_estimator<E>;
+    no_execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
+    refused_points<R, Proj> || (point_range<R, Proj> && no_neighborhood<N, R, Proj>) ||
+    execution_before_estimator<E>;
 
 /// Does not compile: the static assertion names the remedy. Its return type is deduced, so that
 /// compilers instantiate it where it is called, before they complain about the result.
@@ -6337,6 +6387,10 @@ constexpr auto explain_mistaken_call() {
         static_assert(never<R>,
                       "the points come before the graph: estimate_normals(points, graph, "
                       "estimator)");
+    } else if constexpr (neighborhood_before_points<R, N, Proj>) {
+        static_assert(never<R>,
+                      "the points come before the neighborhood: estimate_normals(points, "
+                      "neighborhood, estimator)");
     } else if constexpr (refused_points<R, Proj>) {
         (void)explain_refused_points<R, Proj>();
     } else if constexpr (no_neighborhood<N, R, Proj> && std::is_integral_v<N>) {
@@ -6864,7 +6918,7 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 ///                    or what with_viewpoint(s) returns, for its view points and otherwise assume
 ///                    the origin
 /// @param graph       the neighbors of each of the n points, indices below n
-/// @param estimate    any estimator
+/// @param estimate    any estimator; by default `plane_pca`
 /// @param run         `sequential{}`, `threads{n}` or another execution; the bytes of the
 ///                    result are the same
 /// @param projection  makes a point of an element of the range
@@ -6876,10 +6930,10 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 /// @throws std::invalid_argument  if graph and points differ in size, an index is out of range, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point.
-template <class R, neighborhood_graph G, estimator E, execution X = sequential,
+template <class R, neighborhood_graph G, estimator E = plane_pca, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate,
+[[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate = {},
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
     std::vector<surfel<estimate_t<E>>> surface;
@@ -16696,7 +16750,9 @@ void write_ply(const std::string& path, const R& points, const properties& colum
 namespace gnomon::detail {
 
 /// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
-/// block is free, and returns its blocks when it is destroyed. Thread-safe.
+/// block is free, and returns its blocks when it is destroyed. A value that a user has made of its
+/// memory, in a policy or a callback, may live longer than its owner: the pool does as well, until
+/// the last block is returned. Thread-safe.
 class memory_pool final : public memory_source {
     /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
     /// size. So at most a fifth of a block is unused.
@@ -16712,23 +16768,28 @@ class memory_pool final : public memory_source {
         holdings* held = nullptr;
     };
 
-    memory_pool() = default;
     memory_pool(const memory_pool&) = delete;
     memory_pool& operator=(const memory_pool&) = delete;
-    /// Precondition: all blocks have been returned.
-    ~memory_pool() {
-        for (block* first : free_)
-            while (first != nullptr)
-                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
-    }
+
+    /// Its owner gives it up; it ends when all blocks have been returned.
+    struct release {
+        void operator()(memory_pool* pool) const noexcept {
+            if (pool->is_unused_after([pool] { pool->is_owned_ = false; })) delete pool;
+        }
+    };
+    using owner = std::unique_ptr<memory_pool, release>;
+    [[nodiscard]] static owner make() { return owner(new memory_pool); }
 
     /// At least `bytes` bytes. O(1). Throws std::bad_alloc.
     [[nodiscard]] void* allocate(std::size_t bytes) override {
         const std::size_t requested = size_class(bytes);
         block* found = take(requested);
-        if (found == nullptr)
+        if (found == nullptr) {
             found =
                 made(requested, ::operator new(bytes_of(requested), std::align_val_t{alignment}));
+            const guard_of locked(guard_);
+            ++in_use_;
+        }
         found->requested = requested;
         return found + 1;
     }
@@ -16736,13 +16797,16 @@ class memory_pool final : public memory_source {
     /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
     void deallocate(void* bytes) noexcept override {
         block* const returned = static_cast<block*>(bytes) - 1;
-        const guard_of locked(guard_);
-        holdings* const held = held_here();
-        if (held != nullptr && (*held)[returned->requested] > 0) {
-            --(*held)[returned->requested];
-            --held_[returned->requested];
-        }
-        put(returned);
+        const bool is_unused = is_unused_after([this, returned] {
+            holdings* const held = held_here();
+            if (held != nullptr && (*held)[returned->requested] > 0) {
+                --(*held)[returned->requested];
+                --held_[returned->requested];
+            }
+            put(returned);
+            --in_use_;
+        });
+        if (is_unused) delete this;
     }
 
     /// The work of this thread.
@@ -16778,6 +16842,13 @@ class memory_pool final : public memory_source {
     }
 
   private:
+    memory_pool() = default;
+    ~memory_pool() {
+        for (block* first : free_)
+            while (first != nullptr)
+                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
+    }
+
     /// The header in front of the memory.
     struct alignas(alignment) block {
         std::size_t size_class;
@@ -16807,6 +16878,13 @@ class memory_pool final : public memory_source {
         return new (memory) block{size_class};
     }
 
+    /// Changes the state; whether it has neither an owner nor blocks in use.
+    bool is_unused_after(auto&& change) noexcept {
+        const guard_of locked(guard_);
+        change();
+        return !is_owned_ && in_use_ == 0;
+    }
+
     /// The holdings of this thread's work in this pool; null outside of work.
     [[nodiscard]] holdings* held_here() const noexcept {
         const work here = current_work();
@@ -16824,6 +16902,7 @@ class memory_pool final : public memory_source {
             if (number_free_[c] > (held != nullptr && c == requested ? 0 : set_aside(c))) {
                 found = std::exchange(free_[c], free_[c]->next);
                 --number_free_[c];
+                ++in_use_;
             }
         if (held != nullptr) {
             most_[requested] = std::max(most_[requested], ++(*held)[requested]);
@@ -16846,6 +16925,8 @@ class memory_pool final : public memory_source {
     }
 
     mutex guard_;
+    std::size_t in_use_ = 0;  // blocks
+    bool is_owned_ = true;
     std::array<block*, classes> free_{};
     holdings number_free_{};                   // the lengths of these lists
     holdings held_{};                          // by all pieces of work together
@@ -16954,22 +17035,18 @@ class perception_memory {
     perception_memory& operator=(perception_memory&&) = default;
     ~perception_memory() = default;
 
-    /// For the scratch vectors of all steps: those of the calling thread, which are the same in each
-    /// call, and those of the work that it shares with other threads.
-    [[nodiscard]] memory_pool& pool() { return both().of_caller; }
-    [[nodiscard]] memory_pool& pool_of_work() { return both().of_work; }
+    /// For the scratch vectors of all steps: those of the calling thread, which are the same in
+    /// each call, and those of the work that it shares with other threads.
+    [[nodiscard]] memory_pool& pool() { return existing(of_caller_); }
+    [[nodiscard]] memory_pool& pool_of_work() { return existing(of_work_); }
 
   private:
-    struct pools {
-        memory_pool of_caller, of_work;
-    };
-
-    [[nodiscard]] pools& both() {
-        if (!pools_) pools_ = std::make_unique<pools>();
-        return *pools_;
+    [[nodiscard]] static memory_pool& existing(memory_pool::owner& pool) {
+        if (!pool) pool = memory_pool::make();
+        return *pool;
     }
 
-    std::unique_ptr<pools> pools_;
+    memory_pool::owner of_caller_, of_work_;
 };
 
 }  // namespace gnomon::detail
@@ -17100,6 +17177,8 @@ class perception_run {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index>) {
+            require(points_.viewpoints.covers(size()),
+                    "the view points are for another number of points");
             result_.index.clear();
             given_ = &points_;
             return;
@@ -17298,10 +17377,17 @@ struct perception {
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified, and can be replaced by the next call.
+    /// is unspecified, and can be replaced by the next call. Precondition: `points` does not refer
+    /// to the result; but they may be its index.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
+        if constexpr (std::same_as<R, spatial_index>) {
+            if (&points == &result.index) {
+                const spatial_index given = std::move(result.index);
+                return into(result, given, run, std::move(projection));
+            }
+        }
         const auto& team = detail::staying(run);
         detail::perception_run(*this, points, result, team, projection)();
     }

@@ -19,7 +19,8 @@ using gnomon::detail::memory_pool, gnomon::detail::pool_scope, gnomon::detail::s
 
 /// Law: a block holds the bytes that were asked for, and is aligned.
 TEST(memory_pool, gives_blocks_of_any_size) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     std::vector<void*> blocks;
     std::vector<std::size_t> sizes;
     for (std::size_t size = 0; size < 3'000'000; size = size * 9 / 8 + 1) {
@@ -38,7 +39,8 @@ TEST(memory_pool, gives_blocks_of_any_size) {
 }
 
 TEST(memory_pool, reuses_blocks) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     void* const small = pool.allocate(100);
     void* const large = pool.allocate(100'000);
     pool.deallocate(small);
@@ -65,7 +67,8 @@ void work_twice(memory_pool& pool) {
 /// After work on two threads, there are blocks for two such pieces of work at a time, and others do
 /// not take them: the order in which they ran makes no difference.
 TEST(memory_pool, sets_aside_what_work_may_request) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     work_twice(pool);
     {
         const work_scope alone(pool);
@@ -87,7 +90,8 @@ TEST(memory_pool, sets_aside_what_work_may_request) {
 
 /// What work leaves to its caller is not missing in the next call.
 TEST(memory_pool, replaces_what_work_leaves_to_its_caller) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     work_twice(pool);
     for (int call = 0; call < 3; ++call) {
         std::optional<scratch<char>> left;
@@ -103,7 +107,8 @@ TEST(memory_pool, replaces_what_work_leaves_to_its_caller) {
 
 /// Many threads take blocks, write and return them.
 TEST(memory_pool, is_thread_safe) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     const gnomon::team team(4);
     const gnomon::detail::pooled_run run(team, pool);
     run(2000, [](std::size_t c) {

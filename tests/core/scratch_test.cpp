@@ -19,7 +19,8 @@ namespace {
 using gnomon::detail::memory_pool, gnomon::detail::pool_scope, gnomon::detail::scratch;
 
 TEST(scratch, is_from_the_pool_of_the_innermost_scope) {
-    memory_pool pool, other;
+    const auto owner = memory_pool::make(), another = memory_pool::make();
+    memory_pool &pool = *owner, &other = *another;
     scratch<int> outside(10);
     EXPECT_EQ(outside.get_allocator().pool(), nullptr);
     {
@@ -48,7 +49,8 @@ TEST(scratch, is_from_the_pool_of_the_innermost_scope) {
 
 /// Vectors of one size are in the memory of the last call.
 TEST(scratch, takes_the_same_memory_again) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     const pool_scope scope(&pool);
     std::set<const double*> places;
     for (int call = 0; call < 20; ++call) {
@@ -60,13 +62,28 @@ TEST(scratch, takes_the_same_memory_again) {
 }
 
 TEST(pooled_run, gives_the_pool_to_all_threads) {
-    memory_pool pool;
+    const auto owner = memory_pool::make();
+    memory_pool& pool = *owner;
     const gnomon::team team(3);
     const gnomon::detail::pooled_run run(team, pool);
     std::vector<gnomon::detail::memory_source*> seen(100, nullptr);
     run(seen.size(), [&](std::size_t c) { seen[c] = scratch<int>().get_allocator().pool(); });
     for (const auto* const p : seen) EXPECT_EQ(p, &pool);
     EXPECT_EQ(gnomon::detail::current_pool(), nullptr);
+}
+
+/// A value that a policy or a callback has made may live longer than the owner of the pool.
+TEST(scratch, may_live_longer_than_the_owner_of_its_pool) {
+    std::optional<scratch<int>> kept;
+    {
+        const auto owner = memory_pool::make();
+        const pool_scope scope(owner.get());
+        kept.emplace(1000, 7);
+        const scratch<int> returned(10);
+    }
+    EXPECT_EQ((*kept)[999], 7);
+    *kept = scratch<int>(2000, 8);
+    EXPECT_EQ((*kept)[1999], 8);
 }
 
 /// A user's policy may keep a subset of the index longer than the call in which it made it.
@@ -76,7 +93,8 @@ TEST(scratch, is_not_what_values_of_users_are_made_of) {
     const gnomon::spatial_index index(points);
     std::optional<gnomon::detail::indexed_subset> kept;
     {
-        memory_pool pool;
+        const auto owner = memory_pool::make();
+        memory_pool& pool = *owner;
         const pool_scope scope(&pool);
         kept.emplace(index.subset(some));
     }

@@ -75,6 +75,9 @@ TEST(supervised, announces_steps_and_stops_before_them) {
     source.request_stop();
     EXPECT_THROW(gnomon::detail::begin_step(run, "late", 2, 2), gnomon::stopped);
     EXPECT_EQ(steps, std::vector<std::string>{"normals1/2"});
+    source.reset();
+    gnomon::detail::begin_step(supervised(run), "by another", 1, 1);
+    EXPECT_EQ(steps.size(), 2u);
 }
 
 }  // namespace

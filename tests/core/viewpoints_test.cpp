@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -43,6 +44,17 @@ TEST(viewpoint_table, travels_with_a_bare_range) {
     EXPECT_EQ(gnomon::position_view(seen)[2], points[2]);
     EXPECT_EQ(gnomon::viewpoints_of(seen)[2], b);
     EXPECT_EQ(gnomon::viewpoints_of(points)[2], Eigen::Vector3d(0, 0, 0));
+}
+
+/// A table that was moved from knows no view point.
+TEST(viewpoint_table, is_empty_when_moved_from) {
+    gnomon::viewpoint_table all(Eigen::Vector3d(1, 2, 3));
+    const gnomon::viewpoint_table moved = std::move(all);
+    EXPECT_TRUE(all.empty() && all.covers(5));
+    EXPECT_EQ(all[4], Eigen::Vector3d(0, 0, 0));
+    EXPECT_EQ(moved[4], Eigen::Vector3d(1, 2, 3));
+    all = moved;
+    EXPECT_EQ(all[4], Eigen::Vector3d(1, 2, 3));
 }
 
 }  // namespace

@@ -13,8 +13,10 @@
 #include "laws/point_range_laws.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/scan.hpp>
+#include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/detail/size_with_ties.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace {
@@ -229,6 +231,46 @@ TEST(spatial_index, is_empty_after_a_rebuilding_that_throws) {
                  std::runtime_error);
     EXPECT_EQ(index.size(), 0u);
     EXPECT_TRUE(index.within({0, 0, 0}, 10.0).empty());
+}
+
+/// What was moved from, and what a failed assignment leaves, are values.
+TEST(spatial_index, is_of_no_points_when_moved_from) {
+    const clouds::cloud few = clouds::in_cube(40, 1), many = clouds::in_cube(100, 2);
+    spatial_index a(many), b(few);
+    spatial_index c = std::move(a);
+    EXPECT_EQ(c.size(), 100u);
+    for (spatial_index* const moved : {&a, &b}) {
+        if (moved == &b) c = std::move(b);
+        EXPECT_EQ(moved->size(), 0u);
+        EXPECT_EQ(moved->finite(), 0u);
+        EXPECT_TRUE(moved->nearest({0, 0, 0}, 3).empty());
+        EXPECT_EQ(gnomon::knn{.k = 3}(*moved).size(), 0u);
+        moved->rebuild(many);
+        EXPECT_EQ(moved->within({0, 0, 0}, 10.0).size(), 100u);
+    }
+    EXPECT_EQ(c.size(), 40u);
+    EXPECT_EQ(c.finite(), 40u);
+    EXPECT_EQ(c.within({0, 0, 0}, 10.0).size(), 40u);
+    c = a;
+    EXPECT_EQ(c.within({0, 0, 0}, 10.0).size(), 100u);
+}
+
+/// View points that were set for another scan are refused.
+TEST(spatial_index, covers_its_points_with_view_points) {
+    spatial_index index(clouds::in_cube(100, 1));
+    index.viewpoints = gnomon::viewpoint_table(std::vector<Eigen::Vector3d>(10));
+    EXPECT_THROW((void)gnomon::knn{.k = 3}(index), std::invalid_argument);
+}
+
+/// A part of a cloud of floats, and an index of it, are of floats.
+TEST(spatial_index, has_the_epsilon_of_the_points_behind_a_view) {
+    const std::vector<Eigen::Vector3f> points(10, Eigen::Vector3f(1, 2, 3));
+    const std::vector<gnomon::point_index> some{1, 2};
+    const double expected = std::numeric_limits<float>::epsilon();
+    EXPECT_EQ(spatial_index(gnomon::subset_view(points, some)).epsilon(), expected);
+    EXPECT_EQ(spatial_index(gnomon::with_viewpoint(points, {1, 2, 3})).epsilon(), expected);
+    const spatial_index index(points);
+    EXPECT_EQ(spatial_index(gnomon::subset_view(index, some)).epsilon(), expected);
 }
 
 TEST(spatial_index, refuses_questions_without_an_answer) {

@@ -66,6 +66,16 @@ TEST(perception_result, has_no_index_if_one_was_given) {
     EXPECT_EQ(result.surfaces.size(), 1u);
 }
 
+/// Its own index is an index like any other.
+TEST(perception_result, gives_its_index_to_the_next_call) {
+    const gnomon::scan scan = wall();
+    const gnomon::perception<> chain;
+    auto result = chain(scan);
+    const auto surfaces = result.surfaces;
+    chain.into(result, result.index);
+    EXPECT_EQ(result.surfaces, surfaces);
+}
+
 /// A caller who follows the progress hears of as many steps as were announced.
 TEST(perception_result, comes_after_as_many_steps_as_announced) {
     const gnomon::scan scan = wall();

@@ -71,4 +71,20 @@ class position_view {
     [[no_unique_address]] Proj projection_;
 };
 
+namespace detail {
+
+/// The machine epsilon of the numbers that the coordinates of a range are stored in: the range
+/// states it by a member epsilon(), or they are those of the view.
+template <class View, class R>
+[[nodiscard]] double epsilon_of(const R& points) {
+    if constexpr (requires {
+                      { points.epsilon() } -> std::same_as<double>;
+                  })
+        return points.epsilon();
+    else
+        return static_cast<double>(std::numeric_limits<typename View::scalar>::epsilon());
+}
+
+}  // namespace detail
+
 }  // namespace gnomon

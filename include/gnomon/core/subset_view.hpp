@@ -31,7 +31,9 @@ class subset_view {
     /// O(indices).
     /// @throws std::invalid_argument  for an index out of range, such as those of a larger cloud
     subset_view(const R& points, std::span<const point_index> indices, Proj projection = {})
-        : points_(points, std::move(projection)), indices_(indices) {
+        : points_(points, std::move(projection)),
+          indices_(indices),
+          epsilon_(detail::epsilon_of<position_view<R, Proj>>(points)) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index is out of range");
         viewpoints = viewpoints_of(points, indices);
@@ -49,9 +51,13 @@ class subset_view {
     /// The position of the i-th selected point [m].
     [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const { return points_[indices_[i]]; }
 
+    /// The machine epsilon of the numbers that the points came in: float or double.
+    [[nodiscard]] double epsilon() const { return epsilon_; }
+
   private:
     position_view<R, Proj> points_;
     std::span<const point_index> indices_;
+    double epsilon_;
 };
 
 }  // namespace gnomon

@@ -64,6 +64,13 @@ struct no_progress {
     void operator()(const char*, std::size_t, std::size_t) const {}
 };
 
+/// Announces a step to executions that have begin_step().
+template <execution X>
+void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {
+    if constexpr (requires { run.begin_step(name, step, steps); })
+        run.begin_step(name, step, steps);
+}
+
 }  // namespace detail
 
 /// An execution that throws `stopped` before the next chunk of work once a stop is requested, and
@@ -89,12 +96,16 @@ class supervised {
     void begin_step(const char* name, std::size_t step, std::size_t steps) const {
         if (stop_.stop_requested()) throw stopped();
         on_step_(name, step, steps);
+        detail::begin_step(run_, name, step, steps);
     }
 
     /// The same supervision of an execution whose threads stay from one step to the next.
-    [[nodiscard]] auto staying() const {
-        using staying_run = std::remove_cvref_t<decltype(detail::staying(run_))>;
-        return supervised<staying_run, OnStep>(detail::staying(run_), stop_, on_step_);
+    [[nodiscard]] decltype(auto) staying() const {
+        using staying_run = decltype(detail::staying(run_));
+        if constexpr (std::is_reference_v<staying_run>)
+            return (*this);
+        else
+            return supervised<staying_run, OnStep>(detail::staying(run_), stop_, on_step_);
     }
 
   private:
@@ -103,14 +114,4 @@ class supervised {
     OnStep on_step_;
 };
 
-namespace detail {
-
-/// Announces a step to executions that want to know.
-template <execution X>
-void begin_step(const X& run, const char* name, std::size_t step, std::size_t steps) {
-    if constexpr (requires { run.begin_step(name, step, steps); })
-        run.begin_step(name, step, steps);
-}
-
-}  // namespace detail
 }  // namespace gnomon

@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/reset_on_move.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -88,7 +89,7 @@ class viewpoint_table {
 
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
-    scope scope_ = scope::none;
+    detail::reset_on_move<scope> scope_;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.
@@ -142,6 +143,11 @@ struct viewed_points {
     [[nodiscard]] auto end() const { return std::ranges::end(*range); }
     [[nodiscard]] std::size_t size() const {
         return static_cast<std::size_t>(std::ranges::size(*range));
+    }
+    [[nodiscard]] auto epsilon() const
+        requires requires { range->epsilon(); }
+    {
+        return range->epsilon();
     }
 };
 

@@ -34,21 +34,6 @@
 namespace gnomon {
 
 namespace detail {
-
-/// The machine epsilon of the numbers that the coordinates of a range are stored in.
-template <class View, class R>
-[[nodiscard]] double epsilon_of(const R& points) {
-    if constexpr (requires {
-                      { points.epsilon() } -> std::same_as<double>;
-                  })
-        return points.epsilon();
-    else
-        return static_cast<double>(std::numeric_limits<typename View::scalar>::epsilon());
-}
-
-}  // namespace detail
-
-namespace detail {
 class indexed_subset;
 }
 
@@ -62,8 +47,17 @@ class spatial_index : public detail::index_queries<spatial_index> {
     /// Those of the points.
     viewpoint_table viewpoints;
 
-    /// Of no points.
+    /// Of no points. So is an index that was moved from.
     spatial_index() = default;
+    spatial_index(const spatial_index&) = default;
+    spatial_index(spatial_index&&) = default;
+    /// If this throws, the index is as before.
+    spatial_index& operator=(const spatial_index& other) {
+        spatial_index copy(other);
+        return *this = std::move(copy);
+    }
+    spatial_index& operator=(spatial_index&&) = default;
+    ~spatial_index() = default;
 
     /// @param points  any point range of n points [m]
     /// @throws std::invalid_argument  if the view points are for another number of points, or for
@@ -186,6 +180,8 @@ namespace detail {
 template <class R, execution X, class Proj>
 [[nodiscard]] decltype(auto) index_of(const R& points, const X& run, const Proj& projection) {
     if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
+        require(points.viewpoints.covers(points.size()),
+                "the view points are for another number of points");
         return (points);
     } else {
         return spatial_index(points, run, projection);

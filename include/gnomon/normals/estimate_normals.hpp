@@ -73,7 +73,7 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 ///                    or what with_viewpoint(s) returns, for its view points and otherwise assume
 ///                    the origin
 /// @param graph       the neighbors of each of the n points, indices below n
-/// @param estimate    any estimator
+/// @param estimate    any estimator; by default `plane_pca`
 /// @param run         `sequential{}`, `threads{n}` or another execution; the bytes of the
 ///                    result are the same
 /// @param projection  makes a point of an element of the range
@@ -85,10 +85,10 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
 /// @throws std::invalid_argument  if graph and points differ in size, an index is out of range, or
 ///                                the view points are for another number of points
 /// Complexity: one call of the estimator per point.
-template <class R, neighborhood_graph G, estimator E, execution X = sequential,
+template <class R, neighborhood_graph G, estimator E = plane_pca, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate,
+[[nodiscard]] auto estimate_normals(const R& points, const G& graph, const E& estimate = {},
                                     const X& run = {}, Proj projection = {})
     -> std::vector<surfel<estimate_t<E>>> {
     std::vector<surfel<estimate_t<E>>> surface;

@@ -105,10 +105,17 @@ struct perception {
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified, and can be replaced by the next call.
+    /// is unspecified, and can be replaced by the next call. Precondition: `points` does not refer
+    /// to the result; but they may be its index.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
+        if constexpr (std::same_as<R, spatial_index>) {
+            if (&points == &result.index) {
+                const spatial_index given = std::move(result.index);
+                return into(result, given, run, std::move(projection));
+            }
+        }
         const auto& team = detail::staying(run);
         detail::perception_run(*this, points, result, team, projection)();
     }

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <memory>
-#include <utility>
 
+#include <gnomon/core/detail/reset_on_move.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
 #include <gnomon/core/execution.hpp>
 
@@ -19,24 +19,22 @@ class kept_array {
   public:
     kept_array() = default;
     kept_array(const kept_array& other) { *this = other; }
-    kept_array(kept_array&& other) noexcept { swap(other); }
+    kept_array(kept_array&&) = default;
     kept_array& operator=(const kept_array& other) {
         if (this == &other) return *this;
         resize(other.size_, sequential{});
         std::copy_n(other.values_.get(), size_, values_.get());
         return *this;
     }
-    kept_array& operator=(kept_array&& other) noexcept {
-        swap(other);
-        return *this;
-    }
+    kept_array& operator=(kept_array&&) = default;
+    ~kept_array() = default;
 
     /// Makes it an array of n values. Allocates if n is larger than ever before.
     template <execution X>
     void resize(std::size_t n, const X& run) {
         if (n > capacity_) {
             values_.reset();  // first, so that old and new memory do not add up
-            capacity_ = 0;
+            size_ = capacity_ = 0;
             values_ = touched_array<T>(n, run);
             capacity_ = n;
         }
@@ -50,15 +48,9 @@ class kept_array {
     [[nodiscard]] const T& operator[](std::size_t i) const { return values_[i]; }
 
   private:
-    void swap(kept_array& other) noexcept {
-        std::swap(values_, other.values_);
-        std::swap(size_, other.size_);
-        std::swap(capacity_, other.capacity_);
-    }
-
     std::unique_ptr<T[]> values_;
-    std::size_t size_ = 0;
-    std::size_t capacity_ = 0;
+    reset_on_move<std::size_t> size_;
+    reset_on_move<std::size_t> capacity_;
 };
 
 }  // namespace gnomon::detail

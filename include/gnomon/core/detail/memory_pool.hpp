@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <memory>
 #include <new>
 #include <utility>
 
@@ -23,7 +24,9 @@
 namespace gnomon::detail {
 
 /// Blocks of memory in lists by size, for reuse. Allocates from operator new only if no suitable
-/// block is free, and returns its blocks when it is destroyed. Thread-safe.
+/// block is free, and returns its blocks when it is destroyed. A value that a user has made of its
+/// memory, in a policy or a callback, may live longer than its owner: the pool does as well, until
+/// the last block is returned. Thread-safe.
 class memory_pool final : public memory_source {
     /// Sizes are (s + 1) 2^e cache lines for s = 4, ..., 7, number 4 e + s; below, each number is a
     /// size. So at most a fifth of a block is unused.
@@ -39,23 +42,28 @@ class memory_pool final : public memory_source {
         holdings* held = nullptr;
     };
 
-    memory_pool() = default;
     memory_pool(const memory_pool&) = delete;
     memory_pool& operator=(const memory_pool&) = delete;
-    /// Precondition: all blocks have been returned.
-    ~memory_pool() {
-        for (block* first : free_)
-            while (first != nullptr)
-                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
-    }
+
+    /// Its owner gives it up; it ends when all blocks have been returned.
+    struct release {
+        void operator()(memory_pool* pool) const noexcept {
+            if (pool->is_unused_after([pool] { pool->is_owned_ = false; })) delete pool;
+        }
+    };
+    using owner = std::unique_ptr<memory_pool, release>;
+    [[nodiscard]] static owner make() { return owner(new memory_pool); }
 
     /// At least `bytes` bytes. O(1). Throws std::bad_alloc.
     [[nodiscard]] void* allocate(std::size_t bytes) override {
         const std::size_t requested = size_class(bytes);
         block* found = take(requested);
-        if (found == nullptr)
+        if (found == nullptr) {
             found =
                 made(requested, ::operator new(bytes_of(requested), std::align_val_t{alignment}));
+            const guard_of locked(guard_);
+            ++in_use_;
+        }
         found->requested = requested;
         return found + 1;
     }
@@ -63,13 +71,16 @@ class memory_pool final : public memory_source {
     /// Returns a block that allocate() gave, by the same piece of work or another. O(1).
     void deallocate(void* bytes) noexcept override {
         block* const returned = static_cast<block*>(bytes) - 1;
-        const guard_of locked(guard_);
-        holdings* const held = held_here();
-        if (held != nullptr && (*held)[returned->requested] > 0) {
-            --(*held)[returned->requested];
-            --held_[returned->requested];
-        }
-        put(returned);
+        const bool is_unused = is_unused_after([this, returned] {
+            holdings* const held = held_here();
+            if (held != nullptr && (*held)[returned->requested] > 0) {
+                --(*held)[returned->requested];
+                --held_[returned->requested];
+            }
+            put(returned);
+            --in_use_;
+        });
+        if (is_unused) delete this;
     }
 
     /// The work of this thread.
@@ -105,6 +116,13 @@ class memory_pool final : public memory_source {
     }
 
   private:
+    memory_pool() = default;
+    ~memory_pool() {
+        for (block* first : free_)
+            while (first != nullptr)
+                ::operator delete(std::exchange(first, first->next), std::align_val_t{alignment});
+    }
+
     /// The header in front of the memory.
     struct alignas(alignment) block {
         std::size_t size_class;
@@ -134,6 +152,13 @@ class memory_pool final : public memory_source {
         return new (memory) block{size_class};
     }
 
+    /// Changes the state; whether it has neither an owner nor blocks in use.
+    bool is_unused_after(auto&& change) noexcept {
+        const guard_of locked(guard_);
+        change();
+        return !is_owned_ && in_use_ == 0;
+    }
+
     /// The holdings of this thread's work in this pool; null outside of work.
     [[nodiscard]] holdings* held_here() const noexcept {
         const work here = current_work();
@@ -151,6 +176,7 @@ class memory_pool final : public memory_source {
             if (number_free_[c] > (held != nullptr && c == requested ? 0 : set_aside(c))) {
                 found = std::exchange(free_[c], free_[c]->next);
                 --number_free_[c];
+                ++in_use_;
             }
         if (held != nullptr) {
             most_[requested] = std::max(most_[requested], ++(*held)[requested]);
@@ -173,6 +199,8 @@ class memory_pool final : public memory_source {
     }
 
     mutex guard_;
+    std::size_t in_use_ = 0;  // blocks
+    bool is_owned_ = true;
     std::array<block*, classes> free_{};
     holdings number_free_{};                   // the lengths of these lists
     holdings held_{};                          // by all pieces of work together

@@ -17,6 +17,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/kept_array.hpp>
+#include <gnomon/core/detail/reset_on_move.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/finite_entries.hpp>
@@ -227,8 +228,8 @@ class leaf_tree {
         return children;
     }
 
-    std::size_t size_ = 0;
-    std::size_t leaves_ = 0;
+    reset_on_move<std::size_t> size_;
+    reset_on_move<std::size_t> leaves_;
     bool crowded_ = false;
     std::array<kept_array<double>, 3> at_;
     kept_array<point_index> index_;

@@ -4,7 +4,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cassert>
 #include <cstddef>
 #include <cstdint>
 #include <numeric>
@@ -16,6 +15,7 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/detail/touched_vector.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
@@ -43,7 +43,8 @@ class neighborhood_writer {
         : begin_(begin), indices_(indices) {}
 
     void operator()(std::size_t i, const auto& found) {
-        assert(found.size() == begin_[i + 1] - begin_[i]);
+        require(found.size() == begin_[i + 1] - begin_[i],
+                "the neighborhood finds another number of neighbors than neighbors_of_each()");
         write_indices(found, indices_ + begin_[i], buffer_);
     }
 

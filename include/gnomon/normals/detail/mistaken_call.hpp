@@ -19,6 +19,10 @@ namespace gnomon::detail {
 template <class R, class N, class Proj>
 concept graph_before_points = neighborhood_graph<R> && point_range<N, Proj>;
 
+/// estimate_normals(neighborhood, points, ...)
+template <class R, class N, class Proj>
+concept neighborhood_before_points = !indexed_range<R> && point_range<N, Proj>;
+
 /// Neither a neighborhood of these points nor a graph.
 template <class N, class R, class Proj>
 concept no_neighborhood = !neighborhood<N, R, Proj> && !neighborhood_graph<N>;
@@ -36,8 +40,9 @@ concept no_execution = !execution<X>;
 /// where they report other errors.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 inline constexpr bool mistaken_call =
-    no_execution<X> || graph_before_points<R, N, Proj> || refused_points<R, Proj> ||
-    (point_range<R, Proj> && no_neighborhood<N, R, Proj>) || execution_before_estimator<E>;
+    no_execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
+    refused_points<R, Proj> || (point_range<R, Proj> && no_neighborhood<N, R, Proj>) ||
+    execution_before_estimator<E>;
 
 /// Does not compile: the static assertion names the remedy. Its return type is deduced, so that
 /// compilers instantiate it where it is called, before they complain about the result.
@@ -54,6 +59,10 @@ constexpr auto explain_mistaken_call() {
         static_assert(never<R>,
                       "the points come before the graph: estimate_normals(points, graph, "
                       "estimator)");
+    } else if constexpr (neighborhood_before_points<R, N, Proj>) {
+        static_assert(never<R>,
+                      "the points come before the neighborhood: estimate_normals(points, "
+                      "neighborhood, estimator)");
     } else if constexpr (refused_points<R, Proj>) {
         (void)explain_refused_points<R, Proj>();
     } else if constexpr (no_neighborhood<N, R, Proj> && std::is_integral_v<N>) {

@@ -3,7 +3,6 @@
 /// The memory that a `perception_result` keeps from one call of `perception` to the next.
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include <gnomon/core/detail/memory_pool.hpp>
@@ -26,22 +25,18 @@ class perception_memory {
     perception_memory& operator=(perception_memory&&) = default;
     ~perception_memory() = default;
 
-    /// For the scratch vectors of all steps: those of the calling thread, which are the same in each
-    /// call, and those of the work that it shares with other threads.
-    [[nodiscard]] memory_pool& pool() { return both().of_caller; }
-    [[nodiscard]] memory_pool& pool_of_work() { return both().of_work; }
+    /// For the scratch vectors of all steps: those of the calling thread, which are the same in
+    /// each call, and those of the work that it shares with other threads.
+    [[nodiscard]] memory_pool& pool() { return existing(of_caller_); }
+    [[nodiscard]] memory_pool& pool_of_work() { return existing(of_work_); }
 
   private:
-    struct pools {
-        memory_pool of_caller, of_work;
-    };
-
-    [[nodiscard]] pools& both() {
-        if (!pools_) pools_ = std::make_unique<pools>();
-        return *pools_;
+    [[nodiscard]] static memory_pool& existing(memory_pool::owner& pool) {
+        if (!pool) pool = memory_pool::make();
+        return *pool;
     }
 
-    std::unique_ptr<pools> pools_;
+    memory_pool::owner of_caller_, of_work_;
 };
 
 }  // namespace gnomon::detail

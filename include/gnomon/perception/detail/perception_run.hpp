@@ -122,6 +122,8 @@ class perception_run {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index>) {
+            require(points_.viewpoints.covers(size()),
+                    "the view points are for another number of points");
             result_.index.clear();
             given_ = &points_;
             return;
