@@ -2258,6 +2258,31 @@ enum class tie_rule : bool {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/assigned_whole.hpp --------------------------------------------------
+
+/// @file
+/// Copy assignment that leaves the old value where it throws.
+
+namespace gnomon::detail {
+
+/// A T that is assigned as a whole or not at all. (A template, so that only programs that assign
+/// one compile its copy.)
+template <class T>
+class assigned_whole : public T {
+  public:
+    assigned_whole() = default;
+    assigned_whole(const assigned_whole&) = default;
+    assigned_whole(assigned_whole&&) = default;
+    assigned_whole& operator=(const assigned_whole& other) {
+        assigned_whole copy(other);
+        return *this = std::move(copy);
+    }
+    assigned_whole& operator=(assigned_whole&&) = default;
+    ~assigned_whole() = default;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/touched_vector.hpp --------------------------------------------------
 
 /// @file
@@ -3273,15 +3298,6 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// Of no points. So is an index that was moved from.
     spatial_index() = default;
-    spatial_index(const spatial_index&) = default;
-    spatial_index(spatial_index&&) = default;
-    /// If this throws, the index is as before.
-    spatial_index& operator=(const spatial_index& other) {
-        spatial_index copy(other);
-        return *this = std::move(copy);
-    }
-    spatial_index& operator=(spatial_index&&) = default;
-    ~spatial_index() = default;
 
     /// @param points  any point range of n points [m]
     /// @throws std::invalid_argument  if the view points are for another number of points, or for
@@ -3358,7 +3374,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
     friend class detail::index_queries<spatial_index>;
     [[nodiscard]] static const detail::place_set* places() { return nullptr; }
 
-    detail::leaf_tree tree_;
+    detail::assigned_whole<detail::leaf_tree> tree_;
     double epsilon_ = std::numeric_limits<double>::epsilon();
 };
 

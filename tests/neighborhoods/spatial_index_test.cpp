@@ -233,7 +233,7 @@ TEST(spatial_index, is_empty_after_a_rebuilding_that_throws) {
     EXPECT_TRUE(index.within({0, 0, 0}, 10.0).empty());
 }
 
-/// What was moved from, and what a failed assignment leaves, are values.
+/// What was moved from is a value.
 TEST(spatial_index, is_of_no_points_when_moved_from) {
     const clouds::cloud few = clouds::in_cube(40, 1), many = clouds::in_cube(100, 2);
     spatial_index a(many), b(few);

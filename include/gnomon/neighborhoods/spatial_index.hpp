@@ -21,6 +21,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/assigned_whole.hpp>
 #include <gnomon/core/detail/index_iterator.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
@@ -49,15 +50,6 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// Of no points. So is an index that was moved from.
     spatial_index() = default;
-    spatial_index(const spatial_index&) = default;
-    spatial_index(spatial_index&&) = default;
-    /// If this throws, the index is as before.
-    spatial_index& operator=(const spatial_index& other) {
-        spatial_index copy(other);
-        return *this = std::move(copy);
-    }
-    spatial_index& operator=(spatial_index&&) = default;
-    ~spatial_index() = default;
 
     /// @param points  any point range of n points [m]
     /// @throws std::invalid_argument  if the view points are for another number of points, or for
@@ -134,7 +126,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
     friend class detail::index_queries<spatial_index>;
     [[nodiscard]] static const detail::place_set* places() { return nullptr; }
 
-    detail::leaf_tree tree_;
+    detail::assigned_whole<detail::leaf_tree> tree_;
     double epsilon_ = std::numeric_limits<double>::epsilon();
 };
 
