@@ -2892,8 +2892,8 @@ class place_set {
 
     static_assert(leaf_tree::leaf_size == 32);
     scratch<std::uint32_t> leaves_;
-    scratch<std::uint32_t>
-        before_;  // entry l: the places in the leaves before leaf l; the last: in all
+    /// For each leaf, the number of places in the leaves before it; at last, that of all places.
+    scratch<std::uint32_t> before_;
 };
 
 }  // namespace gnomon::detail
@@ -3226,17 +3226,18 @@ class index_queries {
         return found;
     }
 
-    /// nearest(), in the memory of `found`. The same errors and complexity; so below.
+    /// nearest(), in the memory of `found`. Errors and complexity: those of nearest().
     void nearest_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                       const search_options& options = {}) const {
         search({.k = k}, found, p, options);
     }
-    /// within(), in the memory of `found`.
+    /// within(), in the memory of `found`. Errors and complexity: those of within().
     void within_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, double radius,
                      const search_options& options = {}) const {
         search({.squared_radius = squared(radius)}, found, p, options);
     }
-    /// nearest_within(), in the memory of `found`.
+    /// nearest_within(), in the memory of `found`. Errors and complexity: those of
+    /// nearest_within().
     void nearest_within_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                              double radius, const search_options& options = {}) const {
         search({.k = k, .squared_radius = squared(radius)}, found, p, options);
@@ -3318,7 +3319,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
     /// index is of no points. Precondition: `points` does not refer to this index.
-    /// @throws and complexity as for the constructor
+    /// Errors and complexity: those of the constructor.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
@@ -3416,13 +3417,19 @@ inline detail::indexed_subset spatial_index::subset(std::span<const point_index>
 
 namespace detail {
 
+/// The index itself, which view points of another scan may have been assigned to.
+/// @throws std::invalid_argument  if they are for another number of points
+inline const spatial_index& checked(const spatial_index& index) {
+    require(index.viewpoints.covers(index.size()),
+            "the view points are for another number of points");
+    return index;
+}
+
 /// The index itself, or one that is built of the points.
 template <class R, execution X, class Proj>
 [[nodiscard]] decltype(auto) index_of(const R& points, const X& run, const Proj& projection) {
     if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
-        require(points.viewpoints.covers(points.size()),
-                "the view points are for another number of points");
-        return (points);
+        return checked(points);
     } else {
         return spatial_index(points, run, projection);
     }
@@ -4839,7 +4846,8 @@ class scratch_graph {
 
 namespace gnomon::detail {
 
-/// Writes the indices of the neighbors that a sweep found, in their order.
+/// Writes the indices of the neighbors that a sweep found, in their order. Sweeps of this library
+/// can do so at once; the minimal definition of a sweep makes neighbors of them first.
 void write_indices(const auto& found, point_index* to, scratch<neighbor>& buffer) {
     if constexpr (requires { found.sort_into(to, buffer); }) {
         found.sort_into(to, buffer);
@@ -6375,16 +6383,12 @@ concept no_neighborhood = !neighborhood<N, R, Proj> && !neighborhood_graph<N>;
 template <class E>
 concept execution_before_estimator = !estimator<E> && execution<E>;
 
-/// estimate_normals(points, neighborhood, estimator, projection), or with a number of threads
-template <class X>
-concept no_execution = !execution<X>;
-
 /// Whether explain_mistaken_call has a remedy for these arguments of estimate_normals. Other types
 /// that are no estimators are not among them. A variable, so that compilers do not list its terms
 /// where they report other errors.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 inline constexpr bool mistaken_call =
-    no_execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
+    !execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
     refused_points<R, Proj> || (point_range<R, Proj> && no_neighborhood<N, R, Proj>) ||
     execution_before_estimator<E>;
 
@@ -6393,9 +6397,9 @@ inline constexpr bool mistaken_call =
 /// Precondition: mistaken_call.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 constexpr auto explain_mistaken_call() {
-    if constexpr (no_execution<X> && std::is_arithmetic_v<X>) {
+    if constexpr (!execution<X> && std::is_arithmetic_v<X>) {
         static_assert(never<X>, "a number is not an execution: write gnomon::threads{4}");
-    } else if constexpr (no_execution<X>) {
+    } else if constexpr (!execution<X>) {
         static_assert(never<X>,
                       "the execution comes before the projection: estimate_normals(points, "
                       "neighborhood, estimator, {}, projection)");
@@ -6537,8 +6541,8 @@ class neighbor_gatherer {
 
 namespace gnomon {
 
-/// The estimator's own result, with its members `normal` and `trust`, and two figures of
-/// its neighborhood (Klasing 2010, Sec. 4.2.5).
+/// The estimator's own result, with its members `normal` and `trust`, and two figures of its
+/// neighborhood (Klasing 2010, Sec. 4.2.5).
 template <class Estimate>
 struct surfel : Estimate {
     double mean_distance = 0.0;  ///< rho_bar, mean distance to the neighbors [m], Eq. (4.2)
@@ -6957,8 +6961,9 @@ template <class R, neighborhood_graph G, estimator E = plane_pca, execution X = 
     return surface;
 }
 
-/// The same in the memory of `surface`, whose content it replaces; allocates only to grow.
-/// @throws and complexity as above
+/// estimate_normals(points, graph, estimate, run, projection), in the memory of `surface`, whose
+/// content it replaces; allocates only to grow.
+/// Errors and complexity: those of that form.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -6978,7 +6983,7 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
 /// what a search needs while it runs.
-/// @throws and complexity as for estimate_normals
+/// Errors and complexity: those of that form.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,
@@ -10779,7 +10784,7 @@ class unlabeled_cubes {
 
   private:
     /// In standard deviations of ranges: so narrow that the position of the grid has no influence.
-    /// (A choice of ours, not in the thesis.)
+    /// Chosen here, not in the thesis.
     static constexpr double side = 0.75;
 
     struct placed {
@@ -17192,11 +17197,9 @@ class perception_run {
     void index_kept() {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
-        } else if constexpr (std::same_as<R, spatial_index>) {
-            require(points_.viewpoints.covers(size()),
-                    "the view points are for another number of points");
+        } else if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
+            given_ = &checked(points_);
             result_.index.clear();
-            given_ = &points_;
             return;
         } else {
             result_.index.rebuild(points_, run_, projection_);
@@ -17393,12 +17396,12 @@ struct perception {
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified, and can be replaced by the next call. Precondition: `points` does not refer
-    /// to the result; but they may be its index.
+    /// is unspecified, and can be replaced by the next call. Precondition: the points do not refer
+    /// to the result, unless they are its index itself.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
-        if constexpr (std::same_as<R, spatial_index>) {
+        if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
             if (&points == &result.index) {
                 const spatial_index given = std::move(result.index);
                 return into(result, given, run, std::move(projection));
@@ -17408,7 +17411,7 @@ struct perception {
         detail::perception_run(*this, points, result, team, projection)();
     }
 
-    /// Refused: the result of another estimator; `result_type` is the one of this.
+    /// Refused: the result of another estimator than that of this chain.
     template <class Other>
         requires(!std::same_as<Other, estimate_t<Estimator>>)
     void into(perception_result<Other>&, const auto&...) const {

@@ -70,7 +70,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
     /// index is of no points. Precondition: `points` does not refer to this index.
-    /// @throws and complexity as for the constructor
+    /// Errors and complexity: those of the constructor.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
@@ -168,13 +168,19 @@ inline detail::indexed_subset spatial_index::subset(std::span<const point_index>
 
 namespace detail {
 
+/// The index itself, which view points of another scan may have been assigned to.
+/// @throws std::invalid_argument  if they are for another number of points
+inline const spatial_index& checked(const spatial_index& index) {
+    require(index.viewpoints.covers(index.size()),
+            "the view points are for another number of points");
+    return index;
+}
+
 /// The index itself, or one that is built of the points.
 template <class R, execution X, class Proj>
 [[nodiscard]] decltype(auto) index_of(const R& points, const X& run, const Proj& projection) {
     if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
-        require(points.viewpoints.covers(points.size()),
-                "the view points are for another number of points");
-        return (points);
+        return checked(points);
     } else {
         return spatial_index(points, run, projection);
     }

@@ -96,8 +96,9 @@ template <class R, neighborhood_graph G, estimator E = plane_pca, execution X = 
     return surface;
 }
 
-/// The same in the memory of `surface`, whose content it replaces; allocates only to grow.
-/// @throws and complexity as above
+/// estimate_normals(points, graph, estimate, run, projection), in the memory of `surface`, whose
+/// content it replaces; allocates only to grow.
+/// Errors and complexity: those of that form.
 template <class R, neighborhood_graph G, estimator E, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -117,7 +118,7 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
 /// estimate_normals(points, policy, estimate, run, projection), in the memory of `surface`, whose
 /// content it replaces. With an index that is rebuilt for each scan, repeated calls allocate only
 /// what a search needs while it runs.
-/// @throws and complexity as for estimate_normals
+/// Errors and complexity: those of that form.
 template <class R, class N, estimator E, execution X = sequential, class Proj = std::identity>
     requires neighborhood<N, R, Proj>
 void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R& points,

@@ -7,8 +7,8 @@
 
 namespace gnomon {
 
-/// The estimator's own result, with its members `normal` and `trust`, and two figures of
-/// its neighborhood (Klasing 2010, Sec. 4.2.5).
+/// The estimator's own result, with its members `normal` and `trust`, and two figures of its
+/// neighborhood (Klasing 2010, Sec. 4.2.5).
 template <class Estimate>
 struct surfel : Estimate {
     double mean_distance = 0.0;  ///< rho_bar, mean distance to the neighbors [m], Eq. (4.2)

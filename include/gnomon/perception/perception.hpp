@@ -105,12 +105,12 @@ struct perception {
     }
 
     /// The same, in the memory of `result`, whose content it replaces. If this throws, the content
-    /// is unspecified, and can be replaced by the next call. Precondition: `points` does not refer
-    /// to the result; but they may be its index.
+    /// is unspecified, and can be replaced by the next call. Precondition: the points do not refer
+    /// to the result, unless they are its index itself.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
-        if constexpr (std::same_as<R, spatial_index>) {
+        if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
             if (&points == &result.index) {
                 const spatial_index given = std::move(result.index);
                 return into(result, given, run, std::move(projection));
@@ -120,7 +120,7 @@ struct perception {
         detail::perception_run(*this, points, result, team, projection)();
     }
 
-    /// Refused: the result of another estimator; `result_type` is the one of this.
+    /// Refused: the result of another estimator than that of this chain.
     template <class Other>
         requires(!std::same_as<Other, estimate_t<Estimator>>)
     void into(perception_result<Other>&, const auto&...) const {

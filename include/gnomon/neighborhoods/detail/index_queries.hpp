@@ -53,17 +53,18 @@ class index_queries {
         return found;
     }
 
-    /// nearest(), in the memory of `found`. The same errors and complexity; so below.
+    /// nearest(), in the memory of `found`. Errors and complexity: those of nearest().
     void nearest_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                       const search_options& options = {}) const {
         search({.k = k}, found, p, options);
     }
-    /// within(), in the memory of `found`.
+    /// within(), in the memory of `found`. Errors and complexity: those of within().
     void within_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, double radius,
                      const search_options& options = {}) const {
         search({.squared_radius = squared(radius)}, found, p, options);
     }
-    /// nearest_within(), in the memory of `found`.
+    /// nearest_within(), in the memory of `found`. Errors and complexity: those of
+    /// nearest_within().
     void nearest_within_into(std::vector<neighbor>& found, const Eigen::Vector3d& p, std::size_t k,
                              double radius, const search_options& options = {}) const {
         search({.k = k, .squared_radius = squared(radius)}, found, p, options);

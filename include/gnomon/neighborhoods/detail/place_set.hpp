@@ -80,8 +80,8 @@ class place_set {
 
     static_assert(leaf_tree::leaf_size == 32);
     scratch<std::uint32_t> leaves_;
-    scratch<std::uint32_t>
-        before_;  // entry l: the places in the leaves before leaf l; the last: in all
+    /// For each leaf, the number of places in the leaves before it; at last, that of all places.
+    scratch<std::uint32_t> before_;
 };
 
 }  // namespace gnomon::detail

@@ -25,7 +25,8 @@
 
 namespace gnomon::detail {
 
-/// Writes the indices of the neighbors that a sweep found, in their order.
+/// Writes the indices of the neighbors that a sweep found, in their order. Sweeps of this library
+/// can do so at once; the minimal definition of a sweep makes neighbors of them first.
 void write_indices(const auto& found, point_index* to, scratch<neighbor>& buffer) {
     if constexpr (requires { found.sort_into(to, buffer); }) {
         found.sort_into(to, buffer);

@@ -31,16 +31,12 @@ concept no_neighborhood = !neighborhood<N, R, Proj> && !neighborhood_graph<N>;
 template <class E>
 concept execution_before_estimator = !estimator<E> && execution<E>;
 
-/// estimate_normals(points, neighborhood, estimator, projection), or with a number of threads
-template <class X>
-concept no_execution = !execution<X>;
-
 /// Whether explain_mistaken_call has a remedy for these arguments of estimate_normals. Other types
 /// that are no estimators are not among them. A variable, so that compilers do not list its terms
 /// where they report other errors.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 inline constexpr bool mistaken_call =
-    no_execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
+    !execution<X> || graph_before_points<R, N, Proj> || neighborhood_before_points<R, N, Proj> ||
     refused_points<R, Proj> || (point_range<R, Proj> && no_neighborhood<N, R, Proj>) ||
     execution_before_estimator<E>;
 
@@ -49,9 +45,9 @@ inline constexpr bool mistaken_call =
 /// Precondition: mistaken_call.
 template <class R, class N, class E, class Proj = std::identity, class X = sequential>
 constexpr auto explain_mistaken_call() {
-    if constexpr (no_execution<X> && std::is_arithmetic_v<X>) {
+    if constexpr (!execution<X> && std::is_arithmetic_v<X>) {
         static_assert(never<X>, "a number is not an execution: write gnomon::threads{4}");
-    } else if constexpr (no_execution<X>) {
+    } else if constexpr (!execution<X>) {
         static_assert(never<X>,
                       "the execution comes before the projection: estimate_normals(points, "
                       "neighborhood, estimator, {}, projection)");

@@ -121,11 +121,9 @@ class perception_run {
     void index_kept() {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
-        } else if constexpr (std::same_as<R, spatial_index>) {
-            require(points_.viewpoints.covers(size()),
-                    "the view points are for another number of points");
+        } else if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
+            given_ = &checked(points_);
             result_.index.clear();
-            given_ = &points_;
             return;
         } else {
             result_.index.rebuild(points_, run_, projection_);

@@ -95,7 +95,7 @@ class unlabeled_cubes {
 
   private:
     /// In standard deviations of ranges: so narrow that the position of the grid has no influence.
-    /// (A choice of ours, not in the thesis.)
+    /// Chosen here, not in the thesis.
     static constexpr double side = 0.75;
 
     struct placed {
