@@ -36,7 +36,8 @@ int main() {
     // No farther than 5 cm; as many as a noise of 5 mm requires; about six, in angular order.
     report("hybrid, plane_pca", truth,
            estimate_normals(scan, hybrid{.k = 30, .r = 0.05}, plane_pca{}));
-    const adaptive_knn<prefer_small_error> adaptive{.growth = 1.3, .preference = {.sigma = 0.005}};
+    const adaptive_knn<prefer_small_error> adaptive{
+        .growth = 1.3, .preference = {.noise = gnomon::constant_noise{0.005}}};
     report("adaptive_knn, plane_pca", truth, estimate_normals(scan, adaptive, plane_pca{}));
     report("delaunay, angle_weighted", truth, estimate_normals(scan, delaunay{}, angle_weighted{}));
     // Averages of triangles need an order around the point, or a common sign.

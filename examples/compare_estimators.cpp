@@ -56,6 +56,7 @@ scan_with_truth scan_of(const options& o) {
 /// An estimator of the registry with the standard deviation of the noise, if it uses one.
 template <class E>
 E with_noise(E estimate, double sigma) {
+    if constexpr (requires { estimate.noise; }) estimate.noise = gnomon::constant_noise{sigma};
     if constexpr (requires { estimate.sigma; }) estimate.sigma = sigma;
     return estimate;
 }

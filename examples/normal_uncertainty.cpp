@@ -96,8 +96,8 @@ void normal_uncertainty(const options& o) {
     const stopwatch watch;
     const gnomon::adjacency graph = gnomon::knn{.k = o.k}(scan, o.threads);
     // [normal_uncertainty]
-    auto surface =
-        gnomon::estimate_normals(scan, graph, gnomon::plane_eif{.sigma = o.sigma}, o.threads);
+    auto surface = gnomon::estimate_normals(
+        scan, graph, gnomon::plane_eif{.noise = gnomon::constant_noise{o.sigma}}, o.threads);
     std::vector<double> deviations;  // of each normal, in one direction [degrees]; NaN for none
     for (const auto& s : surface) {
         deviations.push_back(gnomon::usable(s.trust)

@@ -46,6 +46,14 @@ struct counted {
 static_assert(gnomon::execution<counted>);
 // [own_execution]
 
+// [own_range_noise]
+// The noise of a data sheet: a constant one up to 10 m, then in proportion to the range.
+struct data_sheet_noise {
+    double operator()(double range) const { return range < 10.0 ? 0.02 : 0.002 * range; }  // [m]
+};
+static_assert(gnomon::range_noise<data_sheet_noise>);
+// [own_range_noise]
+
 // [own_size_preference]
 // Prefers the neighborhood that is flattest for its width.
 struct prefer_flat {
@@ -118,6 +126,10 @@ int main() {
     const auto surface =
         gnomon::estimate_normals(points, neighborhood, gnomon::plane_pca{}, counted{&chunks});
     std::printf("%zu normals in %zu chunks\n", surface.size(), chunks);
+
+    const auto believed = gnomon::estimate_normals(points, neighborhood,
+                                                   gnomon::plane_eif{.noise = data_sheet_noise{}});
+    std::printf("the first normal turns by %.4f rad\n", std::sqrt(believed[0].trace()));
 
     scan_line_graph along{std::vector<std::vector<gnomon::point_index>>(points.size())};
     for (std::size_t i = 1; i + 1 < points.size(); ++i)

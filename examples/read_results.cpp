@@ -33,7 +33,8 @@ int main() {
                 mean.z(), without);
 
     // [read_covariance]
-    const auto believed = gnomon::estimate_normals(scan, graph, gnomon::plane_eif{.sigma = 0.003});
+    const auto believed = gnomon::estimate_normals(
+        scan, graph, gnomon::plane_eif{.noise = gnomon::constant_noise{0.003}});
     const Eigen::Matrix3d& c = believed[0].covariance;  // [rad^2]; zero along the normal
     const double deviation = std::sqrt(0.5 * believed[0].trace());  // in one direction [rad]
     // [read_covariance]

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What would a range finder see, and what is the truth about each point? Scans a room of the
-/// library or a mesh file and writes points, truth, names and a picture.
+/// What would a range finder or a depth camera see, and what is the truth about each point? Scans a
+/// room of the library or a mesh file and writes points, truth, names and a picture.
 
 #include <algorithm>
 #include <cmath>
@@ -33,8 +33,15 @@ using json = nlohmann::ordered_json;
 
 sim::true_scan scan_of(const sim::scene& world, const options& o) {
     const progress telling("scanning");
+    sim::beam beam = o.beam;
+    if (o.camera) {
+        beam.sigma = 0.0;  // the camera has a noise of its own
+        if (o.skimmed) beam.footprint = o.camera->pixel();
+        return sim::simulate(world, world.sensor, *o.camera, beam, o.threads);
+    }
+    if (o.skimmed) beam.footprint.divergence = gnomon::radians(0.004);
     const auto along = [&](const auto& trajectory) {
-        return sim::simulate(world, trajectory, o.finder, o.beam, o.threads);
+        return sim::simulate(world, trajectory, o.finder, beam, o.threads);
     };
     switch (o.trajectory) {
         case trajectory_kind::horizontal:

@@ -146,11 +146,15 @@ void enter_benchmarks(const effort& much) {
         };
         method("plane_pca", [](const plate&) { return gnomon::plane_pca{}; });
         method("literal_plane_ekf", [](const plate& p) {
-            return gnomon::literal_plane_ekf{.sigma = sigma, .seed = p.seed};
+            return gnomon::literal_plane_ekf{.noise = gnomon::constant_noise{sigma},
+                                             .seed = p.seed};
         });
-        method("plane_ekf", [](const plate&) { return gnomon::plane_ekf{.sigma = sigma}; });
+        method("plane_ekf", [](const plate&) {
+            return gnomon::plane_ekf{.noise = gnomon::constant_noise{sigma}};
+        });
         method("plane_pca with covariance", [](const plate&) {
-            return gnomon::with_covariance<gnomon::plane_pca>{.sigma = sigma};
+            return gnomon::with_covariance<gnomon::plane_pca>{.noise =
+                                                                  gnomon::constant_noise{sigma}};
         });
     };
     over(10);

@@ -15,7 +15,9 @@ namespace {
 /// An estimator of the registry with the standard deviation of the noise, if it uses one.
 template <class E>
 E with_noise(E estimate, double sigma) {
-    if constexpr (requires { estimate.sigma; }) {
+    if constexpr (requires { estimate.noise; }) {
+        if (sigma > 0.0) estimate.noise = gnomon::constant_noise{sigma};
+    } else if constexpr (requires { estimate.sigma; }) {
         if (sigma > 0.0) estimate.sigma = sigma;
     }
     return estimate;

@@ -197,11 +197,11 @@ class initial_segments {
     }
 
     /// Whether, for most lines across a gap, rays to most positions on the line hit an occluder.
-    static bool is_occluded_between(const std::vector<gnomon::boundary_pair>& lines,
+    static bool is_occluded_between(const std::vector<gnomon::detail::boundary_pair>& lines,
                                     const std::vector<Eigen::Vector3d>& places,
                                     const auto& viewpoints, const sim::bvh_caster& caster) {
         constexpr int steps = 39;
-        const auto is_hidden = [&](const gnomon::boundary_pair& line) {
+        const auto is_hidden = [&](const auto& line) {
             const Eigen::Vector3d p = places[line.first], q = places[line.second];
             const Eigen::Vector3d from = 0.5 * (viewpoints[line.first] + viewpoints[line.second]);
             int hidden = 0;

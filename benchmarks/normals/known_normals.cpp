@@ -73,7 +73,7 @@ std::vector<measurement> measured(const cloud& data, const plan& p) {
         data.points, data.center + 5.0 * data.diagonal * Vector3d(1, 2, 3).normalized());
     std::vector<gnomon::adjacency> fans;
     for (const std::size_t k : p.ks_of_others)
-        fans.push_back(gnomon::sort_angularly(data.points, first_k{&nearest, k}));
+        fans.push_back(gnomon::detail::sort_angularly(data.points, first_k{&nearest, k}));
 
     boost::hana::for_each(gnomon::estimators, [&](const auto& e) {
         using model = std::remove_cvref_t<decltype(e.policy)>;

@@ -53,7 +53,7 @@ template <class Estimate>
     std::size_t merged = 0;
     for (const gnomon::considered_gap& gap : seen.gaps) {
         merged += gap.merged ? 1 : 0;
-        for (const gnomon::boundary_pair& pair : gap.lines)
+        for (const auto& pair : gap.lines)
             lines.strokes.push_back(
                 {scan.points[pair.first], scan.points[pair.second], gap.merged ? closed : open});
     }

@@ -20,16 +20,19 @@ namespace sim = gnomon::simulation;
 inline constexpr const char* usage =
     R"(usage: simulate_scan --out DIR [options]
 
-Scans a scene with a simulated range finder. Writes scan.ply, the points with what is true of
+Scans a scene with a simulated range finder or depth camera. Writes scan.ply, the points with what is true of
 them (normal, object, part, surface, range, echo), scan.png and names.json into DIR.
 
   --scene NAME         kitchen, living_room, box_and_cylinder, boxes_and_bin, two_chairs,
                        seat_armchair_table, furnished_room (of the seed), or a mesh file such as
                        FILE.obj, z up, in metres (kitchen)
-  --trajectory NAME    horizontal, vertical or rotational (rotational)
-  --density NAME       low, medium or high: 7,200, 28,800 or 115,200 beams (high)
-  --sigma M            standard deviation of the range (0.015)
-  --skimmed            a beam of finite width, 4 mrad, which meets several surfaces at edges
+  --scanner NAME       range_finder, or a depth camera with its own resolution and noise:
+                       structured_light, time_of_flight or stereo (range_finder)
+  --trajectory NAME    of a range finder: horizontal, vertical or rotational (rotational)
+  --density NAME       of a range finder: low, medium or high, 7,200, 28,800 or 115,200 beams (high)
+  --sigma M            of a range finder: standard deviation of the range (0.015)
+  --skimmed            beams (4 mrad) or pixels of finite width, which meet several surfaces at
+                       edges
   --seed N             of all that is random (1)
   --sensor X,Y,Z       where the sensor stands (as the scene says; in a mesh file the middle, 1.2 m
                        above the ground)
@@ -45,8 +48,10 @@ struct options {
     std::string scene = "kitchen";  ///< a name, or the path of a mesh file
     std::string out;
     trajectory_kind trajectory = trajectory_kind::rotational;
+    std::optional<sim::depth_camera> camera;  ///< in place of the range finder
     sim::scanner finder;
     sim::beam beam{.sigma = 0.015};
+    bool skimmed = false;
     std::optional<Eigen::Vector3d> sensor;
     std::optional<gnomon::angle> yaw;
     std::optional<gnomon::angle> pitch;
@@ -79,6 +84,15 @@ inline gnomon::angle angle_of(const std::string& name, const std::string& value)
 inline const option<options> known_options[] = {
     {"--scene", true,
      [](options& o, const std::string&, const std::string& value) { o.scene = value; }},
+    {"--scanner", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.camera = chosen<std::optional<sim::depth_camera>>(
+             name, value,
+             {{"range_finder", std::nullopt},
+              {"structured_light", sim::scanners::structured_light()},
+              {"time_of_flight", sim::scanners::time_of_flight()},
+              {"stereo", sim::scanners::stereo()}});
+     }},
     {"--trajectory", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.trajectory = chosen<trajectory_kind>(name, value,
@@ -98,9 +112,7 @@ inline const option<options> known_options[] = {
          o.beam.sigma = number_within(name, value, 0.0, 10.0, "from 0 to 10");
      }},
     {"--skimmed", false,
-     [](options& o, const std::string&, const std::string&) {
-         o.beam.footprint.divergence = gnomon::radians(0.004);
-     }},
+     [](options& o, const std::string&, const std::string&) { o.skimmed = true; }},
     {"--seed", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.beam.seed = seed_of(name, value);

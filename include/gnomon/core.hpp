@@ -7,11 +7,13 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/random.hpp>
+#include <gnomon/core/range_noise.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/core/strided_view.hpp>

@@ -10,6 +10,7 @@
 #include <gnomon/normals/feature_preserving.hpp>
 #include <gnomon/normals/gamma.hpp>
 #include <gnomon/normals/literal_plane_ekf.hpp>
+#include <gnomon/normals/measure_noise.hpp>
 #include <gnomon/normals/noise_level.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 #include <gnomon/normals/normal_quality.hpp>

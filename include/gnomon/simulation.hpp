@@ -13,6 +13,7 @@
 #include <gnomon/simulation/chair.hpp>
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/cylinder.hpp>
+#include <gnomon/simulation/depth_camera.hpp>
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/plane_patch.hpp>

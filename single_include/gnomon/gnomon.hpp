@@ -687,6 +687,231 @@ struct moments {
 
 }  // namespace gnomon
 
+// -------- gnomon/core/range_noise.hpp ------------------------------------------------------------
+
+/// @file
+/// The noise of a sensor: the standard deviation of a measured range as a function of the range,
+/// or, of a depth camera, of a measured depth as a function of the depth. Noise is along the ray.
+
+namespace gnomon {
+
+/// noise(x) is the standard deviation [m] at the range, or depth, x [m].
+template <class N>
+concept range_noise = requires(const N& noise, double x) {
+    { noise(x) } -> std::convertible_to<double>;
+};
+
+/// The same noise at every range.
+struct constant_noise {
+    double sigma = 0.015;  ///< standard deviation [m]; the default is the thesis's range finder
+
+    [[nodiscard]] constexpr double operator()(double) const { return sigma; }
+};
+
+/// The standard deviation a + b x + c x^2 at the range x.
+struct quadratic_noise {
+    double a = 0.0;  ///< [m]
+    double b = 0.0;
+    double c = 0.0;  ///< [1/m]
+
+    [[nodiscard]] constexpr double operator()(double x) const { return a + x * (b + x * c); }
+};
+
+/// Published models of depth cameras, as functions of the depth. With the optical axis of the
+/// camera they are a `noise_curve`.
+namespace noises {
+
+/// Structured light, the first Kinect: 1.2 mm + 1.9e-3/m (z - 0.4 m)^2.
+/// Nguyen, Izadi and Lovell 2012, Eq. (2), for surfaces that face the camera.
+[[nodiscard]] constexpr quadratic_noise structured_light() {
+    return {0.0012 + 0.0019 * 0.4 * 0.4, -2.0 * 0.0019 * 0.4, 0.0019};
+}
+
+/// Time of flight, the second Kinect: 1.5 mm - 0.5e-3 z + 0.3e-3/m z^2.
+/// Fankhauser et al. 2015, Eq. (6), for surfaces that face the camera.
+[[nodiscard]] constexpr quadratic_noise time_of_flight() { return {0.0015, -0.0005, 0.0003}; }
+
+/// Stereo: z^2 s / (f b), for disparities with the standard deviation s [pixel], the focal length
+/// f [pixel] and the baseline b [m]. The default is an Intel RealSense D415 at 1280 x 720: 0.08
+/// pixel, 1005 pixel and 55 mm (Grunnet-Jepsen, Sweetser and Woodfill 2018).
+[[nodiscard]] constexpr quadratic_noise stereo(double disparity = 0.08,
+                                               double focal_length = 1005.0,
+                                               double baseline = 0.055) {
+    return {0.0, 0.0, disparity / (focal_length * baseline)};
+}
+
+}  // namespace noises
+
+}  // namespace gnomon
+
+// -------- gnomon/core/noise_curve.hpp ------------------------------------------------------------
+
+/// @file
+/// The noise of a sensor as a plain value, which every `range_noise` converts to, and every option
+/// that requires the noise holds:
+///
+///     plane_ekf{.noise = constant_noise{0.005}}
+///     plane_ekf{.noise = {noises::structured_light(), optical_axis}}
+///     plane_ekf{.noise = [](double range) { return 0.002 + 0.001 * range; }}
+///
+/// The variance is a polynomial of the range of degree 4, exact for constant and quadratic
+/// standard deviations and for sums of independent sources, or a table for any other model.
+/// Quantisation is a lower bound: readings in steps err by step / sqrt(12) at least.
+
+namespace gnomon {
+
+/// Models `range_noise`. Noise is a function of the range of a point, or of its depth along an
+/// optical axis.
+class noise_curve {
+  public:
+    /// Coefficients of 1, x, x^2, x^3, x^4.
+    using quartic = std::array<double, 5>;
+
+    /// The curve of a model: exact for `constant_noise` and `quadratic_noise`; any other is read at
+    /// 64 ranges from 5 cm to 500 m, between which the error is below 0.3 % for a sum of powers,
+    /// and constant outside of them.
+    /// @throws std::invalid_argument  if a standard deviation is negative or not finite
+    template <range_noise N>
+        requires(!std::same_as<N, noise_curve>)
+    explicit(false) constexpr noise_curve(const N& noise) {
+        set_model(noise);
+    }
+
+    /// The curve of a camera, for which `noise` is the standard deviation of the depth as a
+    /// function of the depth.
+    /// @param axis  the optical axis, of any length but 0
+    /// @throws std::invalid_argument  also if the axis has no length or is not finite
+    template <range_noise N>
+    noise_curve(const N& noise, const Eigen::Vector3d& axis) {
+        set_model(noise);
+        set_axis(axis);
+    }
+
+    /// The curve of the variance `variance(x)`, where readings come in steps of the variance
+    /// step(x)^2 / 12 = `quantization(x)` [m^2].
+    /// @param axis  0 for functions of the range; else they are functions of the depth along it
+    /// @throws std::invalid_argument  if a variance is negative or not finite, or the axis is not
+    ///                                finite
+    explicit noise_curve(const quartic& variance, const quartic& quantization = {},
+                         const Eigen::Vector3d& axis = {0.0, 0.0, 0.0})
+        : variance_(variance), quantization_(quantization) {
+        if (detail::dot(axis, axis) != 0.0) set_axis(axis);
+        for (std::size_t i = 0; i < knots; ++i) {
+            require_deviation(value(variance, knot(i)));
+            require_deviation(value(quantization, knot(i)));
+            is_zero_ = is_zero_ && (*this)(knot(i)) == 0.0;
+        }
+    }
+
+    /// The standard deviation [m] at the range, or depth, x [m].
+    [[nodiscard]] double operator()(double x) const { return std::sqrt(variance(x)); }
+
+    /// The standard deviation [m], along the ray, of a point at the offset `ray` [m] from its view
+    /// point. An error of the depth is one of the range times 1 / cos(ray, axis); rays more than 80
+    /// degrees from the axis count as at 80 degrees.
+    [[nodiscard]] double along(const Eigen::Vector3d& ray) const {
+        return std::sqrt(variance_along(ray));
+    }
+    /// The square of along() [m^2].
+    [[nodiscard]] double variance_along(const Eigen::Vector3d& ray) const {
+        const double range = detail::length(ray);
+        if (!is_of_depth()) return variance(range);
+        constexpr double least_cosine = 0.17;  // of 80 degrees
+        const double cosine =
+            range > 0.0 ? std::max(std::abs(detail::dot(ray, axis())) / range, least_cosine) : 1.0;
+        return variance(range * cosine) / (cosine * cosine);
+    }
+
+    /// Whether there is no noise at any range from 5 cm to 500 m.
+    [[nodiscard]] bool is_zero() const { return is_zero_; }
+    /// Whether x is the depth along axis(), not the range.
+    [[nodiscard]] bool is_of_depth() const { return is_of_depth_; }
+    /// The optical axis, of length 1; 0 where x is the range.
+    [[nodiscard]] Eigen::Vector3d axis() const { return {axis_[0], axis_[1], axis_[2]}; }
+    /// The step of readings at x [m]; 0 where they are not quantised.
+    [[nodiscard]] double step(double x) const {
+        return std::sqrt(12.0 * std::max(0.0, value(quantization_, x)));
+    }
+
+  private:
+    static constexpr std::size_t knots = 64;
+    static constexpr double nearest = 0.05, farthest = 500.0;  // [m]
+
+    [[nodiscard]] double variance(double x) const {
+        if (is_table_) return from_table(x);
+        return std::max(value(variance_, x), value(quantization_, x));
+    }
+
+    [[nodiscard]] static double value(const quartic& c, double x) {
+        return c[0] + x * (c[1] + x * (c[2] + x * (c[3] + x * c[4])));
+    }
+
+    [[nodiscard]] static double knot(std::size_t i) {
+        return nearest * std::pow(farthest / nearest,
+                                  static_cast<double>(i) / static_cast<double>(knots - 1));
+    }
+
+    void set_axis(const Eigen::Vector3d& axis) {
+        detail::require(detail::has_length(axis) && detail::all_finite(axis),
+                        "noise_curve: the optical axis must be finite and have a length");
+        const Eigen::Vector3d unit = detail::direction_of(axis);
+        axis_ = {unit[0], unit[1], unit[2]};
+        is_of_depth_ = true;
+    }
+
+    template <class N>
+    constexpr void set_model(const N& noise) {
+        if constexpr (std::same_as<N, constant_noise>) {
+            require_deviation(noise.sigma);
+            variance_[0] = noise.sigma * noise.sigma;
+            is_zero_ = noise.sigma == 0.0;
+        } else if constexpr (std::same_as<N, quadratic_noise>) {
+            for (std::size_t i = 0; i < knots; ++i) require_deviation(noise(knot(i)));
+            const auto [a, b, c] = noise;
+            variance_ = {a * a, 2.0 * a * b, b * b + 2.0 * a * c, 2.0 * b * c, c * c};
+            is_zero_ = a == 0.0 && b == 0.0 && c == 0.0;
+        } else {
+            is_table_ = true;
+            for (std::size_t i = 0; i < knots; ++i) {
+                const double sigma = noise(knot(i));
+                require_deviation(sigma);
+                is_zero_ = is_zero_ && sigma == 0.0;
+                // Logarithms, so that powers of the range are straight lines; 1e-150 stands for 0.
+                log_sigma_[i] = static_cast<float>(std::log(std::max(sigma, 1e-150)));
+            }
+        }
+    }
+
+    static constexpr void require_deviation(double sigma) {
+        detail::require(sigma >= 0.0 && sigma <= std::numeric_limits<double>::max(),
+                        "noise: a standard deviation must not be negative, and finite");
+    }
+
+    /// A variance [m^2].
+    [[nodiscard]] double from_table(double x) const {
+        constexpr double log_of_span = 9.210340371976184;  // of 500 m / 5 cm
+        constexpr double per_knot = static_cast<double>(knots - 1) / log_of_span;
+        const double at =
+            x > nearest ? std::min(std::log(x / nearest) * per_knot, static_cast<double>(knots - 1))
+                        : 0.0;
+        const auto i = std::min(static_cast<std::size_t>(at), knots - 2);
+        const double t = at - static_cast<double>(i);
+        const double sigma = std::exp((1.0 - t) * static_cast<double>(log_sigma_[i]) +
+                                      t * static_cast<double>(log_sigma_[i + 1]));
+        return sigma > 2e-150 ? sigma * sigma : 0.0;
+    }
+
+    bool is_table_ = false;
+    bool is_zero_ = true;
+    bool is_of_depth_ = false;
+    quartic variance_{};            // [m^2], of x [m]
+    quartic quantization_{};        // [m^2], of x [m]
+    std::array<double, 3> axis_{};  // of length 1; a literal type, so that curves are constants
+    std::array<float, knots> log_sigma_{};
+};
+
+}  // namespace gnomon
+
 // -------- gnomon/core/point.hpp ------------------------------------------------------------------
 
 /// @file
@@ -1090,24 +1315,20 @@ template <indexed_range R>
     }
 }
 
-}  // namespace detail
-
 /// The view points of a range; the empty table (the origin) for a range that knows none.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <detail::indexed_range R>
+template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
-    return detail::with_table_of(points, [](const viewpoint_table& table) { return table; });
+    return with_table_of(points, [](const viewpoint_table& table) { return table; });
 }
 
 /// Those of some of its points; see `viewpoint_table::subset`.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <detail::indexed_range R>
+template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
-    return detail::with_table_of(
-        points, [indices](const viewpoint_table& table) { return table.subset(indices); });
+    return with_table_of(points,
+                         [indices](const viewpoint_table& table) { return table.subset(indices); });
 }
-
-namespace detail {
 
 /// A bare range of points and their view points; refers to the range.
 template <detail::indexed_range R>
@@ -1160,14 +1381,14 @@ void with_viewpoints(const R&& points, viewpoint_table table) = delete;
 
 namespace gnomon {
 
-/// One named number per point: an intensity, a label, a component of a true normal.
-struct scalar_field {
-    std::string name;            ///< as in the file
-    std::vector<double> values;  ///< in the order of the points
-};
-
 /// Points with viewpoints and scalar fields; models `point_range` and `has_viewpoints`.
 struct scan {
+    /// One named number per point: an intensity, a label, a component of a true normal.
+    struct scalar_field {
+        std::string name;            ///< as in the file
+        std::vector<double> values;  ///< in the order of the points
+    };
+
     std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return
     viewpoint_table viewpoints;           ///< empty if unknown: the origin
     std::vector<scalar_field> fields;     ///< each as long as `points`
@@ -1435,7 +1656,7 @@ class subset_view {
           epsilon_(detail::epsilon_of<position_view<R, Proj>>(points)) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index is out of range");
-        viewpoints = viewpoints_of(points, indices);
+        viewpoints = detail::viewpoints_of(points, indices);
     }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;
@@ -3055,6 +3276,9 @@ class tree_query {
 
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
+        if constexpr (requires { metric_.lower_bound(at_, box); }) {
+            return metric_.lower_bound(at_, box);
+        }
         std::array<double, 3> gap;
         for (std::size_t a = 0; a < 3; ++a)
             gap[a] = std::max({box.low[a] - at_[a], at_[a] - box.high[a], 0.0});
@@ -5120,9 +5344,10 @@ namespace gnomon {
 
 /// What a neighborhood of a certain size looks like.
 struct neighborhood_shape {
-    std::size_t k;              ///< number of neighbors
-    double squared_radius;      ///< of the ball that holds them [m^2]
-    gnomon::spectrum spectrum;  ///< of the neighbors and the point [m^2]
+    std::size_t k;                       ///< number of neighbors
+    double squared_radius;               ///< of the ball that holds them [m^2]
+    gnomon::spectrum spectrum;           ///< of the neighbors and the point [m^2]
+    Eigen::Vector3d ray{0.0, 0.0, 0.0};  ///< from the view point to the point [m]
 };
 
 /// cost(shape) of a neighborhood: the least is taken, and of equals the smallest.
@@ -5162,12 +5387,13 @@ struct prefer_low_entropy {
 /// noise. After Mitra, Nguyen and Guibas 2004, with the curvature read off the residual instead of
 /// estimated first.
 struct prefer_small_error {
-    double sigma = 0.015;  ///< standard deviation of points across the surface [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor, taken as that across the surface
 
     [[nodiscard]] double operator()(const neighborhood_shape& shape) const {
-        const double noise = 4.0 * sigma * sigma / static_cast<double>(shape.k + 1);
-        const double excess = std::max(0.0, shape.spectrum.lambda[2] - sigma * sigma);
-        return shape.squared_radius > 0.0 ? (noise + excess) / shape.squared_radius
+        const double variance = noise.variance_along(shape.ray);
+        const double turn = 4.0 * variance / static_cast<double>(shape.k + 1);
+        const double excess = std::max(0.0, shape.spectrum.lambda[2] - variance);
+        return shape.squared_radius > 0.0 ? (turn + excess) / shape.squared_radius
                                           : std::numeric_limits<double>::infinity();
     }
 };
@@ -5195,7 +5421,7 @@ struct adaptive_knn {
     void find(const spatial_index& index, std::size_t i, std::vector<neighbor>& found) const {
         require_valid();
         knn{.k = max_k}.find(index, i, found);
-        found.resize(best_size(index, index[i], found), {});
+        found.resize(best_size(index, i, found), {});
     }
 
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
@@ -5206,9 +5432,10 @@ struct adaptive_knn {
     }
 
   private:
-    /// The number of neighbors of p of least cost, from the `max_k` nearest.
-    [[nodiscard]] std::size_t best_size(const spatial_index& index, const Eigen::Vector3d& p,
+    /// The number of neighbors of point i of least cost, from the `max_k` nearest.
+    [[nodiscard]] std::size_t best_size(const spatial_index& index, std::size_t i,
                                         const std::vector<neighbor>& found) const {
+        const Eigen::Vector3d p = index[i], ray = detail::difference(p, index.viewpoints[i]);
         moments m;
         std::size_t best = std::min(min_k, found.size());
         double least = std::numeric_limits<double>::infinity();
@@ -5221,7 +5448,7 @@ struct adaptive_knn {
             if (!detail::has_finite_trace(covariance)) break;
             const double cost = preference(
                 neighborhood_shape{k, found[k - 1].squared_distance,
-                                   spectrum(detail::symmetric_eigen(covariance).values)});
+                                   spectrum(detail::symmetric_eigen(covariance).values), ray});
             if (cost < least) {
                 least = cost;
                 best = k;
@@ -5676,6 +5903,8 @@ struct angularly_sorted {
 template <class N>
 angularly_sorted(N) -> angularly_sorted<N>;
 
+namespace detail {
+
 /// The neighborhoods of a stored graph in angular order, as a new graph. O(k log k) for each.
 /// @throws std::invalid_argument  if graph and points differ in size, or an index is out of range
 template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
@@ -5683,19 +5912,18 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
 [[nodiscard]] adjacency sort_angularly(const R& points, const G& graph, const X& run = {},
                                        Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "sort_angularly: graph and points differ in size");
-    return detail::collected_graph<true>(
-        p.size(), run, [&](std::size_t i, std::vector<neighbor>& found) {
-            found.clear();
-            for (const point_index j : graph[i]) {
-                detail::require(j < p.size(),
-                                "sort_angularly: an index of the graph is out of range");
-                found.push_back({0.0, j});
-            }
-            return detail::sort_angularly(p, i, found, detail::note_of(graph, i));
-        });
+    require(graph.size() == p.size(), "sort_angularly: graph and points differ in size");
+    return collected_graph<true>(p.size(), run, [&](std::size_t i, std::vector<neighbor>& found) {
+        found.clear();
+        for (const point_index j : graph[i]) {
+            require(j < p.size(), "sort_angularly: an index of the graph is out of range");
+            found.push_back({0.0, j});
+        }
+        return sort_angularly(p, i, found, note_of(graph, i));
+    });
 }
 
+}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/neighborhoods/delaunay.hpp ------------------------------------------------------
@@ -7198,6 +7426,23 @@ struct surroundings {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/normals/detail/quantile.hpp -----------------------------------------------------
+
+/// @file
+/// Quantiles of a sample, in linear time.
+
+namespace gnomon::detail {
+
+/// The element that the given part of the values is less than. Precondition: there are values, and
+/// `part` is under 1. Changes their order.
+[[nodiscard]] double quantile(auto& values, double part) {
+    const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
+    std::nth_element(values.begin(), values.begin() + rank, values.end());
+    return values[static_cast<std::size_t>(rank)];
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/normals/noise_level.hpp ---------------------------------------------------------
 
 /// @file
@@ -7212,14 +7457,6 @@ struct surroundings {
 
 namespace gnomon {
 namespace detail {
-
-/// The element that the given part of the values is less than. Precondition: there are values, and
-/// `part` is under 1.
-[[nodiscard]] double quantile(auto& values, double part) {
-    const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
-}
 
 /// The moments of the first k neighbors about p.
 template <class Points>
@@ -7531,16 +7768,17 @@ namespace gnomon::detail {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/normals/detail/require_sigma.hpp ------------------------------------------------
+// -------- gnomon/normals/detail/require_noise.hpp ------------------------------------------------
 
 /// @file
-/// The check of the parameter sigma, common to all estimators with a noise model.
+/// The check of the parameter `noise`, common to all estimators that weigh measurements by it.
 
 namespace gnomon::detail {
 
-/// @throws std::invalid_argument  unless sigma is positive and finite
-inline void require_sigma(double sigma) {
-    require(sigma > 0.0 && std::isfinite(sigma), "sigma must be positive and finite");
+/// @throws std::invalid_argument  if there is no noise: measurements without an error have no
+///                                finite weight
+inline void require_noise(const noise_curve& noise) {
+    require(!noise.is_zero(), "the noise must be greater than 0");
 }
 
 }  // namespace gnomon::detail
@@ -7745,17 +7983,17 @@ struct literal_plane_ekf {
     static constexpr auto sensitive_to =
         sensitivity::order | sensitivity::units | sensitivity::axes;
 
-    double sigma = 0.015;          ///< standard deviation of the range [m]
-    int passes = 5;                ///< over all points
-    double prior_variance = 10.0;  ///< Sigma_0 = 10 I
-    std::uint64_t seed = 1;        ///< of the random initial state x_0
+    noise_curve noise = constant_noise{};  ///< of the sensor
+    int passes = 5;                        ///< over all points
+    double prior_variance = 10.0;          ///< Sigma_0 = 10 I
+    std::uint64_t seed = 1;                ///< of the random initial state x_0
 
-    /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
-    ///                                there is a pass
+    /// @throws std::invalid_argument  if the noise is 0, unless the prior variance is
+    ///                                positive and finite and there is a pass
     [[nodiscard]] normal_belief<> operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
                                              const Eigen::Vector3d& viewpoint = {0.0, 0.0,
                                                                                  0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
                         "literal_plane_ekf: needs a pass and a positive prior variance");
         if (neighbors.size() < 2) return {};
@@ -7786,9 +8024,10 @@ struct literal_plane_ekf {
             const double h = range_of_plane(centroid, x, u);                  // line 5
             const Eigen::Vector3d jacobian = range_gradient(centroid, x, u);  // line 6
             const Eigen::Vector3d ph = product(covariance, jacobian);
-            const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
-            x = combined(1.0, x, (range - h) * gain, ph);                   // line 8
-            add_outer(covariance, -gain, ph, ph);                           // line 9
+            const double variance = noise.variance_along(q);
+            const double gain = 1.0 / (dot(jacobian, ph) + variance);  // line 7: K = gain ph
+            x = combined(1.0, x, (range - h) * gain, ph);              // line 8
+            add_outer(covariance, -gain, ph, ph);                      // line 9
         };
         for (int pass = 0; pass < passes; ++pass) {
             update(seen);
@@ -7813,6 +8052,847 @@ struct literal_plane_ekf {
         return belief;
     }
 };
+
+}  // namespace gnomon
+
+// -------- gnomon/normals/detail/noise_fit.hpp ----------------------------------------------------
+
+/// @file
+/// The variance of a range as a function A + B x^2 + C x^4 of the range, from the variances of the
+/// residuals of many local planes, of which some are not planes. The three terms are a constant
+/// error, one in proportion to the range, and one of triangulation; variances of independent
+/// sources add up. (Functions take `auto` so that only code that measures noise compiles them.)
+
+namespace gnomon::detail {
+
+/// A + B x^2 + C x^4 [m^2].
+struct even_quartic {
+    double a = 0.0, b = 0.0, c = 0.0;
+
+    [[nodiscard]] double operator()(double x) const { return a + x * x * (b + x * x * c); }
+    [[nodiscard]] even_quartic operator+(const even_quartic& other) const {
+        return {a + other.a, b + other.b, c + other.c};
+    }
+    [[nodiscard]] noise_curve::quartic coefficients() const { return {a, 0.0, b, 0.0, c}; }
+};
+
+/// Regression of values y on x by an even quartic whose coefficients are not negative. O(1) a
+/// value.
+class even_regression {
+  public:
+    /// @param unit  a typical x [m]
+    explicit even_regression(double unit) : unit2_(unit * unit) {}
+
+    void add(double x, double y, double weight) {
+        const double s = x * x / unit2_;
+        const Eigen::Vector3d row(1.0, s, s * s);
+        add_outer(matrix_, weight, row, row);
+        right_ = combined(1.0, right_, weight * y, row);
+    }
+
+    /// The least squares solution among those without a negative coefficient: the best of those
+    /// with some of the coefficients 0.
+    [[nodiscard]] even_quartic solve() const {
+        Eigen::Vector3d best(0.0, 0.0, 0.0);
+        double most_explained = 0.0;
+        for (unsigned kept = 1; kept < 8; ++kept) {
+            Eigen::Matrix3d m = matrix_;
+            Eigen::Vector3d right = right_;
+            for (int i = 0; i < 3; ++i) {
+                if ((kept >> i & 1U) != 0) continue;
+                for (int j = 0; j < 3; ++j) m(i, j) = m(j, i) = i == j ? 1.0 : 0.0;
+                right[i] = 0.0;
+            }
+            const Eigen::Vector3d x = product(inverse_of_symmetric(m), right);
+            const double explained = dot(x, right);
+            if (!all_finite(x) || x[0] < 0.0 || x[1] < 0.0 || x[2] < 0.0) continue;
+            if (explained <= most_explained) continue;
+            best = x;
+            most_explained = explained;
+        }
+        return {best[0], best[1] / unit2_, best[2] / (unit2_ * unit2_)};
+    }
+
+  private:
+    double unit2_;
+    Eigen::Matrix3d matrix_ = diagonal(0.0, 0.0, 0.0);
+    Eigen::Vector3d right_{0.0, 0.0, 0.0};
+};
+
+/// The variance of the residuals of a plane fit to 17 points at the range, or depth, x [m].
+struct residual_variance {
+    double x;
+    double value;  // [m^2]
+};
+
+/// The noise of planes, and how the residuals agree with it.
+struct noise_fit {
+    even_quartic variance;
+    double inliers = 0.0;  // share of the residuals that are within the 5 and 90 % quantiles
+    double low = 0.0;      // share of these that are below the 25 % quantile
+};
+
+/// Quantiles of chi^2 / f with f = 17 - 3 degrees of freedom, and the mean of the values between
+/// those of 5 and 90 %: (F_16(f q90) - F_16(f q5)) / (F_14(f q90) - F_14(f q5)).
+inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
+                        chi2_of_90 = 21.0641 / 14.0, mean_of_kept = 0.9466;
+
+/// A start for `fit_noise`: in bins of the range, at least a quarter of the residuals are those of
+/// planes. Sorts the residuals by range.
+[[nodiscard]] even_quartic noise_of_lower_quartiles(auto& all, const even_quartic& least,
+                                                    double unit) {
+    constexpr std::size_t bin = 150, most_bins = 20;  // chosen on rooms 20,001 to 20,006
+    std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
+    const std::size_t bins = std::clamp<std::size_t>(all.size() / bin, 1, most_bins);
+    even_regression regression(unit);
+    std::vector<double> values;
+    for (std::size_t b = 0; b < bins; ++b) {
+        const std::size_t begin = b * all.size() / bins, end = (b + 1) * all.size() / bins;
+        values.clear();
+        for (std::size_t i = begin; i < end; ++i) values.push_back(all[i].value);
+        const double y = quantile(values, 0.25) / chi2_of_25;
+        const double x = all[(begin + end) / 2].x;
+        if (y > 0.0) regression.add(x, y - least(x), 1.0 / (y * y));
+    }
+    return least + regression.solve();
+}
+
+/// The noise of the planes among the residuals: a trimmed variance, as a fixed point. Residuals
+/// below the 5 % and above the 90 % quantile of the model are left out, and the mean of the others
+/// corrected for that. O(n log n). Precondition: there are residuals.
+/// @param least  part of the noise that is known
+[[nodiscard]] noise_fit fit_noise(auto all, const even_quartic& least) {
+    std::vector<double> xs;
+    for (const residual_variance& s : all) xs.push_back(s.x);
+    const double unit = quantile(xs, 0.5);
+    noise_fit fit{noise_of_lower_quartiles(all, least, unit)};
+    const double first = all.front().x, last = all.back().x;
+    constexpr double converged = 1e-4;  // of the variance; performance only
+    for (int i = 0; i < 50; ++i) {
+        even_regression regression(unit);
+        std::size_t inliers = 0, low = 0;
+        for (const auto& [x, value] : all) {
+            const double model = fit.variance(x);
+            if (!(model > 0.0 && value >= chi2_of_5 * model && value <= chi2_of_90 * model))
+                continue;
+            regression.add(x, value / mean_of_kept - least(x), 1.0 / (model * model));
+            ++inliers;
+            low += value < chi2_of_25 * model;
+        }
+        const even_quartic previous = fit.variance;
+        const auto n = static_cast<double>(inliers);
+        fit = {least + regression.solve(), n / static_cast<double>(all.size()),
+               inliers > 0 ? static_cast<double>(low) / n : 0.0};
+        const auto moved = [&](double x) {
+            return std::abs(fit.variance(x) - previous(x)) > converged * previous(x);
+        };
+        if (!moved(first) && !moved(unit) && !moved(last)) break;
+    }
+    return fit;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/ray_metric.hpp ---------------------------------------------
+
+/// @file
+/// Distances that do not count the noise along a ray: of a position from the segment of a ray
+/// about a point, 4 standard deviations of the range to either side. Where noise is stronger than
+/// the spacing of points, the points nearest to a point in space are those whose noise is alike;
+/// those nearest to the segment are chosen by direction alone.
+
+namespace gnomon::detail {
+
+/// The distance from a segment about the searched position.
+class ray_metric {
+  public:
+    /// @param direction    of the ray, of length 1
+    /// @param half_length  of the segment [m]
+    ray_metric(const Eigen::Vector3d& direction, double half_length)
+        : u_(direction), half_length_(half_length) {}
+
+    /// The squared distance of a position at this offset from the middle of the segment [m^2].
+    [[nodiscard]] double squared(double x, double y, double z) const {
+        const double along = x * u_[0] + y * u_[1] + z * u_[2];
+        const double beyond = std::max(0.0, std::abs(along) - half_length_);
+        const double across = std::max(0.0, x * x + y * y + z * z - along * along);
+        return across + beyond * beyond;
+    }
+
+    /// A lower bound of squared() of the positions in a box, relative to the middle `at`: the
+    /// distance between the boxes around both, and between the segment and the ball around the box.
+    [[nodiscard]] double lower_bound(const std::array<double, 3>& at, const leaf_box& box) const {
+        double gaps = 0.0, diagonal = 0.0;
+        std::array<double, 3> center;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double low = box.low[a] - at[a], high = box.high[a] - at[a];
+            const double reach = half_length_ * std::abs(u_[static_cast<int>(a)]);
+            const double gap = std::max({low - reach, -reach - high, 0.0});
+            gaps += gap * gap;
+            diagonal += (high - low) * (high - low);
+            center[a] = 0.5 * (low + high);
+        }
+        const double to_center = std::sqrt(squared(center[0], center[1], center[2]));
+        const double to_ball = std::max(0.0, to_center - 0.5 * std::sqrt(diagonal));
+        return std::max(gaps, to_ball * to_ball);
+    }
+
+  private:
+    Eigen::Vector3d u_;
+    double half_length_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/ray_regression.hpp -----------------------------------------------
+
+/// @file
+/// The regression of `ray_ls` and `plane_eif`: the inverse depth of a plane is linear in the
+/// tangents of the rays.
+
+namespace gnomon::detail {
+
+/// The regression of y = range / depth - 1 on the tangents (xi, eta) of rays near the ray of a
+/// point p, where range is the distance of p from the view point, and depth the coordinate of a
+/// neighbor along the ray of p. For the plane n . x = d in coordinates relative to the view point,
+/// y = M1 xi + M2 eta + (M3 - 1) with M = (range / d) n. In this frame the system is well
+/// conditioned for neighborhoods of any size. The point itself has y = xi = eta = 0 and the weight
+/// 1.
+class ray_regression {
+  public:
+    /// @param x  the point p relative to the view point [m]
+    explicit ray_regression(const Eigen::Vector3d& x) : range_(length(x)) {
+        status_ = std::isfinite(range_) ? trust::good : trust::not_finite;
+        if (range_ == 0.0) status_ = trust::degenerate;
+        if (!usable(status_)) return;
+        e3_ = scaled(1.0 / range_, x);
+        e1_ = orthogonal(e3_);
+        e2_ = cross(e3_, e1_);
+    }
+
+    /// Adds a neighbor at the offset d [m] from the point.
+    void add(const Eigen::Vector3d& d) {
+        const double depth = 1.0 + dot(d, e3_) / range_;
+        if (usable(status_) && !(depth > 0.0))  // not in front of the view point
+            status_ = std::isnan(depth) ? trust::not_finite : trust::degenerate;
+        const double xi = dot(d, e1_) / (range_ * depth);
+        const double eta = dot(d, e2_) / (range_ * depth);
+        const double y = 1.0 / depth - 1.0;
+        // An error sigma of the range is an error sigma / (range sqrt(w)) of y.
+        const double w = depth * depth * depth * depth * (1.0 + xi * xi + eta * eta);
+        w_ += w;
+        xi_ += w * xi;
+        eta_ += w * eta;
+        y_ += w * y;
+        xx_ += w * xi * xi;
+        xe_ += w * xi * eta;
+        ee_ += w * eta * eta;
+        xy_ += w * xi * y;
+        ey_ += w * eta * y;
+    }
+
+    /// Solves the regression, if it is determined: see status().
+    void solve() {
+        if (!usable(status_)) return;
+        const double a = xx_ - xi_ * xi_ / w_;
+        const double b = xe_ - xi_ * eta_ / w_;
+        const double c = ee_ - eta_ * eta_ / w_;
+        const double f = xy_ - xi_ * y_ / w_;
+        const double g = ey_ - eta_ * y_ / w_;
+        if (!std::isfinite(a + c + f + g)) {
+            status_ = trust::not_finite;
+            return;
+        }
+        const double determinant = a * c - b * b;
+        const double larger = 0.5 * (a + c + std::sqrt((a - c) * (a - c) + 4.0 * b * b));
+        constexpr double negligible = 1e-12;
+        if (!(determinant > negligible * larger * larger)) {
+            status_ = trust::degenerate;
+            return;
+        }
+        aspect_ratio_ = std::sqrt(determinant) / larger;
+
+        aa_ = c / determinant;
+        ab_ = -b / determinant;
+        bb_ = a / determinant;
+        m_[0] = aa_ * f + ab_ * g;
+        m_[1] = ab_ * f + bb_ * g;
+        m_[2] = 1.0 + (y_ - m_[0] * xi_ - m_[1] * eta_) / w_;
+    }
+
+    /// `good`, or why there is no solution.
+    [[nodiscard]] trust status() const { return status_; }
+
+    /// The distance of the point [m].
+    [[nodiscard]] double range() const { return range_; }
+
+    /// The ratio of the standard deviations of the tangents along their principal directions, 0
+    /// to 1. After solve().
+    [[nodiscard]] double aspect_ratio() const { return aspect_ratio_; }
+
+    /// M in the coordinates of the cloud. After solve().
+    [[nodiscard]] Eigen::Vector3d solution() const {
+        return combined(m_[0], e1_, m_[1], e2_, m_[2], e3_);
+    }
+
+    /// The covariance of a . M and b . M for ranges with standard deviation sigma [m]. After
+    /// solve().
+    [[nodiscard]] double covariance(double sigma, const Eigen::Vector3d& a,
+                                    const Eigen::Vector3d& b) const {
+        // The slopes have the covariance s^2 [aa ab; ab bb], the mean s^2 / w, independent of them;
+        // M3 is the mean less the slopes times the mean tangents.
+        const auto slopes = [this](const Eigen::Vector3d& c) {
+            const double along = dot(c, e3_) / w_;
+            return std::array{dot(c, e1_) - along * xi_, dot(c, e2_) - along * eta_, along};
+        };
+        const auto [a1, a2, a3] = slopes(a);
+        const auto [b1, b2, b3] = slopes(b);
+        const double s = sigma / range_;
+        return s * s * (a1 * (aa_ * b1 + ab_ * b2) + a2 * (ab_ * b1 + bb_ * b2) + a3 * b3 * w_);
+    }
+
+  private:
+    double range_ = 0.0;
+    trust status_ = trust::good;
+    Eigen::Vector3d e1_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e2_{0.0, 0.0, 0.0};
+    Eigen::Vector3d e3_{0.0, 0.0, 0.0};
+    double w_ = 1.0, xi_ = 0.0, eta_ = 0.0, y_ = 0.0;
+    double xx_ = 0.0, xe_ = 0.0, ee_ = 0.0, xy_ = 0.0, ey_ = 0.0;
+    double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, aspect_ratio_ = 0.0;  // of the solution
+    Eigen::Vector3d m_{0.0, 0.0, 0.0};
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/residual_sampler.hpp ---------------------------------------------
+
+/// @file
+/// Residuals of local planes along the rays: what `measure_noise` reads the noise from.
+
+namespace gnomon::detail {
+
+/// A plane through the neighborhood of a point, fit along the rays.
+struct sampled_plane {
+    Eigen::Vector3d ray;     ///< from the view point to the point [m]
+    Eigen::Vector3d normal;  ///< of length 1; 0 if there is no plane
+    double variance = 0.0;   ///< of the residuals along the rays [m^2]
+    double radius = 0.0;     ///< of the neighborhood, across the ray [m]
+};
+
+/// Fits planes to some of the points of an index. (A template, so that only code that measures
+/// noise compiles it.)
+template <class Index>
+class residual_sampler {
+  public:
+    /// Of `samples` finite points, spread evenly over their order.
+    residual_sampler(const Index& index, std::size_t samples) : index_(&index) {
+        std::vector<point_index> finite;
+        finite.reserve(index.finite());
+        for (std::size_t i = 0; i < index.size(); ++i)
+            if (index.is_finite(i)) finite.push_back(static_cast<point_index>(i));
+        const std::size_t n = std::min(samples, finite.size());
+        for (std::size_t s = 0; s < n; ++s) chosen_.push_back(finite[s * finite.size() / n]);
+    }
+
+    /// The planes of the points with their 16 neighbors nearest to the segment of the ray, of
+    /// half_length(ray) [m] to either side.
+    [[nodiscard]] std::vector<sampled_plane> operator()(const execution auto& run,
+                                                        auto&& half_length) const {
+        std::vector<sampled_plane> planes(chosen_.size());
+        for_each_chunk(run, chosen_.size(), [&](std::size_t first, std::size_t last) {
+            std::vector<neighbor> found;
+            for (std::size_t s = first; s < last; ++s)
+                planes[s] = plane_at(chosen_[s], half_length, found);
+        });
+        return planes;
+    }
+
+    static constexpr std::size_t neighbors = 16;
+
+  private:
+    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
+                                         std::vector<neighbor>& found) const {
+        const Eigen::Vector3d p = (*index_)[i];
+        const Eigen::Vector3d viewpoint = index_->viewpoints[i];
+        sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
+        const double range = length(plane.ray);
+        if (!(range > 0.0 && std::isfinite(range))) return plane;
+        search_tree(index_->tree(), p, {.k = neighbors, .except = i}, found,
+                    ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
+        if (found.size() < neighbors) return plane;
+        ray_regression regression(plane.ray);
+        for (const neighbor& q : found) regression.add(difference((*index_)[q.index], p));
+        regression.solve();
+        if (!usable(regression.status())) return plane;
+        const Eigen::Vector3d m = regression.solution();  // the plane m . x = range
+        double sum = squared_residual(m, range, plane.ray, plane.ray);
+        for (const neighbor& q : found) {
+            const Eigen::Vector3d x = (*index_)[q.index];
+            sum += squared_residual(m, range, difference(x, viewpoint),
+                                    difference(x, index_->viewpoints[q.index]));
+        }
+        constexpr double freedom = neighbors + 1 - 3;  // less the parameters of a plane
+        if (!std::isfinite(sum)) return plane;
+        plane.normal = direction_of(m);
+        plane.variance = sum / freedom;
+        for (const neighbor& q : found)
+            plane.radius =
+                std::max(plane.radius, across(difference((*index_)[q.index], p), plane.ray));
+        return plane;
+    }
+
+    /// The length of d across a ray.
+    [[nodiscard]] static double across(const Eigen::Vector3d& d, const Eigen::Vector3d& ray) {
+        return length(cross(d, ray)) / length(ray);
+    }
+
+    /// The square of how far, along its own ray, the point x is off the plane m . x = d.
+    [[nodiscard]] static double squared_residual(const Eigen::Vector3d& m, double d,
+                                                 const Eigen::Vector3d& x,
+                                                 const Eigen::Vector3d& ray) {
+        const double e = (dot(m, x) - d) * length(ray) / dot(m, ray);
+        return e * e;
+    }
+
+    const Index* index_;
+    std::vector<point_index> chosen_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/noise_coordinate.hpp ---------------------------------------------
+
+/// @file
+/// What noise is a function of: the range, as for range finders, or the depth along an optical
+/// axis, as for cameras.
+
+namespace gnomon::detail {
+
+/// What noise is a function of: the range, or the depth along an optical axis.
+struct noise_coordinate {
+    Eigen::Vector3d axis{0.0, 0.0, 0.0};  ///< of length 1; 0 for the range
+
+    /// 1 for the range; else the cosine between ray and axis.
+    [[nodiscard]] double cosine(const Eigen::Vector3d& ray) const {
+        return dot(axis, axis) > 0.0 ? std::abs(dot(ray, axis)) / length(ray) : 1.0;
+    }
+    /// How much the coordinate changes along a plane, for each metre across the ray.
+    [[nodiscard]] double slope(const sampled_plane& s) const {
+        const Eigen::Vector3d way = dot(axis, axis) > 0.0 ? axis : direction_of(s.ray);
+        const double c = dot(s.normal, way);
+        return std::sqrt(std::max(0.0, 1.0 - c * c)) / std::abs(c);
+    }
+    /// The range, or the depth, of the point at the end of a ray [m].
+    [[nodiscard]] double operator()(const Eigen::Vector3d& ray) const {
+        return length(ray) * cosine(ray);
+    }
+};
+
+/// The residuals of planes as errors of a coordinate. Of quantised readings, those of planes that
+/// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
+/// out: there the errors of rounding are not independent of each other.
+[[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,
+                                                          const noise_coordinate& coordinate,
+                                                          const even_quartic& quantized,
+                                                          double crossed) {
+    constexpr double exact = 0.25;
+    std::vector<residual_variance> residuals;
+    for (const sampled_plane& s : planes) {
+        if (dot(s.normal, s.normal) == 0.0) continue;
+        const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;
+        const double span = 2.0 * s.radius * coordinate.slope(s);
+        const double value = s.variance * cosine * cosine;
+        if (span * span >= crossed * crossed * 12.0 * quantized(x) && value >= exact * quantized(x))
+            residuals.push_back({x, value});
+    }
+    return residuals;
+}
+
+/// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
+/// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
+[[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
+    Eigen::Vector3d axis(0.0, 0.0, 0.0);
+    const auto farthest = [&] {
+        const Eigen::Vector3d* ray = nullptr;
+        double least = 2.0;
+        for (const sampled_plane& s : planes) {
+            const double cosine = dot(s.ray, axis) / length(s.ray);
+            if (cosine < least) least = cosine, ray = &s.ray;
+        }
+        return std::pair(ray, least);
+    };
+    constexpr int steps = 100;  // to about a degree
+    for (int i = 1; i <= steps; ++i) {
+        const auto [ray, cosine] = farthest();
+        if (ray == nullptr) return axis;
+        axis = combined(1.0 - 1.0 / i, axis, 1.0 / (i * length(*ray)), *ray);
+        if (!has_length(axis)) return {0.0, 0.0, 0.0};
+        axis = direction_of(axis);
+    }
+    return farthest().second > std::cos(0.785) ? axis : Eigen::Vector3d(0.0, 0.0, 0.0);
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/quantization.hpp -------------------------------------------------
+
+/// @file
+/// Quantised readings: the coordinate that takes few distinct values (the range, or the depth along
+/// the optical axis of a camera), and the step between them.
+
+namespace gnomon::detail {
+
+/// The quantisation of a sensor.
+struct quantization {
+    bool found = false;
+    even_quartic variance = {};  ///< of the rounding to a step: step^2 / 12 [m^2]
+};
+
+/// The optical axis of a camera whose depth is quantised: where a whole neighborhood has one depth,
+/// its plane has no residuals and faces the camera. 0 if there is none.
+[[nodiscard]] Eigen::Vector3d axis_of_exact_planes(const auto& planes) {
+    constexpr double exact = 1e-12;  // of the squared range: single precision rounds by 4e-15
+    constexpr double same = 1.0 - 1e-6;
+    constexpr std::size_t needed = 30;
+    std::vector<Eigen::Vector3d> normals;
+    for (const sampled_plane& s : planes)
+        if (dot(s.normal, s.normal) > 0.0 && s.variance < exact * dot(s.ray, s.ray))
+            normals.push_back(s.normal);
+    const auto agreeing = [&](const Eigen::Vector3d& n) {
+        return static_cast<std::size_t>(
+            std::count_if(normals.begin(), normals.end(),
+                          [&](const Eigen::Vector3d& m) { return std::abs(dot(m, n)) > same; }));
+    };
+    Eigen::Vector3d axis(0.0, 0.0, 0.0);
+    if (normals.size() < needed || normals.size() * 100 < planes.size()) return axis;
+    std::size_t most = normals.size() / 2;
+    constexpr std::size_t candidates = 100;  // performance only
+    for (std::size_t c = 0; c < normals.size(); c += 1 + normals.size() / candidates) {
+        const std::size_t n = agreeing(normals[c]);
+        if (n <= most) continue;
+        most = n;
+        axis = normals[c];
+    }
+    return axis;
+}
+
+/// The quantisation of readings. Sorts them.
+[[nodiscard]] quantization quantization_of(auto& readings) {
+    constexpr double distinct = 3e-6;      // relative; single precision rounds by 6e-8
+    constexpr std::size_t per_value = 20;  // readings to each distinct value, at least
+    constexpr std::size_t fewest_steps = 5;
+    std::sort(readings.begin(), readings.end());
+    std::vector<residual_variance> steps;
+    for (std::size_t i = 1; i < readings.size(); ++i) {
+        const double gap = readings[i] - readings[i - 1];
+        if (gap > distinct * std::max(0.1, readings[i])) steps.push_back({readings[i], gap});
+    }
+    if (steps.size() < fewest_steps || steps.size() * per_value > readings.size()) return {};
+    // Values that no reading took make some gaps two steps wide, so less than the median.
+    constexpr double typical = 0.4;
+    constexpr std::size_t bin = 10, most_bins = 20;
+    const std::size_t bins = std::clamp<std::size_t>(steps.size() / bin, 1, most_bins);
+    even_regression regression(steps[steps.size() / 2].x);
+    std::vector<double> gaps;
+    for (std::size_t b = 0; b < bins; ++b) {
+        const std::size_t first = b * steps.size() / bins, last = (b + 1) * steps.size() / bins;
+        gaps.clear();
+        for (std::size_t i = first; i < last; ++i) gaps.push_back(steps[i].value);
+        const double gap = quantile(gaps, typical), variance = gap * gap / 12.0;
+        regression.add(steps[(first + last) / 2].x, variance, 1.0 / (variance * variance));
+    }
+    return {true, regression.solve()};
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/several_depths.hpp -----------------------------------------------
+
+/// @file
+/// Whether a view point is one: from the view point of a scan, each ray has one depth. Of a cloud
+/// fused from several scans, whose file gives the origin as its view point, rays have several.
+
+namespace gnomon::detail {
+
+/// Directions from one view point to points, in an order in which neighbors are close to each
+/// other: that of Morton codes, in the box of the directions. (A template, so that only code that
+/// measures noise compiles it.)
+template <class Index>
+class sorted_directions {
+  public:
+    sorted_directions(const Index& index, const Eigen::Vector3d& viewpoint) {
+        Eigen::Vector3d low(2.0, 2.0, 2.0), high(-2.0, -2.0, -2.0);
+        for (std::size_t i = 0; i < index.size(); ++i) {
+            if (!index.is_finite(i)) continue;
+            const Eigen::Vector3d ray = difference(index[i], viewpoint);
+            const double range = length(ray);
+            if (!(range > 0.0)) continue;
+            all_.push_back({0, scaled(1.0 / range, ray), range});
+            for (int a = 0; a < 3; ++a) {
+                low[a] = std::min(low[a], all_.back().direction[a]);
+                high[a] = std::max(high[a], all_.back().direction[a]);
+            }
+        }
+        const Eigen::Vector3d width = difference(high, low);
+        const double widest = std::max({width[0], width[1], width[2]});
+        constexpr double cells = 2097151.0;  // 2^21 - 1 along each axis
+        for (entry& e : all_) {
+            for (int a = 0; a < 3; ++a) {
+                const double at = widest > 0.0 ? (e.direction[a] - low[a]) / widest : 0.0;
+                e.code |= spread(static_cast<std::uint64_t>(at * cells)) << a;
+            }
+        }
+        keep_some_blocks();
+        std::sort(all_.begin(), all_.end(),
+                  [](const entry& a, const entry& b) { return a.code < b.code; });
+    }
+
+    /// Of pairs of rays that are next to each other in this order, and no farther apart than most
+    /// of them, the share whose depths are not one surface: they differ by more than 8 standard
+    /// deviations of the noise, and more than on a surface seen at 84 degrees.
+    [[nodiscard]] double share_of_several_depths(auto&& noise) const {
+        if (all_.size() < 2) return 0.0;
+        std::vector<double> apart;
+        for (std::size_t i = 1; i < all_.size(); ++i) apart.push_back(angle_before(i));
+        std::vector<double> copy = apart;
+        const double near = quantile(copy, 0.5);
+        std::size_t pairs = 0, several = 0;
+        for (std::size_t i = 1; i < all_.size(); ++i) {
+            if (apart[i - 1] > near) continue;
+            const double a = all_[i - 1].range, b = all_[i].range;
+            constexpr double steep = 10.0;  // the tangent of 84 degrees
+            const double slope = steep * apart[i - 1] * std::min(a, b);
+            ++pairs;
+            several += std::abs(a - b) > slope + 8.0 * noise(all_[i].direction, std::max(a, b));
+        }
+        return static_cast<double>(several) / static_cast<double>(pairs);
+    }
+
+  private:
+    struct entry {
+        std::uint64_t code;
+        Eigen::Vector3d direction;
+        double range;
+    };
+
+    /// Of many directions, those in some blocks are enough, as dense as before (performance only).
+    void keep_some_blocks() {
+        constexpr std::size_t enough = 40'000;
+        const std::uint64_t part = all_.size() / enough;
+        if (part < 2) return;
+        std::erase_if(all_, [part](const entry& e) {
+            constexpr int bits = 15;  // 32 blocks along each axis
+            return random_stream(e.code >> (63 - bits)).bits() % part != 0;
+        });
+    }
+
+    [[nodiscard]] double angle_before(std::size_t i) const {
+        return length(difference(all_[i].direction, all_[i - 1].direction));
+    }
+
+    /// Two zero bits after each of the low 21 bits.
+    [[nodiscard]] static std::uint64_t spread(std::uint64_t x) {
+        x = (x | x << 32) & 0x001f00000000ffff;
+        x = (x | x << 16) & 0x001f0000ff0000ff;
+        x = (x | x << 8) & 0x100f00f00f00f00f;
+        x = (x | x << 4) & 0x10c30c30c30c30c3;
+        x = (x | x << 2) & 0x1249249249249249;
+        return x;
+    }
+
+    std::vector<entry> all_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/measure_noise.hpp -------------------------------------------------------
+
+/// @file
+/// The noise of a sensor, measured on a scan: the standard deviation along the rays as a function
+/// of the range, or, of a camera, of the depth. No data sheet is needed.
+///
+///     const auto noise = gnomon::measure_noise(scan);
+///     if (noise.curve) std::printf("%.4f m at 2 m\n", (*noise.curve)(2.0));
+///     else std::printf("%s\n", noise.reason.data());
+///
+/// Planes are fit along the rays to the neighborhoods of some of the points; most neighborhoods of
+/// most scans are planes. Their residuals are noise, if neighbors are not chosen by their noise:
+/// they are those nearest to the segment of the ray, 4 standard deviations to either side, which is
+/// found by iteration. A trimmed variance leaves edges and bends out, and one model A + B x^2 +
+/// C x^4 of the variance joins all ranges, as at some of them there are few planes. Quantised
+/// readings are noticed; their noise is at least step / sqrt(12).
+
+namespace gnomon {
+
+/// What `measure_noise` found.
+struct measured_noise {
+    std::optional<noise_curve> curve;  ///< none if it cannot be measured
+    std::string_view reason = {};      ///< why there is none
+};
+
+namespace detail {
+
+/// Measures the noise of an index.
+template <execution X>
+class noise_meter {
+  public:
+    noise_meter(const spatial_index& index, const X& run)
+        : index_(index), run_(run), few_(index, 1000), many_(index, 3000) {}  // performance only
+
+    [[nodiscard]] measured_noise operator()() {
+        constexpr std::size_t fewest_points = 500;
+        if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
+        const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
+        std::vector<sampled_plane> planes = few_(run_, nothing);
+        find_quantization(planes);
+        if (is_quantized_) {  // few of the planes cross steps
+            few_ = many_;
+            planes = few_(run_, nothing);
+        }
+        if (!fit(planes)) return without_fit();
+        // Longer segments find more of the noise, until they hold all of it.
+        constexpr double converged = 0.005;
+        constexpr int most_passes = 8;
+        for (int pass = 0; pass < most_passes; ++pass) {
+            const double before = typical();
+            planes = few_(run_, half_length());
+            if (!fit(planes)) return without_fit();
+            if (std::abs(typical() - before) <= converged * before) break;
+        }
+        planes = many_(run_, half_length());
+        if (!fit(planes)) return without_fit();
+        if (!is_quantized_) prefer_depth(planes);
+        if (!is_of_planes()) return {{}, too_little_flat};
+        return {curve(), {}};
+    }
+
+  private:
+    static constexpr std::string_view too_little_flat = "too little of the scan is flat";
+
+    /// The noise where too few planes are seen: at least that of quantisation is known.
+    [[nodiscard]] measured_noise without_fit() {
+        if (!is_quantized_) return {{}, too_little_flat};
+        fit_ = {quantized_};
+        return {curve(), {}};
+    }
+
+    /// Determines whether the readings are quantised, and which coordinate.
+    void find_quantization(std::span<const sampled_plane> planes) {
+        const noise_coordinate depth{axis_of_exact_planes(planes)};
+        for (const noise_coordinate& candidate : {depth, noise_coordinate{}}) {
+            std::vector<double> readings;
+            constexpr std::size_t most = 20'000;
+            const std::size_t step = 1 + index_.size() / most;
+            for (std::size_t i = 0; i < index_.size(); i += step)
+                if (index_.is_finite(i))
+                    readings.push_back(candidate(difference(index_[i], index_.viewpoints[i])));
+            const quantization found = quantization_of(readings);
+            if (!found.found) continue;
+            coordinate_ = candidate;
+            quantized_ = found.variance;
+            is_quantized_ = true;
+            return;
+        }
+    }
+
+    /// Fits the model to the planes; false if there are too few.
+    [[nodiscard]] bool fit(std::span<const sampled_plane> planes) {
+        constexpr std::size_t fewest = 100;
+        auto residuals = residuals_of(planes, coordinate_, quantized_, 2.0);
+        if (residuals.size() < fewest)
+            residuals = residuals_of(planes, coordinate_, quantized_, 0.0);
+        if (residuals.size() < fewest) return false;
+        fit_ = fit_noise(residuals, quantized_);
+        median_ = residuals[residuals.size() / 2].x;
+        return true;
+    }
+
+    /// A camera's noise goes with the depth: takes the depth for the range where that explains the
+    /// residuals better.
+    void prefer_depth(std::span<const sampled_plane> planes) {
+        const noise_coordinate depth{axis_of_cone(planes)};
+        const auto residuals = residuals_of(planes, depth, {}, 0.0);
+        if (dot(depth.axis, depth.axis) == 0.0) return;
+        const noise_fit of_depth = fit_noise(residuals, {});
+        double gain = 0.0;  // of the logarithm of the likelihood
+        for (const sampled_plane& s : planes) {
+            if (dot(s.normal, s.normal) == 0.0) continue;
+            const double cosine = depth.cosine(s.ray);
+            const double by_range = fit_.variance(length(s.ray));
+            const double by_depth = of_depth.variance(depth(s.ray)) / (cosine * cosine);
+            if (s.variance > chi2_of_90 * std::min(by_range, by_depth)) continue;
+            gain += std::log(by_range / by_depth) + s.variance / by_range - s.variance / by_depth;
+        }
+        constexpr double half_of_freedom = 7.0, needed = 5.0;
+        if (half_of_freedom * gain < needed) return;
+        coordinate_ = depth;
+        fit_ = of_depth;
+    }
+
+    /// Whether the residuals that the model was fit to are distributed as those of planes.
+    [[nodiscard]] bool is_of_planes() const {
+        constexpr double fewest = 0.15;  // of the neighborhoods
+        constexpr double expected = 0.2 / 0.85, tolerance = 0.12;
+        constexpr double most = 0.1;  // of the range: more is no noise, but a cloud of points
+        return fit_.inliers >= fewest && typical() <= most * median_ &&
+               (is_quantized_ || std::abs(fit_.low - expected) <= tolerance);
+    }
+
+    /// The standard deviation at the median range [m].
+    [[nodiscard]] double typical() const { return curve()(median_); }
+
+    [[nodiscard]] noise_curve curve() const {
+        noise_curve::quartic variance = fit_.variance.coefficients();
+        constexpr double precision = 1e-6;  // no range is known better than by this part of it
+        variance[2] += precision * precision;
+        return noise_curve(variance, quantized_.coefficients(), coordinate_.axis);
+    }
+
+    [[nodiscard]] auto half_length() const {
+        return [noise = curve()](const Eigen::Vector3d& ray) { return 4.0 * noise.along(ray); };
+    }
+
+    const spatial_index& index_;
+    const X& run_;
+    residual_sampler<spatial_index> few_, many_;
+    noise_coordinate coordinate_;
+    bool is_quantized_ = false;
+    even_quartic quantized_;  // variance [m^2]
+    noise_fit fit_;
+    double median_ = 0.0;  // [m]
+};
+
+/// Whether each ray has one depth, if there is one view point for all points.
+[[nodiscard]] bool has_rays(const auto& index, const noise_curve& noise) {
+    if (index.viewpoints.positions().size() > 1) return true;
+    const sorted_directions directions(index, index.viewpoints[0]);
+    constexpr double most = 0.3;
+    return directions.share_of_several_depths([&](const Eigen::Vector3d& u, double range) {
+        return noise.along(scaled(range, u));
+    }) < most;
+}
+
+}  // namespace detail
+
+/// The noise of the sensor of a scan.
+///
+/// @param points  any point range of n points [m] with its view points, or an index of it; points
+///                that are not finite do not count
+/// @return        no curve, and the reason, for fewer than 500 points, if too few neighborhoods
+///                are planes, or if the view point is not one
+/// @throws std::invalid_argument  if the view points are for another number of points
+/// Complexity: O(n log n); some 20,000 neighborhoods. The same for every execution.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] measured_noise measure_noise(const R& points, const X& run = {},
+                                           Proj projection = {}) {
+    const auto& index = detail::index_of(points, run, projection);
+    measured_noise found = detail::noise_meter(index, run)();
+    if (found.curve && !detail::has_rays(index, *found.curve))
+        return {{}, "the view point is not one: along one ray there are several depths"};
+    return found;
+}
 
 }  // namespace gnomon
 
@@ -7964,127 +9044,6 @@ namespace gnomon {
 
 }  // namespace gnomon
 
-// -------- gnomon/normals/detail/ray_regression.hpp -----------------------------------------------
-
-/// @file
-/// The regression of `ray_ls` and `plane_eif`: the inverse depth of a plane is linear in the
-/// tangents of the rays.
-
-namespace gnomon::detail {
-
-/// The regression of y = range / depth - 1 on the tangents (xi, eta) of rays near the ray of a
-/// point p, where range is the distance of p from the view point, and depth the coordinate of a
-/// neighbor along the ray of p. For the plane n . x = d in coordinates relative to the view point,
-/// y = M1 xi + M2 eta + (M3 - 1) with M = (range / d) n. In this frame the system is well
-/// conditioned for neighborhoods of any size. The point itself has y = xi = eta = 0 and the weight
-/// 1.
-class ray_regression {
-  public:
-    /// @param x  the point p relative to the view point [m]
-    explicit ray_regression(const Eigen::Vector3d& x) : range_(length(x)) {
-        status_ = std::isfinite(range_) ? trust::good : trust::not_finite;
-        if (range_ == 0.0) status_ = trust::degenerate;
-        if (!usable(status_)) return;
-        e3_ = scaled(1.0 / range_, x);
-        e1_ = orthogonal(e3_);
-        e2_ = cross(e3_, e1_);
-    }
-
-    /// Adds a neighbor at the offset d [m] from the point.
-    void add(const Eigen::Vector3d& d) {
-        const double depth = 1.0 + dot(d, e3_) / range_;
-        if (usable(status_) && !(depth > 0.0))  // not in front of the view point
-            status_ = std::isnan(depth) ? trust::not_finite : trust::degenerate;
-        const double xi = dot(d, e1_) / (range_ * depth);
-        const double eta = dot(d, e2_) / (range_ * depth);
-        const double y = 1.0 / depth - 1.0;
-        // An error sigma of the range is an error sigma / (range sqrt(w)) of y.
-        const double w = depth * depth * depth * depth * (1.0 + xi * xi + eta * eta);
-        w_ += w;
-        xi_ += w * xi;
-        eta_ += w * eta;
-        y_ += w * y;
-        xx_ += w * xi * xi;
-        xe_ += w * xi * eta;
-        ee_ += w * eta * eta;
-        xy_ += w * xi * y;
-        ey_ += w * eta * y;
-    }
-
-    /// Solves the regression, if it is determined: see status().
-    void solve() {
-        if (!usable(status_)) return;
-        const double a = xx_ - xi_ * xi_ / w_;
-        const double b = xe_ - xi_ * eta_ / w_;
-        const double c = ee_ - eta_ * eta_ / w_;
-        const double f = xy_ - xi_ * y_ / w_;
-        const double g = ey_ - eta_ * y_ / w_;
-        if (!std::isfinite(a + c + f + g)) {
-            status_ = trust::not_finite;
-            return;
-        }
-        const double determinant = a * c - b * b;
-        const double larger = 0.5 * (a + c + std::sqrt((a - c) * (a - c) + 4.0 * b * b));
-        constexpr double negligible = 1e-12;
-        if (!(determinant > negligible * larger * larger)) {
-            status_ = trust::degenerate;
-            return;
-        }
-        aspect_ratio_ = std::sqrt(determinant) / larger;
-
-        aa_ = c / determinant;
-        ab_ = -b / determinant;
-        bb_ = a / determinant;
-        m_[0] = aa_ * f + ab_ * g;
-        m_[1] = ab_ * f + bb_ * g;
-        m_[2] = 1.0 + (y_ - m_[0] * xi_ - m_[1] * eta_) / w_;
-    }
-
-    /// `good`, or why there is no solution.
-    [[nodiscard]] trust status() const { return status_; }
-
-    /// The distance of the point [m].
-    [[nodiscard]] double range() const { return range_; }
-
-    /// The ratio of the standard deviations of the tangents along their principal directions, 0
-    /// to 1. After solve().
-    [[nodiscard]] double aspect_ratio() const { return aspect_ratio_; }
-
-    /// M in the coordinates of the cloud. After solve().
-    [[nodiscard]] Eigen::Vector3d solution() const {
-        return combined(m_[0], e1_, m_[1], e2_, m_[2], e3_);
-    }
-
-    /// The covariance of a . M and b . M for ranges with standard deviation sigma [m]. After
-    /// solve().
-    [[nodiscard]] double covariance(double sigma, const Eigen::Vector3d& a,
-                                    const Eigen::Vector3d& b) const {
-        // The slopes have the covariance s^2 [aa ab; ab bb], the mean s^2 / w, independent of them;
-        // M3 is the mean less the slopes times the mean tangents.
-        const auto slopes = [this](const Eigen::Vector3d& c) {
-            const double along = dot(c, e3_) / w_;
-            return std::array{dot(c, e1_) - along * xi_, dot(c, e2_) - along * eta_, along};
-        };
-        const auto [a1, a2, a3] = slopes(a);
-        const auto [b1, b2, b3] = slopes(b);
-        const double s = sigma / range_;
-        return s * s * (a1 * (aa_ * b1 + ab_ * b2) + a2 * (ab_ * b1 + bb_ * b2) + a3 * b3 * w_);
-    }
-
-  private:
-    double range_ = 0.0;
-    trust status_ = trust::good;
-    Eigen::Vector3d e1_{0.0, 0.0, 0.0};
-    Eigen::Vector3d e2_{0.0, 0.0, 0.0};
-    Eigen::Vector3d e3_{0.0, 0.0, 0.0};
-    double w_ = 1.0, xi_ = 0.0, eta_ = 0.0, y_ = 0.0;
-    double xx_ = 0.0, xe_ = 0.0, ee_ = 0.0, xy_ = 0.0, ey_ = 0.0;
-    double aa_ = 0.0, ab_ = 0.0, bb_ = 0.0, aspect_ratio_ = 0.0;  // of the solution
-    Eigen::Vector3d m_{0.0, 0.0, 0.0};
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/normals/ray_ls.hpp --------------------------------------------------------------
 
 /// @file
@@ -8169,15 +9128,15 @@ namespace gnomon {
 /// trust are those of `ray_ls`; `weak` as well where the trace of the covariance is above
 /// 0.1 rad^2.
 struct plane_eif {
-    double sigma = 0.015;  ///< standard deviation of the range [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor
     ray_ls fit = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
                                                     neighborhood_view neighbors,
                                                     const Eigen::Vector3d& viewpoint = {
                                                         0.0, 0.0, 0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         normal_belief<ray_fit> belief;
         if (neighbors.size() < 3) return belief;
         const detail::ray_regression regression = detail::regression_of(p, neighbors, viewpoint);
@@ -8185,6 +9144,7 @@ struct plane_eif {
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of the error of M across n rotates n.
         const detail::tangent_basis frame(belief.normal);
+        const double sigma = noise.along(detail::difference(p, viewpoint));
         const double scaled_sigma = sigma / detail::length(regression.solution());
         detail::set_covariance(belief, frame,
                                {regression.covariance(scaled_sigma, frame.b1, frame.b1),
@@ -8307,7 +9267,7 @@ class by_sigma_points {
 /// @file
 /// Kalman filters for normals: `plane_ekf` and `plane_ukf`. The measurements are the ranges of a
 /// point and its neighbors, the state is their common plane, which does not move. The result is a
-/// normal with its covariance, for a known standard deviation of the range.
+/// normal with its covariance, for a sensor of known noise.
 ///
 /// The state has three degrees of freedom: a unit vector, and the distance of the plane from the
 /// centroid of the neighborhood. Neither the length of the normal nor the error of the centroid
@@ -8328,13 +9288,13 @@ template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
-    double sigma = 0.015;         ///< standard deviation of the range [m]
-    int max_iterations = 10;      ///< of the update; it usually takes three or four
+    noise_curve noise = constant_noise{};  ///< of the sensor
+    int max_iterations = 10;               ///< of the update; it usually takes three or four
     double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]: uninformative
     double prior_distance = 1.0;  ///< standard deviation of the prior distance [m]: uninformative
 
-    /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
-    ///                                finite, and there is an iteration
+    /// @throws std::invalid_argument  if the noise is 0, unless the prior's deviations are
+    ///                                positive and finite, and there is an iteration
     [[nodiscard]] normal_belief<plane_fit> operator()(const Eigen::Vector3d& p,
                                                       neighborhood_view neighbors,
                                                       const Eigen::Vector3d& viewpoint = {
@@ -8354,7 +9314,7 @@ struct plane_filter {
         plane_state state = prior;
         // The first linearization has no covariance: sigma points this close to each other give
         // the derivative.
-        state.covariance = diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
+        state.covariance = diagonal(1e-8, 1e-8, 1e-4 * noise.variance_along(x));
         constexpr double converged_step = 1e-9;  // [rad]
         bool converged = false;
         for (int i = 0; i < max_iterations && !converged; ++i) {
@@ -8387,7 +9347,7 @@ struct plane_filter {
     };
 
     void require_parameters() const {
-        require_sigma(sigma);
+        require_noise(noise);
         require(max_iterations >= 1, "plane_ekf, plane_ukf: needs an iteration");
         require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
                     std::isfinite(prior_distance),
@@ -8414,7 +9374,7 @@ struct plane_filter {
         const Eigen::Vector3d u = scaled(1.0 / range, x);
         if (!(std::abs(dot(u, state.frame.normal)) > grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const double precision = 1.0 / (z.variance + sigma * sigma);
+        const double precision = 1.0 / (z.variance + noise.variance_along(x));
         if (!std::isfinite(precision * (z.value + z.slope[0] + z.slope[1] + z.slope[2]))) return;
         add_outer(sum.precision, precision, z.slope, z.slope);
         sum.weighted = combined(1.0, sum.weighted, precision * (range - z.value), z.slope);
@@ -8432,8 +9392,8 @@ struct plane_filter {
 /// The iterated extended Kalman filter. Models `ray_estimator`. Needs three neighbors. O(k), some
 /// ten times as long as `plane_pca`.
 ///
-/// Parameters: `sigma`, the standard deviation of the range [m]; `max_iterations`; the standard
-/// deviations `prior_angle` [rad] and `prior_distance` [m] of an uninformative prior.
+/// Parameters: the `noise` of the sensor; `max_iterations`; the standard deviations `prior_angle`
+/// [rad] and `prior_distance` [m] of an uninformative prior.
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
 /// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of
@@ -8804,7 +9764,7 @@ orientation propagate_orientation(const R& points, const G& graph, Surface& surf
     const auto normal_of = [&](std::size_t i) -> Eigen::Vector3d {
         return detail::scaled(forest.way(i).sign, surface[i].normal);
     };
-    const auto vote = detail::component_facing(p, viewpoints_of(points), normal_of,
+    const auto vote = detail::component_facing(p, detail::viewpoints_of(points), normal_of,
                                                result.component, result.components);
     for (std::size_t i = 0; i < n; ++i) {
         if (result.component[i] < 0) continue;
@@ -9314,7 +10274,8 @@ struct sample_consensus {
     /// @throws std::invalid_argument  unless sigma is positive and finite and there is a trial
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
                                        neighborhood_view neighbors) const {
-        require_sigma(sigma);
+        require(sigma > 0.0 && std::isfinite(sigma),
+                "ransac_plane, mlesac_plane: sigma must be positive and finite");
         require(trials >= 1, "ransac_plane, mlesac_plane: needs a trial");
         if (neighbors.size() < 3) return {};
         const std::size_t n = neighbors.size() + 1;
@@ -9485,21 +10446,21 @@ namespace gnomon {
 /// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
 /// points do not form a plane with this normal. `not_finite` where the view point is not finite.
 ///
-/// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
+/// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>`
 template <estimator E>
     requires normal_estimate<detail::estimator_result_t<E>>
 struct with_covariance {
     static constexpr auto sensitive_to = detail::sensitivity_of<E>();
 
-    double sigma = 0.015;  ///< standard deviation of the range, along the ray [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor
     E estimate = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<estimate_t<E>> operator()(const Eigen::Vector3d& p,
                                                           neighborhood_view neighbors,
                                                           const Eigen::Vector3d& viewpoint = {
                                                               0.0, 0.0, 0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         normal_belief<estimate_t<E>> belief;
         if constexpr (ray_estimator<E>) {
             static_cast<estimate_t<E>&>(belief) = std::invoke(estimate, p, neighbors, viewpoint);
@@ -9549,15 +10510,16 @@ struct with_covariance {
         const auto add = [&](const Eigen::Vector3d& q) {
             const Eigen::Vector3d ray = detail::difference(q, viewpoint);
             const double range = detail::length(ray);
-            // e_j is the error of the range times this; a point at the view point has no ray, and
-            // counts as one with the ray along the normal.
+            // e_j is the error of the range times this cosine; a point at the view point has no
+            // ray, and counts as one with the ray along the normal.
             const double cosine = range > 0.0 ? detail::dot(ray, frame.normal) / range : 1.0;
             const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
             const double t1 = cosine * detail::dot(d, frame.b1);
             const double t2 = cosine * detail::dot(d, frame.b2);
-            s11 += t1 * t1;
-            s12 += t1 * t2;
-            s22 += t2 * t2;
+            const double variance = noise.variance_along(ray);
+            s11 += variance * t1 * t1;
+            s12 += variance * t1 * t2;
+            s22 += variance * t2 * t2;
             all_grazing = all_grazing && !(std::abs(cosine) > detail::grazing_cosine);
         };
         add(p);
@@ -9572,14 +10534,14 @@ struct with_covariance {
         const double r12 = i11 * s12 + i12 * s22;
         const double r22 = i12 * s12 + i22 * s22;
         const double count = static_cast<double>(m.count + 1);
-        const double w = sigma * sigma / (count * count);
+        const double w = 1.0 / (count * count);
         return {w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
                 w * ((i12 * s11 + i22 * s12) * i12 + r22 * i22)};
     }
 };
 
 template <class E>
-with_covariance(double, E) -> with_covariance<E>;
+with_covariance(noise_curve, E) -> with_covariance<E>;
 
 }  // namespace gnomon
 
@@ -12123,6 +13085,9 @@ struct leveling {
             for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
         return q;
     }
+
+    /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
+    [[nodiscard]] static leveling of(const plane& floor);
 };
 
 namespace detail {
@@ -12251,9 +13216,7 @@ template <class R, class Proj = std::identity>
     return sum / static_cast<double>(near);
 }
 
-/// The motion that turns the floor's normal to z by the smallest rotation and lays the floor into
-/// z = 0. The points stay untouched: apply it where you need it.
-[[nodiscard]] inline leveling level_with(const plane& floor) {
+inline leveling leveling::of(const plane& floor) {
     const Eigen::Vector3d& n = floor.normal;
     leveling level;
     level.lift = -floor.offset;
@@ -13085,15 +14048,13 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
 ///
 /// Klasing 2010, Sec. 4.3.4, Fig. 4.7, and the coplanar distance, Eq. (4.7).
 
-namespace gnomon {
+namespace gnomon::detail {
 
 /// A point of one segment and one of another, by their numbers in the cloud.
 struct boundary_pair {
     point_index first, second;
     double distance;  ///< [m]
 };
-
-namespace detail {
 
 /// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
 template <class Points>
@@ -13179,8 +14140,7 @@ template <class Points>
     return least;
 }
 
-}  // namespace detail
-}  // namespace gnomon
+}  // namespace gnomon::detail
 
 // -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
 
@@ -14566,7 +15526,10 @@ class occlusion_merger {
             const std::int32_t label = parts.labels()[known[f].members.front()];
             if (label == unlabeled) continue;
             const auto s = static_cast<std::size_t>(label);
-            if (std::ranges::equal(known[f].members, parts[s])) known_of[s] = f;
+            // (Not by std::ranges::equal, whose concepts all users would compile.)
+            const auto& before = known[f].members;
+            const auto now = parts[s];
+            if (std::equal(before.begin(), before.end(), now.begin(), now.end())) known_of[s] = f;
         }
         scratch<std::size_t> begin(parts.size(), 0);
         for (std::size_t s = 1; s < parts.size(); ++s)
@@ -14752,7 +15715,9 @@ struct merge_occluded_options {
 
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
-    std::vector<boundary_pair> lines;
+    /// Between the nearest boundary points of both: their numbers `first` and `second` in the
+    /// cloud, and their `distance` [m].
+    std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;
 
@@ -14925,7 +15890,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
     detail::require_thresholds(options);
-    const viewpoint_table viewpoints = viewpoints_of(points);
+    const viewpoint_table viewpoints = detail::viewpoints_of(points);
     // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {
         const auto distance = [&](const range_image& image) {
@@ -14935,7 +15900,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
             visible.images().begin(), visible.images().end(),
             [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
-    const auto is_occluded = [&](const boundary_pair& line) {
+    const auto is_occluded = [&](const detail::boundary_pair& line) {
         const auto image = image_of(line.first);
         return image != visible.images().end() && is_finite(viewpoints[line.first]) &&
                is_finite(viewpoints[line.second]) && image == image_of(line.second) &&
@@ -15974,7 +16939,7 @@ class scan_builder {
     /// large enough to hold them.
     void reserve(std::size_t points) {
         result_.points.reserve(points);
-        for (scalar_field& field : result_.fields) field.values.reserve(points);
+        for (scan::scalar_field& field : result_.fields) field.values.reserve(points);
     }
 
     /// Adds a point.
@@ -16741,7 +17706,7 @@ template <class R, class Proj = std::identity>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},
                ply_options options = {}, Proj projection = {}) {
     const position_view<R, Proj> positions(points, std::move(projection));
-    const viewpoint_table viewpoints = viewpoints_of(points);
+    const viewpoint_table viewpoints = gnomon::detail::viewpoints_of(points);
     properties all = columns;
     if (viewpoints.positions().size() > 1) {
         all = {columns, detail::three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"},
@@ -18380,6 +19345,120 @@ namespace densities {
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/depth_camera.hpp -----------------------------------------------------
+
+/// @file
+/// A depth camera: an image of depths, taken at one time through a pinhole. x is the optical axis,
+/// columns go from left to right and rows from top to bottom.
+///
+/// The error is one of the depth z along the optical axis, not of the range. Cameras that
+/// triangulate (structured light, stereo) measure the disparity f b / z in steps, so that the steps
+/// of the depth grow with its square (Khoshelham and Elberink 2012). Pixels have a width: where one
+/// sees two surfaces, the reading lies between them.
+
+namespace gnomon::simulation {
+
+/// A depth camera. The default is an ideal pinhole camera of the size of a Kinect.
+struct depth_camera {
+    std::size_t columns = 640;
+    std::size_t rows = 480;
+    double focal_length = 575.0;              ///< f [pixel]
+    noise_curve noise = constant_noise{0.0};  ///< standard deviation of the depth, of the depth
+    double baseline = 0.0;                    ///< b, of cameras that triangulate [m]
+    double disparity_step = 0.0;              ///< of cameras that triangulate [pixel]; 0 for none
+    double min_depth = 0.4;                   ///< nearer surfaces give no reading [m]
+    double max_depth = 8.0;                   ///< farther surfaces give no reading [m]
+
+    /// The number of pixels. Precondition: the camera is valid.
+    [[nodiscard]] std::size_t pixels() const { return columns * rows; }
+
+    /// The direction of a pixel in the sensor's frame, of length 1; pixels are numbered row by row.
+    [[nodiscard]] Eigen::Vector3d direction(std::size_t pixel) const {
+        const double right = offset(pixel % columns, columns), down = offset(pixel / columns, rows);
+        const double scale = 1.0 / std::sqrt(1.0 + right * right + down * down);
+        return {scale, -right * scale, -down * scale};
+    }
+
+    /// The width of a pixel as a beam: the mean of all surfaces that it sees, twice as wide as the
+    /// distance between pixels in terms of 1/e^2.
+    [[nodiscard]] beam_footprint pixel() const {
+        return {.divergence = radians(2.0 * std::atan(1.0 / focal_length)),
+                .rule = echo_rule::averaged};
+    }
+
+    /// Whether a surface at this depth [m] gives a reading.
+    [[nodiscard]] bool sees(double z) const { return z >= min_depth && z <= max_depth; }
+
+    /// The longest range of a reading, at a corner of the image [m].
+    [[nodiscard]] double max_range() const { return max_depth / direction(0)[0]; }
+
+    /// The depth [m] nearest to z [m] that the camera can report.
+    [[nodiscard]] double reported(double z) const {
+        if (disparity_step == 0.0) return z;
+        const double steps = focal_length * baseline / (z * disparity_step);
+        return focal_length * baseline / (std::max(1.0, std::round(steps)) * disparity_step);
+    }
+
+    /// @throws std::invalid_argument  unless there are 1 to 100,000,000 pixels, lengths are finite
+    ///                                and positive (baseline and step may be 0, but a step needs a
+    ///                                baseline), and min_depth < max_depth
+    void require_valid() const {
+        using gnomon::detail::require;
+        constexpr std::size_t most = 100'000'000;
+        require(columns >= 1 && rows >= 1 && columns <= most && rows <= most / columns,
+                "depth_camera: needs 1 to 100,000,000 pixels");
+        require(focal_length > 0.0 && std::isfinite(focal_length),
+                "depth_camera: the focal length must be positive and finite");
+        require(baseline >= 0.0 && std::isfinite(baseline) && disparity_step >= 0.0 &&
+                    std::isfinite(disparity_step) && (disparity_step == 0.0 || baseline > 0.0),
+                "depth_camera: disparities in steps need a baseline");
+        require(min_depth >= 0.0 && min_depth < max_depth && std::isfinite(max_depth),
+                "depth_camera: needs 0 <= min_depth < max_depth, finite");
+    }
+
+  private:
+    /// Of the middle of a pixel from the optical axis, at the depth 1.
+    [[nodiscard]] double offset(std::size_t number, std::size_t size) const {
+        return (static_cast<double>(number) + 0.5 - 0.5 * static_cast<double>(size)) / focal_length;
+    }
+};
+
+namespace scanners {
+
+/// A camera of structured light, the first Kinect: 58 degrees, disparities in eighths of a pixel
+/// (Khoshelham and Elberink 2012), noise by Nguyen, Izadi and Lovell 2012.
+[[nodiscard]] inline depth_camera structured_light() {
+    return {.noise = noises::structured_light(), .baseline = 0.075, .disparity_step = 0.125};
+}
+
+/// A camera that measures times of flight, the second Kinect: 512 x 424 pixels (Fankhauser et al.
+/// 2015).
+[[nodiscard]] inline depth_camera time_of_flight() {
+    return {.columns = 512,
+            .rows = 424,
+            .focal_length = 365.0,
+            .noise = noises::time_of_flight(),
+            .min_depth = 0.5,
+            .max_depth = 4.5};
+}
+
+/// A stereo camera, an Intel RealSense D415 at 1280 x 720: disparities in 32nds of a pixel
+/// (Grunnet-Jepsen, Sweetser and Woodfill 2018).
+[[nodiscard]] inline depth_camera stereo() {
+    return {.columns = 1280,
+            .rows = 720,
+            .focal_length = 1005.0,
+            .noise = noises::stereo(),
+            .baseline = 0.055,
+            .disparity_step = 1.0 / 32.0,
+            .min_depth = 0.45,
+            .max_depth = 10.0};
+}
+
+}  // namespace scanners
+
+}  // namespace gnomon::simulation
+
 // -------- gnomon/simulation/ray_caster.hpp -------------------------------------------------------
 
 /// @file
@@ -18430,7 +19509,7 @@ class instrument {
         std::optional<ray_hit> hit;
     };
 
-    [[nodiscard]] reading operator()(ray r, random_stream random) const {
+    [[nodiscard]] reading operator()(ray r, random_stream& random) const {
         r.reach = max_range_;
         const double chance = random.uniform();
         if (chance < beam_.clutter)
@@ -18738,8 +19817,9 @@ struct true_scan {
 // -------- gnomon/simulation/simulate.hpp ---------------------------------------------------------
 
 /// @file
-/// Simulates the scan of a scene: the range finder moves along its trajectory, and each beam gives
-/// a reading, each valid reading a point (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene. A range finder moves along its trajectory, and each beam gives a
+/// reading; a depth camera stands still, and each pixel gives one. Each valid reading is a point
+/// (Klasing 2010, Sec. 2.4.3).
 
 namespace gnomon::simulation {
 
@@ -18755,15 +19835,15 @@ struct numbered_reading {
 /// The kept readings of the rays ray_of(0) to ray_of(rays - 1), in chunks in the order of the rays.
 /// Memory is proportional to the kept readings, not to the rays.
 template <ray_caster C, execution X>
-[[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(const instrument<C>& read,
-                                                                      const beam& b,
+[[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(auto&& read, const beam& b,
                                                                       std::size_t rays,
                                                                       auto&& ray_of, const X& run) {
     std::vector<std::vector<numbered_reading<C>>> chunks(gnomon::detail::chunk_count(rays));
     gnomon::detail::for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
         auto& kept = chunks[begin / gnomon::detail::chunk_size];
         for (std::size_t i = begin; i < end; ++i) {
-            auto reading = read(ray_of(i), random_stream(b.seed, i));
+            random_stream random(b.seed, i);
+            auto reading = read(ray_of(i), random);
             if (reading.kind != echo::none || b.keep_failed) kept.push_back({i, reading});
         }
         kept.shrink_to_fit();
@@ -18863,7 +19943,7 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
         return ray{sensor.position, sensor.direction_out(fan[i % beams])};
     };
 
-    const auto readings = detail::read_rays(read, b, lines * beams, ray_of, run);
+    const auto readings = detail::read_rays<C>(read, b, lines * beams, ray_of, run);
     true_scan result = detail::points_of(readings, world, ray_of);
     if (moves) {
         std::vector<point_index> line_of_point;
@@ -18885,6 +19965,54 @@ template <sensor_trajectory T, execution X = sequential>
                                  const scanner& finder = {}, const beam& b = {},
                                  const X& run = {}) {
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
+}
+
+/// Simulates the image of a depth camera, row by row, with the given ray caster. Errors of the beam
+/// come before those of the camera; `{.footprint = camera.pixel()}` gives pixels their width.
+///
+/// The same seed gives the same bytes for every execution.
+/// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint.
+///
+/// @param world   source of the ground truth. Precondition: `caster` was built from it
+/// @param sensor  the pose of the camera
+/// @return the points of all readings that did not fail, with one view point; with keep_failed also
+///         of those that did
+/// @throws std::invalid_argument  if camera or beam are not valid, the pose is no rigid motion, or
+///                                the caster reports a surface that `world` does not have
+template <ray_caster C, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const C& caster, const pose& sensor,
+                                 const depth_camera& camera, const beam& b = {},
+                                 const X& run = {}) {
+    camera.require_valid();
+    gnomon::detail::require(is_rigid(sensor), "simulate: the pose is no rigid motion");
+    const auto ray_of = [&](std::size_t pixel) {
+        return ray{sensor.position, sensor.direction_out(camera.direction(pixel))};
+    };
+    const detail::instrument<C> read(caster, b, 0.0, camera.max_range());
+    const Eigen::Vector3d axis = sensor.direction_out({1.0, 0.0, 0.0});
+    const auto read_depth = [&](const ray& r, random_stream& random) {
+        auto reading = read(r, random);
+        if (reading.kind == echo::none) return reading;
+        const double cosine = axis.dot(r.direction), z = reading.range * cosine;
+        const double noisy = camera.reported(z + camera.noise(z) * random.gaussian());
+        if (camera.sees(z) && camera.sees(noisy)) {
+            reading.range = noisy / cosine;
+        } else {
+            reading = {echo::none, camera.max_range(), std::nullopt};
+        }
+        return reading;
+    };
+    const auto readings = detail::read_rays<C>(read_depth, b, camera.pixels(), ray_of, run);
+    true_scan result = detail::points_of(readings, world, ray_of);
+    result.scan.viewpoints = sensor.position;
+    return result;
+}
+
+/// Simulates the image of a depth camera, as above, with a `bvh_caster`.
+template <execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const pose& sensor, const depth_camera& camera,
+                                 const beam& b = {}, const X& run = {}) {
+    return simulate(world, bvh_caster(world), sensor, camera, b, run);
 }
 
 }  // namespace gnomon::simulation

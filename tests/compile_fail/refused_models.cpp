@@ -9,6 +9,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/range_noise.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/curvature.hpp>
 #include <gnomon/neighborhoods/adaptive_knn.hpp>
@@ -19,6 +20,14 @@
 #include <gnomon/segmentation/segment_surfaces.hpp>
 
 using points = std::vector<Eigen::Vector3d>;
+
+// expect: noise\(x\)
+// [refused_range_noise]
+struct of_a_class {
+    double sigma(double range) const { return 0.01 * range; }
+};
+static_assert(gnomon::range_noise<of_a_class>);  // is not called as a function
+// [refused_range_noise]
 
 // expect: gnomon::point<by_name>
 // [refused_point]

@@ -22,7 +22,7 @@ TEST(subset_view, keeps_the_view_points_of_its_points) {
     const auto moving = gnomon::with_viewpoints(points, gnomon::viewpoint_table(per_point));
     const gnomon::subset_view subset(moving, chosen);
     static_assert(gnomon::has_viewpoints<decltype(subset)>);
-    EXPECT_EQ(gnomon::viewpoints_of(subset)[0], per_point[7]);
+    EXPECT_EQ(gnomon::detail::viewpoints_of(subset)[0], per_point[7]);
     const auto fixed = gnomon::with_viewpoint(points, {1, 2, 3});
     EXPECT_EQ(gnomon::subset_view(fixed, chosen).viewpoints[1], Eigen::Vector3d(1, 2, 3));
     EXPECT_TRUE(gnomon::subset_view(points, chosen).viewpoints.empty());

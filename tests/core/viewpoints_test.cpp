@@ -42,8 +42,8 @@ TEST(viewpoint_table, travels_with_a_bare_range) {
     static_assert(gnomon::point_range<decltype(seen)> && gnomon::has_viewpoints<decltype(seen)>);
     static_assert(!gnomon::has_viewpoints<clouds::cloud>);
     EXPECT_EQ(gnomon::position_view(seen)[2], points[2]);
-    EXPECT_EQ(gnomon::viewpoints_of(seen)[2], b);
-    EXPECT_EQ(gnomon::viewpoints_of(points)[2], Eigen::Vector3d(0, 0, 0));
+    EXPECT_EQ(gnomon::detail::viewpoints_of(seen)[2], b);
+    EXPECT_EQ(gnomon::detail::viewpoints_of(points)[2], Eigen::Vector3d(0, 0, 0));
 }
 
 /// A table that was moved from knows no view point.

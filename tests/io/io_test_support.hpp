@@ -66,7 +66,7 @@ template <class Parser>
 bool survives(Parser parser, const std::string& bytes) {
     try {
         const gnomon::scan result = parser(gnomon::io::input{"some.file", bytes});
-        for (const gnomon::scalar_field& field : result.fields)
+        for (const gnomon::scan::scalar_field& field : result.fields)
             EXPECT_EQ(field.values.size(), result.size());
         EXPECT_TRUE(result.viewpoints.covers(result.size()));
         EXPECT_LE(result.size(), 100 * bytes.size() + 100);

@@ -98,7 +98,7 @@ TEST(io_read, counts_the_points_of_real_files) {
         EXPECT_EQ(s.size(), file.points);
         EXPECT_EQ(finite, file.finite);
         ASSERT_EQ(s.fields.size(), file.fields.size());
-        for (const gnomon::scalar_field& field : s.fields) {
+        for (const gnomon::scan::scalar_field& field : s.fields) {
             ASSERT_EQ(field.values.size(), file.points);
             if (field.name == "rgb") continue;  // three bytes in the guise of a float
             for (const double value : field.values) ASSERT_EQ(value, std::floor(value));

@@ -65,7 +65,7 @@ void each_point_has_a_viewpoint(const R& points) {
     const auto n = static_cast<std::size_t>(std::ranges::size(points));
     const gnomon::viewpoint_table& table = points.viewpoints;
     ASSERT_TRUE(table.covers(n));
-    const gnomon::viewpoint_table copy = gnomon::viewpoints_of(points);
+    const gnomon::viewpoint_table copy = gnomon::detail::viewpoints_of(points);
     for (std::size_t i = 0; i < n; ++i) ASSERT_TRUE(same_bytes(table[i], copy[i]));
 }
 // [each_point_has_a_viewpoint]

@@ -60,7 +60,10 @@ TEST(adaptive_knn, takes_fewer_neighbors_near_an_edge) {
         points.push_back(i % 2 ? Eigen::Vector3d(a, b, e) : Eigen::Vector3d(a, e, b));
     }
     const gnomon::adaptive_knn<gnomon::prefer_small_error> policy{
-        .min_k = 8, .max_k = 128, .growth = 1.3, .preference = {.sigma = sigma}};
+        .min_k = 8,
+        .max_k = 128,
+        .growth = 1.3,
+        .preference = {.noise = gnomon::constant_noise{sigma}}};
     const auto graph = policy(points);
     double near = 0.0;
     double far = 0.0;
@@ -120,7 +123,7 @@ TEST(size_preference, models_obey_the_laws) {
     laws::costs_are_comparable(gnomon::prefer_isotropic{});
     laws::costs_are_comparable(gnomon::prefer_low_entropy{});
     laws::costs_are_comparable(gnomon::prefer_small_error{});
-    laws::costs_are_comparable(gnomon::prefer_small_error{.sigma = 0.0});
+    laws::costs_are_comparable(gnomon::prefer_small_error{.noise = gnomon::constant_noise{0.0}});
 }
 
 }  // namespace

@@ -75,11 +75,13 @@ TEST(angularly_sorted, winds_once_around_the_point_with_the_same_neighbors) {
 TEST(angularly_sorted, sorts_a_stored_graph_alike) {
     const auto points = clouds::sheet(500, 2);
     const auto graph = gnomon::knn{.k = 9}(points);
-    EXPECT_EQ(gnomon::sort_angularly(points, graph),
+    EXPECT_EQ(gnomon::detail::sort_angularly(points, graph),
               gnomon::angularly_sorted{gnomon::knn{.k = 9}}(points));
-    EXPECT_THROW((void)gnomon::sort_angularly(clouds::sheet(499, 2), graph), std::invalid_argument);
+    EXPECT_THROW((void)gnomon::detail::sort_angularly(clouds::sheet(499, 2), graph),
+                 std::invalid_argument);
     const std::vector<std::vector<gnomon::point_index>> foreign{{500}, {0}};
-    EXPECT_THROW((void)gnomon::sort_angularly(clouds::sheet(2, 1), foreign), std::invalid_argument);
+    EXPECT_THROW((void)gnomon::detail::sort_angularly(clouds::sheet(2, 1), foreign),
+                 std::invalid_argument);
 }
 
 /// What the base does not certify stays so, and along a scan line there is no plane to sort in.
@@ -88,7 +90,7 @@ TEST(angularly_sorted, certifies_no_more_than_its_base_and_its_plane) {
     const gnomon::delaunay base{.k = 4, .max_doublings = 0};
     const auto graph = base(points);
     const auto sorted = gnomon::angularly_sorted{base}(points);
-    const auto sorted_again = gnomon::sort_angularly(points, graph);
+    const auto sorted_again = gnomon::detail::sort_angularly(points, graph);
     for (std::size_t i = 0; i < points.size(); ++i) {
         EXPECT_LE(sorted.note(i).certified, graph.note(i).certified);
         EXPECT_LE(sorted_again.note(i).certified, graph.note(i).certified);

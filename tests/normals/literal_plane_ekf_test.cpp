@@ -66,8 +66,9 @@ TEST(literal_plane_ekf, is_the_algorithm_line_by_line) {
         auto s = laws::sample_neighborhood(seed);
         clouds::cloud all{s.p - s.viewpoint};
         for (const auto& q : s.neighbors) all.push_back(q - s.viewpoint);
-        const auto belief = literal_plane_ekf{.sigma = 0.01, .passes = 1, .seed = seed}(
-            s.p, s.neighbors, s.viewpoint);
+        const auto belief =
+            literal_plane_ekf{.noise = gnomon::constant_noise{0.01}, .passes = 1, .seed = seed}(
+                s.p, s.neighbors, s.viewpoint);
         const Eigen::Vector3d expected = algorithm_3_2(all, 0.01, 1, seed);
         // From some initial states the filter diverges: it divides by numbers near zero, where
         // rounding determines the result.
@@ -83,8 +84,9 @@ TEST(literal_plane_ekf, reports_degenerate_neighborhoods) {
     EXPECT_EQ(literal_plane_ekf{}(p, clouds::cloud{{1, 0, 2}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(literal_plane_ekf{}(p, clouds::cloud(4, {clouds::nan, 0, 0})).trust,
               trust::not_finite);
-    EXPECT_THROW((void)(literal_plane_ekf{.sigma = 0.0}(p, clouds::cloud(4, p))),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)(literal_plane_ekf{.noise = gnomon::constant_noise{0.0}}(p, clouds::cloud(4, p))),
+        std::invalid_argument);
     EXPECT_THROW((void)(literal_plane_ekf{.passes = 0}(p, clouds::cloud(4, p))),
                  std::invalid_argument);
 }

@@ -147,10 +147,11 @@ void expect_deviation_along_z(const auto& estimate) {
 }
 
 TEST(normal_belief, is_of_the_difference_of_normals) {
-    expect_deviation_along_z(gnomon::plane_eif{.sigma = 0.005});
-    expect_deviation_along_z(gnomon::plane_ekf{.sigma = 0.005});
-    expect_deviation_along_z(gnomon::plane_ukf{.sigma = 0.005});
-    expect_deviation_along_z(gnomon::with_covariance<gnomon::plane_pca>{.sigma = 0.005});
+    expect_deviation_along_z(gnomon::plane_eif{.noise = gnomon::constant_noise{0.005}});
+    expect_deviation_along_z(gnomon::plane_ekf{.noise = gnomon::constant_noise{0.005}});
+    expect_deviation_along_z(gnomon::plane_ukf{.noise = gnomon::constant_noise{0.005}});
+    expect_deviation_along_z(
+        gnomon::with_covariance<gnomon::plane_pca>{.noise = gnomon::constant_noise{0.005}});
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ TEST(plane_eif, is_the_sequential_filter_in_one_batch) {
             (Eigen::Matrix<long double, 3, 3>::Identity() - n * n.transpose()) / m.norm();
         const Eigen::Matrix3d covariance = (j * p * j.transpose()).cast<double>();
 
-        const auto belief = plane_eif{.sigma = sigma}(s.p, s.neighbors, s.viewpoint);
+        const auto belief =
+            plane_eif{.noise = gnomon::constant_noise{sigma}}(s.p, s.neighbors, s.viewpoint);
         ASSERT_LT(laws::angle_between(belief.normal, n.cast<double>()), 1e-9);
         ASSERT_LT((belief.covariance - covariance).norm(), 1e-7 * covariance.norm());
         ASSERT_EQ(belief.normal, gnomon::ray_ls{}(s.p, s.neighbors, s.viewpoint).normal);
@@ -55,7 +56,8 @@ TEST(plane_eif, reports_degenerate_neighborhoods) {
     EXPECT_EQ(plane_eif{}(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}).trust, trust::too_few_neighbors);
     EXPECT_EQ(plane_eif{}(p, clouds::cloud{{2, 1, 0}, {2, 2, 0}, {2, -1, 0}}).trust,
               trust::degenerate);
-    EXPECT_THROW((void)(plane_eif{.sigma = -1.0}(p, clouds::cloud(4, p))), std::invalid_argument);
+    EXPECT_THROW((void)(plane_eif{.noise = gnomon::constant_noise{-1.0}}(p, clouds::cloud(4, p))),
+                 std::invalid_argument);
 }
 
 /// The variance of the inverse range overflows where the cloud is as small as this.

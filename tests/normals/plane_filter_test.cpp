@@ -79,7 +79,8 @@ TEST(plane_filter, extended_filter_finds_the_most_likely_plane) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         const auto s = laws::sample_neighborhood(seed);
-        const plane_ekf filter{.sigma = 0.005, .prior_angle = 10, .prior_distance = 10};
+        const plane_ekf filter{
+            .noise = gnomon::constant_noise{0.005}, .prior_angle = 10, .prior_distance = 10};
         const auto belief = filter(s.p, s.neighbors, s.viewpoint);
         ASSERT_EQ(belief.trust, trust::good);
 
@@ -121,8 +122,10 @@ TEST(plane_filter, extended_filter_finds_the_most_likely_plane) {
 
 TEST(plane_filter, covariance_grows_with_the_square_of_sigma) {
     const auto s = laws::sample_neighborhood(3);
-    const double one = plane_ekf{.sigma = 0.001}(s.p, s.neighbors, s.viewpoint).trace();
-    const double ten = plane_ekf{.sigma = 0.01}(s.p, s.neighbors, s.viewpoint).trace();
+    const double one =
+        plane_ekf{.noise = gnomon::constant_noise{0.001}}(s.p, s.neighbors, s.viewpoint).trace();
+    const double ten =
+        plane_ekf{.noise = gnomon::constant_noise{0.01}}(s.p, s.neighbors, s.viewpoint).trace();
     EXPECT_NEAR(ten / one, 100.0, 1.0);
 }
 
@@ -139,8 +142,10 @@ TEST(plane_filter, reports_degenerate_neighborhoods) {
     EXPECT_EQ(grazed.trust, trust::weak);
     EXPECT_GT(grazed.trace(), 1.0);
     for (const double sigma : {0.0, -1.0, clouds::nan, clouds::infinity}) {
-        EXPECT_THROW((void)(plane_ekf{.sigma = sigma}(p, corner, v)), std::invalid_argument);
-        EXPECT_THROW((void)(plane_ukf{.sigma = sigma}(p, corner, v)), std::invalid_argument);
+        EXPECT_THROW((void)(plane_ekf{.noise = gnomon::constant_noise{sigma}}(p, corner, v)),
+                     std::invalid_argument);
+        EXPECT_THROW((void)(plane_ukf{.noise = gnomon::constant_noise{sigma}}(p, corner, v)),
+                     std::invalid_argument);
     }
 }
 
@@ -149,10 +154,12 @@ TEST(plane_filter, of_tiny_noise_stays_a_covariance) {
     for (const double sigma : {1e-5, 1e-7, 1e-9}) {
         for (std::uint64_t seed = 0; seed < 100; ++seed) {
             const auto s = laws::sample_neighborhood(seed);
-            const auto belief = plane_ekf{.sigma = sigma}(s.p, s.neighbors, s.viewpoint);
+            const auto belief =
+                plane_ekf{.noise = gnomon::constant_noise{sigma}}(s.p, s.neighbors, s.viewpoint);
             const double reference =
-                plane_ekf{.sigma = 1e-3}(s.p, s.neighbors, s.viewpoint).trace() * 1e6 * sigma *
-                sigma;
+                plane_ekf{.noise = gnomon::constant_noise{1e-3}}(s.p, s.neighbors, s.viewpoint)
+                    .trace() *
+                1e6 * sigma * sigma;
             ASSERT_GT(belief.determinant(), 0.0);
             ASSERT_NEAR(belief.trace() / reference, 1.0, 1e-3);
         }
@@ -171,8 +178,8 @@ TEST(plane_filter, covariance_lies_as_the_neighborhood_does) {
             const auto belief = filter({0, 0, 0}, neighbors, {0, 0, 2});
             ASSERT_GT(belief.covariance(1, 1), 10.0 * belief.covariance(0, 0));
         };
-        check(plane_ekf{.sigma = 0.001});
-        check(plane_ukf{.sigma = 0.001});
+        check(plane_ekf{.noise = gnomon::constant_noise{0.001}});
+        check(plane_ukf{.noise = gnomon::constant_noise{0.001}});
     }
 }
 
@@ -188,17 +195,20 @@ TEST(plane_filter, refuses_priors_and_iterations_that_make_no_sense) {
 
 TEST(plane_filter, laws_hold) {
     for (const double sigma : {0.005, 0.05}) {
-        laws::normals_are_unit_or_zero(plane_ekf{.sigma = sigma});
-        laws::normals_are_unit_or_zero(plane_ukf{.sigma = sigma});
+        laws::normals_are_unit_or_zero(plane_ekf{.noise = gnomon::constant_noise{sigma}});
+        laws::normals_are_unit_or_zero(plane_ukf{.noise = gnomon::constant_noise{sigma}});
     }
-    laws::normal_follows_the_cloud(plane_ekf{.sigma = 0.005}, 1e-8);  // where it settles
-    laws::normal_follows_the_cloud(plane_ukf{.sigma = 0.005}, 1e-7);
+    laws::normal_follows_the_cloud(plane_ekf{.noise = gnomon::constant_noise{0.005}},
+                                   1e-8);  // where it settles
+    laws::normal_follows_the_cloud(plane_ukf{.noise = gnomon::constant_noise{0.005}}, 1e-7);
     laws::result_does_not_depend_on_execution(plane_ekf{});
     laws::result_does_not_depend_on_execution(plane_ukf{});
     laws::covariances_are_bounded(plane_ekf{});
-    laws::covariances_are_bounded(plane_ekf{.sigma = 1e-6, .prior_angle = 100.0});
+    laws::covariances_are_bounded(
+        plane_ekf{.noise = gnomon::constant_noise{1e-6}, .prior_angle = 100.0});
     laws::covariances_are_bounded(plane_ukf{});
-    laws::covariances_are_bounded(plane_ukf{.sigma = 2.0, .prior_distance = 100.0});
+    laws::covariances_are_bounded(
+        plane_ukf{.noise = gnomon::constant_noise{2.0}, .prior_distance = 100.0});
     static_assert(gnomon::ray_estimator<plane_ekf>);
 }
 

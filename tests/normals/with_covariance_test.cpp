@@ -21,8 +21,8 @@ namespace {
 using gnomon::plane_pca, gnomon::trust, gnomon::with_covariance;
 
 /// Every compiler deduces the estimator, though not from designated initialisers.
-static_assert(
-    std::same_as<decltype(with_covariance{0.01, plane_pca{}}), with_covariance<plane_pca>>);
+static_assert(std::same_as<decltype(with_covariance{gnomon::constant_noise{0.01}, plane_pca{}}),
+                           with_covariance<plane_pca>>);
 
 /// Against the spread of the normals themselves under many draws of the noise.
 TEST(with_covariance, is_the_spread_of_the_normals) {
@@ -37,7 +37,7 @@ TEST(with_covariance, is_the_spread_of_the_normals) {
         clouds::cloud plane;
         for (int i = 0; i < 30; ++i) plane.push_back(flat());
         const Eigen::Vector3d viewpoint(0.6, -0.3, 0.8);
-        const auto expected = with_covariance<plane_pca>{.sigma = sigma}(
+        const auto expected = with_covariance<plane_pca>{.noise = gnomon::constant_noise{sigma}}(
             plane[0], std::span(plane).subspan(1), viewpoint);
         Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
         constexpr int draws = 20'000;
@@ -81,7 +81,7 @@ TEST(with_covariance, is_the_derivative_of_the_normal) {
             const Eigen::Vector3d slope = (normal_of(farther) - normal_of(nearer)) / (2.0 * h);
             expected += sigma * sigma * slope * slope.transpose();
         }
-        const auto belief = with_covariance<plane_pca>{.sigma = sigma}(
+        const auto belief = with_covariance<plane_pca>{.noise = gnomon::constant_noise{sigma}}(
             points[0], std::span(points).subspan(1), points[0] - 1e6 * n);
         EXPECT_LT((belief.covariance - expected).norm(), 1e-5 * expected.norm());
     }
@@ -113,7 +113,8 @@ TEST(with_covariance, reports_degenerate_neighborhoods) {
         p, clouds::cloud{{2.1, 1, 0}, {1.9, -1, 0}, {2.2, 0.5, 0}, {1.8, -0.5, 0}});
     EXPECT_EQ(line.trust, trust::weak);
     EXPECT_GT(line.trace(), 1.0);
-    EXPECT_THROW((void)(with_covariance<plane_pca>{.sigma = 0.0}(p, clouds::cloud(4, p))),
+    EXPECT_THROW((void)(with_covariance<plane_pca>{.noise = gnomon::constant_noise{0.0}}(
+                     p, clouds::cloud(4, p))),
                  std::invalid_argument);
 }
 
@@ -122,17 +123,22 @@ TEST(with_covariance, of_vague_normals_is_weak) {
     clouds::cloud neighbors;
     for (int i = 0; i < 9; ++i) neighbors.push_back({2.0, 0.02 * (i % 3 - 1), 0.02 * (i / 3 - 1)});
     neighbors.erase(neighbors.begin() + 4);
-    const auto belief = with_covariance<plane_pca>{.sigma = 0.5}({2, 0, 0}, neighbors);
+    const auto belief =
+        with_covariance<plane_pca>{.noise = gnomon::constant_noise{0.5}}({2, 0, 0}, neighbors);
     EXPECT_GT(belief.trace(), 1.0);
     EXPECT_EQ(belief.trust, trust::weak);
-    EXPECT_EQ(gnomon::plane_eif{.sigma = 0.5}({2, 0, 0}, neighbors).trust, trust::weak);
-    EXPECT_EQ(gnomon::plane_eif{.sigma = 0.001}({2, 0, 0}, neighbors).trust, trust::good);
+    EXPECT_EQ(gnomon::plane_eif{.noise = gnomon::constant_noise{0.5}}({2, 0, 0}, neighbors).trust,
+              trust::weak);
+    EXPECT_EQ(gnomon::plane_eif{.noise = gnomon::constant_noise{0.001}}({2, 0, 0}, neighbors).trust,
+              trust::good);
 }
 
 TEST(with_covariance, laws_hold) {
     laws::estimator_laws(with_covariance<plane_pca>{});
-    laws::covariances_are_bounded(with_covariance<gnomon::plane_svd>{.sigma = 10.0});
-    laws::covariances_are_bounded(with_covariance<gnomon::area_weighted>{.sigma = 1e-6});
+    laws::covariances_are_bounded(
+        with_covariance<gnomon::plane_svd>{.noise = gnomon::constant_noise{10.0}});
+    laws::covariances_are_bounded(
+        with_covariance<gnomon::area_weighted>{.noise = gnomon::constant_noise{1e-6}});
 }
 
 }  // namespace

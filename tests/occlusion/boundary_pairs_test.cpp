@@ -15,7 +15,7 @@
 
 namespace {
 
-using gnomon::detail::boundary_pairs, gnomon::boundary_pair, gnomon::point_index;
+using gnomon::detail::boundary_pairs, gnomon::detail::boundary_pair, gnomon::point_index;
 using index_list = std::vector<point_index>;
 
 Eigen::Vector3d mean(const clouds::cloud& points, const index_list& some) {

@@ -93,8 +93,7 @@ TEST(fragment, starts_gaps_on_its_plane) {
     const auto merged = wall.merged({.max_gap = 0.6});
     EXPECT_EQ(merged.segments.size(), 1u);
     ASSERT_EQ(merged.gaps.size(), 1u);
-    for (const gnomon::boundary_pair& line : merged.gaps[0].lines)
-        EXPECT_EQ(wall.points[line.second].x(), 3.0);
+    for (const auto& line : merged.gaps[0].lines) EXPECT_EQ(wall.points[line.second].x(), 3.0);
 }
 
 /// What hides the gap tells more than normals, which are of points on both sides of an edge.

@@ -188,8 +188,7 @@ TEST(merge_occluded, iterates_until_nothing_changes) {
     EXPECT_EQ(merged.segments.size(), 1u);
     EXPECT_EQ(merged.gaps.back().lines.size(), 6u);
     EXPECT_TRUE(merged.gaps.back().merged);
-    for (const gnomon::boundary_pair& line : merged.gaps.back().lines)
-        EXPECT_GE(line.distance, 0.15);
+    for (const auto& line : merged.gaps.back().lines) EXPECT_GE(line.distance, 0.15);
     const auto again = merge_occluded(tiles.points, merged.segments, visibility(tiles.points),
                                       conservative{}, near);
     EXPECT_EQ(again.segments, merged.segments);
@@ -244,7 +243,7 @@ TEST(merge_occluded, reports_the_considered_gaps) {
             EXPECT_EQ(gap.seen[gnomon::observation::free_space], 0u);
         }
         closed += gap.merged ? 1 : 0;
-        for (const gnomon::boundary_pair& line : gap.lines) {
+        for (const auto& line : gap.lines) {
             const auto a = merged.segments.labels()[line.first];
             const auto b = merged.segments.labels()[line.second];
             EXPECT_NE(parts.labels()[line.first], parts.labels()[line.second]);

@@ -92,13 +92,21 @@ TEST(plates, covariances_are_consistent) {
             ++rejected;
             continue;
         }
-        ekf.take(believe(gnomon::plane_ekf{.sigma = sigma}, plate), plate.normal);
-        ukf.take(believe(gnomon::plane_ukf{.sigma = sigma}, plate), plate.normal);
-        eif.take(believe(gnomon::plane_eif{.sigma = sigma}, plate), plate.normal);
-        pca.take(believe(gnomon::with_covariance<gnomon::plane_pca>{.sigma = sigma}, plate),
+        ekf.take(believe(gnomon::plane_ekf{.noise = gnomon::constant_noise{sigma}}, plate),
                  plate.normal);
-        literal.take(believe(gnomon::literal_plane_ekf{.sigma = sigma, .seed = seed}, plate),
-                     plate.normal);
+        ukf.take(believe(gnomon::plane_ukf{.noise = gnomon::constant_noise{sigma}}, plate),
+                 plate.normal);
+        eif.take(believe(gnomon::plane_eif{.noise = gnomon::constant_noise{sigma}}, plate),
+                 plate.normal);
+        pca.take(
+            believe(
+                gnomon::with_covariance<gnomon::plane_pca>{.noise = gnomon::constant_noise{sigma}},
+                plate),
+            plate.normal);
+        literal.take(
+            believe(gnomon::literal_plane_ekf{.noise = gnomon::constant_noise{sigma}, .seed = seed},
+                    plate),
+            plate.normal);
     }
     std::printf("%d plates; %d more had under ten points or were seen at over 80 degrees\n", plates,
                 rejected);
@@ -124,7 +132,8 @@ TEST(plates, the_weak_direction_is_the_direction_of_the_errors) {
     for (std::uint64_t seed = 1; seed <= 2000; ++seed) {
         const scanned_plate plate(seed, sigma);
         if (plate.points.size() < 10 || plate.cosine < 0.2) continue;
-        const auto belief = believe(gnomon::plane_ekf{.sigma = sigma}, plate);
+        const auto belief =
+            believe(gnomon::plane_ekf{.noise = gnomon::constant_noise{sigma}}, plate);
         const auto axes = gnomon::detail::symmetric_eigen(belief.covariance).vectors;
         along_weak += std::pow(plate.normal.dot(axes.col(0)), 2);
         along_strong += std::pow(plate.normal.dot(axes.col(1)), 2);

@@ -82,7 +82,7 @@ TEST(preprocess, sets_a_tilted_room_upright_and_removes_floor_and_ceiling) {
             EXPECT_GE(removed, 0.99 * bands);
             EXPECT_LE(lost, 0.01 * others);
 
-            const auto level = gnomon::level_with(*floor);
+            const auto level = gnomon::leveling::of(*floor);
             for (std::size_t i = 0; i < points.size(); i += 101) {
                 EXPECT_NEAR(level(points[i]).z(), truth.points[i].z(), 0.01);
             }
@@ -124,24 +124,24 @@ TEST(preprocess, finds_floor_and_ceiling_at_utm_coordinates_and_among_outliers) 
     EXPECT_NEAR(*ceiling, 2.5, 0.01);
 }
 
-TEST(preprocess, level_with_is_a_rotation_nearly_upside_down) {
+TEST(preprocess, leveling_is_a_rotation_nearly_upside_down) {
     for (const double tilt : {1e-3, 1e-5, 1e-7, 1e-9, 1e-12}) {
         const Eigen::Vector3d n(std::sin(tilt) * 0.6, std::sin(tilt) * 0.8, -std::cos(tilt));
-        const auto level = gnomon::level_with({n, 0.0});
+        const auto level = gnomon::leveling::of({n, 0.0});
         const Eigen::Matrix3d gram = level.rotation.transpose() * level.rotation;
         EXPECT_LT((gram - Eigen::Matrix3d::Identity()).norm(), 1e-9);
     }
 }
 
-TEST(preprocess, level_with_is_a_rotation_for_every_floor) {
+TEST(preprocess, leveling_is_a_rotation_for_every_floor) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const gnomon::plane floor{clouds::random_rotation(seed).col(0), 0.7};
-        const auto level = gnomon::level_with(floor);
+        const auto level = gnomon::leveling::of(floor);
         EXPECT_LT((level.rotation * floor.normal - Eigen::Vector3d::UnitZ()).norm(), 1e-12);
         EXPECT_NEAR(level.rotation.determinant(), 1.0, 1e-12);
         EXPECT_NEAR(level(0.7 * floor.normal).z(), 0.0, 1e-12);
     }
-    const auto upside_down = gnomon::level_with({-Eigen::Vector3d::UnitZ(), 0.0});
+    const auto upside_down = gnomon::leveling::of({-Eigen::Vector3d::UnitZ(), 0.0});
     EXPECT_NEAR(upside_down.rotation.determinant(), 1.0, 1e-12);
     EXPECT_NEAR(upside_down({0, 0, -2}).z(), 2.0, 1e-12);
 }

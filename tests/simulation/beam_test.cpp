@@ -112,7 +112,8 @@ TEST(beam, reports_no_range_that_the_scanner_cannot_see) {
     const sim::detail::instrument<wall> read(w, {.sigma = 0.3}, 1.8, 2.1);
     int failed = 0;
     for (std::uint64_t i = 0; i < 2000; ++i) {
-        const auto r = read(ahead, gnomon::random_stream(1, i));
+        gnomon::random_stream random(1, i);
+        const auto r = read(ahead, random);
         if (r.kind == echo::none) {
             ++failed;
             continue;

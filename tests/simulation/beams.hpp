@@ -51,8 +51,10 @@ template <class C>
 auto readings(const C& caster, const sim::beam& b, std::size_t n, double max_range = 10.0) {
     const sim::detail::instrument<C> read(caster, b, 0.0, max_range);
     std::vector<typename sim::detail::instrument<C>::reading> all;
-    for (std::size_t i = 0; i < n; ++i)
-        all.push_back(read(ahead, gnomon::random_stream(b.seed, i)));
+    for (std::size_t i = 0; i < n; ++i) {
+        gnomon::random_stream random(b.seed, i);
+        all.push_back(read(ahead, random));
+    }
     return all;
 }
 

@@ -235,7 +235,7 @@ TEST(simulate, stores_only_readings_with_a_point) {
     std::size_t kept = 0;
     std::size_t room = 0;
     for (const auto& chunk :
-         sim::detail::read_rays(read, {}, 7'200, ray_of, gnomon::sequential{})) {
+         sim::detail::read_rays<sim::bvh_caster>(read, {}, 7'200, ray_of, gnomon::sequential{})) {
         kept += chunk.size();
         room += chunk.capacity();
     }

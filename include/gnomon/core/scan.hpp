@@ -14,14 +14,14 @@
 
 namespace gnomon {
 
-/// One named number per point: an intensity, a label, a component of a true normal.
-struct scalar_field {
-    std::string name;            ///< as in the file
-    std::vector<double> values;  ///< in the order of the points
-};
-
 /// Points with viewpoints and scalar fields; models `point_range` and `has_viewpoints`.
 struct scan {
+    /// One named number per point: an intensity, a label, a component of a true normal.
+    struct scalar_field {
+        std::string name;            ///< as in the file
+        std::vector<double> values;  ///< in the order of the points
+    };
+
     std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return
     viewpoint_table viewpoints;           ///< empty if unknown: the origin
     std::vector<scalar_field> fields;     ///< each as long as `points`

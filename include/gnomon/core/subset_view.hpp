@@ -36,7 +36,7 @@ class subset_view {
           epsilon_(detail::epsilon_of<position_view<R, Proj>>(points)) {
         for (const point_index i : indices)
             detail::require(i < points_.size(), "subset_view: an index is out of range");
-        viewpoints = viewpoints_of(points, indices);
+        viewpoints = detail::viewpoints_of(points, indices);
     }
 
     subset_view(const R&& points, std::span<const point_index> indices, Proj p = {}) = delete;

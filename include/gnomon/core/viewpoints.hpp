@@ -114,24 +114,20 @@ template <indexed_range R>
     }
 }
 
-}  // namespace detail
-
 /// The view points of a range; the empty table (the origin) for a range that knows none.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <detail::indexed_range R>
+template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points) {
-    return detail::with_table_of(points, [](const viewpoint_table& table) { return table; });
+    return with_table_of(points, [](const viewpoint_table& table) { return table; });
 }
 
 /// Those of some of its points; see `viewpoint_table::subset`.
 /// @throws std::invalid_argument  if the table lists view points for another number of points
-template <detail::indexed_range R>
+template <indexed_range R>
 [[nodiscard]] viewpoint_table viewpoints_of(const R& points, std::span<const point_index> indices) {
-    return detail::with_table_of(
-        points, [indices](const viewpoint_table& table) { return table.subset(indices); });
+    return with_table_of(points,
+                         [indices](const viewpoint_table& table) { return table.subset(indices); });
 }
-
-namespace detail {
 
 /// A bare range of points and their view points; refers to the range.
 template <detail::indexed_range R>

@@ -162,7 +162,7 @@ template <class R, class Proj = std::identity>
 void write_ply(const std::string& path, const R& points, const properties& columns = {},
                ply_options options = {}, Proj projection = {}) {
     const position_view<R, Proj> positions(points, std::move(projection));
-    const viewpoint_table viewpoints = viewpoints_of(points);
+    const viewpoint_table viewpoints = gnomon::detail::viewpoints_of(points);
     properties all = columns;
     if (viewpoints.positions().size() > 1) {
         all = {columns, detail::three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"},

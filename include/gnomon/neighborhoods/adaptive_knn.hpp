@@ -22,6 +22,7 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/spectrum.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
@@ -35,9 +36,10 @@ namespace gnomon {
 
 /// What a neighborhood of a certain size looks like.
 struct neighborhood_shape {
-    std::size_t k;              ///< number of neighbors
-    double squared_radius;      ///< of the ball that holds them [m^2]
-    gnomon::spectrum spectrum;  ///< of the neighbors and the point [m^2]
+    std::size_t k;                       ///< number of neighbors
+    double squared_radius;               ///< of the ball that holds them [m^2]
+    gnomon::spectrum spectrum;           ///< of the neighbors and the point [m^2]
+    Eigen::Vector3d ray{0.0, 0.0, 0.0};  ///< from the view point to the point [m]
 };
 
 /// cost(shape) of a neighborhood: the least is taken, and of equals the smallest.
@@ -77,12 +79,13 @@ struct prefer_low_entropy {
 /// noise. After Mitra, Nguyen and Guibas 2004, with the curvature read off the residual instead of
 /// estimated first.
 struct prefer_small_error {
-    double sigma = 0.015;  ///< standard deviation of points across the surface [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor, taken as that across the surface
 
     [[nodiscard]] double operator()(const neighborhood_shape& shape) const {
-        const double noise = 4.0 * sigma * sigma / static_cast<double>(shape.k + 1);
-        const double excess = std::max(0.0, shape.spectrum.lambda[2] - sigma * sigma);
-        return shape.squared_radius > 0.0 ? (noise + excess) / shape.squared_radius
+        const double variance = noise.variance_along(shape.ray);
+        const double turn = 4.0 * variance / static_cast<double>(shape.k + 1);
+        const double excess = std::max(0.0, shape.spectrum.lambda[2] - variance);
+        return shape.squared_radius > 0.0 ? (turn + excess) / shape.squared_radius
                                           : std::numeric_limits<double>::infinity();
     }
 };
@@ -110,7 +113,7 @@ struct adaptive_knn {
     void find(const spatial_index& index, std::size_t i, std::vector<neighbor>& found) const {
         require_valid();
         knn{.k = max_k}.find(index, i, found);
-        found.resize(best_size(index, index[i], found), {});
+        found.resize(best_size(index, i, found), {});
     }
 
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
@@ -121,9 +124,10 @@ struct adaptive_knn {
     }
 
   private:
-    /// The number of neighbors of p of least cost, from the `max_k` nearest.
-    [[nodiscard]] std::size_t best_size(const spatial_index& index, const Eigen::Vector3d& p,
+    /// The number of neighbors of point i of least cost, from the `max_k` nearest.
+    [[nodiscard]] std::size_t best_size(const spatial_index& index, std::size_t i,
                                         const std::vector<neighbor>& found) const {
+        const Eigen::Vector3d p = index[i], ray = detail::difference(p, index.viewpoints[i]);
         moments m;
         std::size_t best = std::min(min_k, found.size());
         double least = std::numeric_limits<double>::infinity();
@@ -136,7 +140,7 @@ struct adaptive_knn {
             if (!detail::has_finite_trace(covariance)) break;
             const double cost = preference(
                 neighborhood_shape{k, found[k - 1].squared_distance,
-                                   spectrum(detail::symmetric_eigen(covariance).values)});
+                                   spectrum(detail::symmetric_eigen(covariance).values), ray});
             if (cost < least) {
                 least = cost;
                 best = k;

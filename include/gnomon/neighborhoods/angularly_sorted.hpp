@@ -94,6 +94,8 @@ struct angularly_sorted {
 template <class N>
 angularly_sorted(N) -> angularly_sorted<N>;
 
+namespace detail {
+
 /// The neighborhoods of a stored graph in angular order, as a new graph. O(k log k) for each.
 /// @throws std::invalid_argument  if graph and points differ in size, or an index is out of range
 template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
@@ -101,17 +103,16 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
 [[nodiscard]] adjacency sort_angularly(const R& points, const G& graph, const X& run = {},
                                        Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "sort_angularly: graph and points differ in size");
-    return detail::collected_graph<true>(
-        p.size(), run, [&](std::size_t i, std::vector<neighbor>& found) {
-            found.clear();
-            for (const point_index j : graph[i]) {
-                detail::require(j < p.size(),
-                                "sort_angularly: an index of the graph is out of range");
-                found.push_back({0.0, j});
-            }
-            return detail::sort_angularly(p, i, found, detail::note_of(graph, i));
-        });
+    require(graph.size() == p.size(), "sort_angularly: graph and points differ in size");
+    return collected_graph<true>(p.size(), run, [&](std::size_t i, std::vector<neighbor>& found) {
+        found.clear();
+        for (const point_index j : graph[i]) {
+            require(j < p.size(), "sort_angularly: an index of the graph is out of range");
+            found.push_back({0.0, j});
+        }
+        return sort_angularly(p, i, found, note_of(graph, i));
+    });
 }
 
+}  // namespace detail
 }  // namespace gnomon

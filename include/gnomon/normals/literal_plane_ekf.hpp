@@ -16,10 +16,11 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/range_of_plane.hpp>
-#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/detail/require_noise.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 
@@ -31,17 +32,17 @@ struct literal_plane_ekf {
     static constexpr auto sensitive_to =
         sensitivity::order | sensitivity::units | sensitivity::axes;
 
-    double sigma = 0.015;          ///< standard deviation of the range [m]
-    int passes = 5;                ///< over all points
-    double prior_variance = 10.0;  ///< Sigma_0 = 10 I
-    std::uint64_t seed = 1;        ///< of the random initial state x_0
+    noise_curve noise = constant_noise{};  ///< of the sensor
+    int passes = 5;                        ///< over all points
+    double prior_variance = 10.0;          ///< Sigma_0 = 10 I
+    std::uint64_t seed = 1;                ///< of the random initial state x_0
 
-    /// @throws std::invalid_argument  unless sigma and prior variance are positive and finite and
-    ///                                there is a pass
+    /// @throws std::invalid_argument  if the noise is 0, unless the prior variance is
+    ///                                positive and finite and there is a pass
     [[nodiscard]] normal_belief<> operator()(const Eigen::Vector3d& p, neighborhood_view neighbors,
                                              const Eigen::Vector3d& viewpoint = {0.0, 0.0,
                                                                                  0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         detail::require(passes >= 1 && prior_variance > 0.0 && std::isfinite(prior_variance),
                         "literal_plane_ekf: needs a pass and a positive prior variance");
         if (neighbors.size() < 2) return {};
@@ -72,9 +73,10 @@ struct literal_plane_ekf {
             const double h = range_of_plane(centroid, x, u);                  // line 5
             const Eigen::Vector3d jacobian = range_gradient(centroid, x, u);  // line 6
             const Eigen::Vector3d ph = product(covariance, jacobian);
-            const double gain = 1.0 / (dot(jacobian, ph) + sigma * sigma);  // line 7: K = gain ph
-            x = combined(1.0, x, (range - h) * gain, ph);                   // line 8
-            add_outer(covariance, -gain, ph, ph);                           // line 9
+            const double variance = noise.variance_along(q);
+            const double gain = 1.0 / (dot(jacobian, ph) + variance);  // line 7: K = gain ph
+            x = combined(1.0, x, (range - h) * gain, ph);              // line 8
+            add_outer(covariance, -gain, ph, ph);                      // line 9
         };
         for (int pass = 0; pass < passes; ++pass) {
             update(seen);

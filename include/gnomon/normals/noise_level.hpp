@@ -26,18 +26,11 @@
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/quantile.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon {
 namespace detail {
-
-/// The element that the given part of the values is less than. Precondition: there are values, and
-/// `part` is under 1.
-[[nodiscard]] double quantile(auto& values, double part) {
-    const auto rank = static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size()));
-    std::nth_element(values.begin(), values.begin() + rank, values.end());
-    return values[static_cast<std::size_t>(rank)];
-}
 
 /// The moments of the first k neighbors about p.
 template <class Points>

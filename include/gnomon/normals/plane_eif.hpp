@@ -10,9 +10,10 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/ray_regression.hpp>
-#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/detail/require_noise.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 #include <gnomon/normals/ray_ls.hpp>
@@ -23,15 +24,15 @@ namespace gnomon {
 /// trust are those of `ray_ls`; `weak` as well where the trace of the covariance is above
 /// 0.1 rad^2.
 struct plane_eif {
-    double sigma = 0.015;  ///< standard deviation of the range [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor
     ray_ls fit = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
                                                     neighborhood_view neighbors,
                                                     const Eigen::Vector3d& viewpoint = {
                                                         0.0, 0.0, 0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         normal_belief<ray_fit> belief;
         if (neighbors.size() < 3) return belief;
         const detail::ray_regression regression = detail::regression_of(p, neighbors, viewpoint);
@@ -39,6 +40,7 @@ struct plane_eif {
         if (!usable(belief.trust)) return belief;
         // n = M / |M|: only the part of the error of M across n rotates n.
         const detail::tangent_basis frame(belief.normal);
+        const double sigma = noise.along(detail::difference(p, viewpoint));
         const double scaled_sigma = sigma / detail::length(regression.solution());
         detail::set_covariance(belief, frame,
                                {regression.covariance(scaled_sigma, frame.b1, frame.b1),

@@ -2,7 +2,7 @@
 /// @file
 /// Kalman filters for normals: `plane_ekf` and `plane_ukf`. The measurements are the ranges of a
 /// point and its neighbors, the state is their common plane, which does not move. The result is a
-/// normal with its covariance, for a known standard deviation of the range.
+/// normal with its covariance, for a sensor of known noise.
 ///
 /// The state has three degrees of freedom: a unit vector, and the distance of the plane from the
 /// centroid of the neighborhood. Neither the length of the normal nor the error of the centroid
@@ -21,10 +21,11 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/normals/detail/range_linearization.hpp>
-#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/detail/require_noise.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 #include <gnomon/normals/plane_fit.hpp>
@@ -39,13 +40,13 @@ template <range_linearization Linearization>
 struct plane_filter {
     static constexpr auto sensitive_to = sensitivity::units;
 
-    double sigma = 0.015;         ///< standard deviation of the range [m]
-    int max_iterations = 10;      ///< of the update; it usually takes three or four
+    noise_curve noise = constant_noise{};  ///< of the sensor
+    int max_iterations = 10;               ///< of the update; it usually takes three or four
     double prior_angle = 1.5;     ///< standard deviation of the prior normal [rad]: uninformative
     double prior_distance = 1.0;  ///< standard deviation of the prior distance [m]: uninformative
 
-    /// @throws std::invalid_argument  unless sigma and the prior's deviations are positive and
-    ///                                finite, and there is an iteration
+    /// @throws std::invalid_argument  if the noise is 0, unless the prior's deviations are
+    ///                                positive and finite, and there is an iteration
     [[nodiscard]] normal_belief<plane_fit> operator()(const Eigen::Vector3d& p,
                                                       neighborhood_view neighbors,
                                                       const Eigen::Vector3d& viewpoint = {
@@ -65,7 +66,7 @@ struct plane_filter {
         plane_state state = prior;
         // The first linearization has no covariance: sigma points this close to each other give
         // the derivative.
-        state.covariance = diagonal(1e-8, 1e-8, 1e-4 * sigma * sigma);
+        state.covariance = diagonal(1e-8, 1e-8, 1e-4 * noise.variance_along(x));
         constexpr double converged_step = 1e-9;  // [rad]
         bool converged = false;
         for (int i = 0; i < max_iterations && !converged; ++i) {
@@ -98,7 +99,7 @@ struct plane_filter {
     };
 
     void require_parameters() const {
-        require_sigma(sigma);
+        require_noise(noise);
         require(max_iterations >= 1, "plane_ekf, plane_ukf: needs an iteration");
         require(prior_angle > 0.0 && std::isfinite(prior_angle) && prior_distance > 0.0 &&
                     std::isfinite(prior_distance),
@@ -125,7 +126,7 @@ struct plane_filter {
         const Eigen::Vector3d u = scaled(1.0 / range, x);
         if (!(std::abs(dot(u, state.frame.normal)) > grazing_cosine)) return;
         const linear_range z = linearize(u);
-        const double precision = 1.0 / (z.variance + sigma * sigma);
+        const double precision = 1.0 / (z.variance + noise.variance_along(x));
         if (!std::isfinite(precision * (z.value + z.slope[0] + z.slope[1] + z.slope[2]))) return;
         add_outer(sum.precision, precision, z.slope, z.slope);
         sum.weighted = combined(1.0, sum.weighted, precision * (range - z.value), z.slope);
@@ -143,8 +144,8 @@ struct plane_filter {
 /// The iterated extended Kalman filter. Models `ray_estimator`. Needs three neighbors. O(k), some
 /// ten times as long as `plane_pca`.
 ///
-/// Parameters: `sigma`, the standard deviation of the range [m]; `max_iterations`; the standard
-/// deviations `prior_angle` [rad] and `prior_distance` [m] of an uninformative prior.
+/// Parameters: the `noise` of the sensor; `max_iterations`; the standard deviations `prior_angle`
+/// [rad] and `prior_distance` [m] of an uninformative prior.
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
 /// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of

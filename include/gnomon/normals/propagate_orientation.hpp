@@ -148,7 +148,7 @@ orientation propagate_orientation(const R& points, const G& graph, Surface& surf
     const auto normal_of = [&](std::size_t i) -> Eigen::Vector3d {
         return detail::scaled(forest.way(i).sign, surface[i].normal);
     };
-    const auto vote = detail::component_facing(p, viewpoints_of(points), normal_of,
+    const auto vote = detail::component_facing(p, detail::viewpoints_of(points), normal_of,
                                                result.component, result.components);
     for (std::size_t i = 0; i < n; ++i) {
         if (result.component[i] < 0) continue;

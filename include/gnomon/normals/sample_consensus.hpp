@@ -23,7 +23,6 @@
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/trust.hpp>
-#include <gnomon/normals/detail/require_sigma.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 
@@ -101,7 +100,8 @@ struct sample_consensus {
     /// @throws std::invalid_argument  unless sigma is positive and finite and there is a trial
     [[nodiscard]] plane_fit operator()(const Eigen::Vector3d& p,
                                        neighborhood_view neighbors) const {
-        require_sigma(sigma);
+        require(sigma > 0.0 && std::isfinite(sigma),
+                "ransac_plane, mlesac_plane: sigma must be positive and finite");
         require(trials >= 1, "ransac_plane, mlesac_plane: needs a trial");
         if (neighbors.size() < 3) return {};
         const std::size_t n = neighbors.size() + 1;

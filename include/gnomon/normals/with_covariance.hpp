@@ -17,9 +17,10 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
-#include <gnomon/normals/detail/require_sigma.hpp>
+#include <gnomon/normals/detail/require_noise.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/normal_belief.hpp>
 
@@ -32,21 +33,21 @@ namespace gnomon {
 /// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
 /// points do not form a plane with this normal. `not_finite` where the view point is not finite.
 ///
-/// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>{.sigma = 0.01}`
+/// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>`
 template <estimator E>
     requires normal_estimate<detail::estimator_result_t<E>>
 struct with_covariance {
     static constexpr auto sensitive_to = detail::sensitivity_of<E>();
 
-    double sigma = 0.015;  ///< standard deviation of the range, along the ray [m]
+    noise_curve noise = constant_noise{};  ///< of the sensor
     E estimate = {};
 
-    /// @throws std::invalid_argument  unless sigma is positive and finite
+    /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<estimate_t<E>> operator()(const Eigen::Vector3d& p,
                                                           neighborhood_view neighbors,
                                                           const Eigen::Vector3d& viewpoint = {
                                                               0.0, 0.0, 0.0}) const {
-        detail::require_sigma(sigma);
+        detail::require_noise(noise);
         normal_belief<estimate_t<E>> belief;
         if constexpr (ray_estimator<E>) {
             static_cast<estimate_t<E>&>(belief) = std::invoke(estimate, p, neighbors, viewpoint);
@@ -96,15 +97,16 @@ struct with_covariance {
         const auto add = [&](const Eigen::Vector3d& q) {
             const Eigen::Vector3d ray = detail::difference(q, viewpoint);
             const double range = detail::length(ray);
-            // e_j is the error of the range times this; a point at the view point has no ray, and
-            // counts as one with the ray along the normal.
+            // e_j is the error of the range times this cosine; a point at the view point has no
+            // ray, and counts as one with the ray along the normal.
             const double cosine = range > 0.0 ? detail::dot(ray, frame.normal) / range : 1.0;
             const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
             const double t1 = cosine * detail::dot(d, frame.b1);
             const double t2 = cosine * detail::dot(d, frame.b2);
-            s11 += t1 * t1;
-            s12 += t1 * t2;
-            s22 += t2 * t2;
+            const double variance = noise.variance_along(ray);
+            s11 += variance * t1 * t1;
+            s12 += variance * t1 * t2;
+            s22 += variance * t2 * t2;
             all_grazing = all_grazing && !(std::abs(cosine) > detail::grazing_cosine);
         };
         add(p);
@@ -119,13 +121,13 @@ struct with_covariance {
         const double r12 = i11 * s12 + i12 * s22;
         const double r22 = i12 * s12 + i22 * s22;
         const double count = static_cast<double>(m.count + 1);
-        const double w = sigma * sigma / (count * count);
+        const double w = 1.0 / (count * count);
         return {w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
                 w * ((i12 * s11 + i22 * s12) * i12 + r22 * i22)};
     }
 };
 
 template <class E>
-with_covariance(double, E) -> with_covariance<E>;
+with_covariance(noise_curve, E) -> with_covariance<E>;
 
 }  // namespace gnomon

@@ -20,15 +20,13 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 
-namespace gnomon {
+namespace gnomon::detail {
 
 /// A point of one segment and one of another, by their numbers in the cloud.
 struct boundary_pair {
     point_index first, second;
     double distance;  ///< [m]
 };
-
-namespace detail {
 
 /// The `count` of some points that are nearest to a place, nearest first; of finite ones only.
 template <class Points>
@@ -114,5 +112,4 @@ template <class Points>
     return least;
 }
 
-}  // namespace detail
-}  // namespace gnomon
+}  // namespace gnomon::detail

@@ -81,7 +81,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
     detail::require_thresholds(options);
-    const viewpoint_table viewpoints = viewpoints_of(points);
+    const viewpoint_table viewpoints = detail::viewpoints_of(points);
     // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {
         const auto distance = [&](const range_image& image) {
@@ -91,7 +91,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
             visible.images().begin(), visible.images().end(),
             [&](const auto& a, const auto& b) { return distance(a) < distance(b); });
     };
-    const auto is_occluded = [&](const boundary_pair& line) {
+    const auto is_occluded = [&](const detail::boundary_pair& line) {
         const auto image = image_of(line.first);
         return image != visible.images().end() && is_finite(viewpoints[line.first]) &&
                is_finite(viewpoints[line.second]) && image == image_of(line.second) &&

@@ -59,7 +59,9 @@ struct merge_occluded_options {
 
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
-    std::vector<boundary_pair> lines;
+    /// Between the nearest boundary points of both: their numbers `first` and `second` in the
+    /// cloud, and their `distance` [m].
+    std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;
 

@@ -57,6 +57,9 @@ struct leveling {
             for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
         return q;
     }
+
+    /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
+    [[nodiscard]] static leveling of(const plane& floor);
 };
 
 namespace detail {
@@ -185,9 +188,7 @@ template <class R, class Proj = std::identity>
     return sum / static_cast<double>(near);
 }
 
-/// The motion that turns the floor's normal to z by the smallest rotation and lays the floor into
-/// z = 0. The points stay untouched: apply it where you need it.
-[[nodiscard]] inline leveling level_with(const plane& floor) {
+inline leveling leveling::of(const plane& floor) {
     const Eigen::Vector3d& n = floor.normal;
     leveling level;
     level.lift = -floor.offset;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Simulates the scan of a scene: the range finder moves along its trajectory, and each beam gives
-/// a reading, each valid reading a point (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene. A range finder moves along its trajectory, and each beam gives a
+/// reading; a depth camera stands still, and each pixel gives one. Each valid reading is a point
+/// (Klasing 2010, Sec. 2.4.3).
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -19,6 +21,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/depth_camera.hpp>
 #include <gnomon/simulation/detail/instrument.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
@@ -42,15 +45,15 @@ struct numbered_reading {
 /// The kept readings of the rays ray_of(0) to ray_of(rays - 1), in chunks in the order of the rays.
 /// Memory is proportional to the kept readings, not to the rays.
 template <ray_caster C, execution X>
-[[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(const instrument<C>& read,
-                                                                      const beam& b,
+[[nodiscard]] std::vector<std::vector<numbered_reading<C>>> read_rays(auto&& read, const beam& b,
                                                                       std::size_t rays,
                                                                       auto&& ray_of, const X& run) {
     std::vector<std::vector<numbered_reading<C>>> chunks(gnomon::detail::chunk_count(rays));
     gnomon::detail::for_each_chunk(run, rays, [&](std::size_t begin, std::size_t end) {
         auto& kept = chunks[begin / gnomon::detail::chunk_size];
         for (std::size_t i = begin; i < end; ++i) {
-            auto reading = read(ray_of(i), random_stream(b.seed, i));
+            random_stream random(b.seed, i);
+            auto reading = read(ray_of(i), random);
             if (reading.kind != echo::none || b.keep_failed) kept.push_back({i, reading});
         }
         kept.shrink_to_fit();
@@ -150,7 +153,7 @@ template <ray_caster C, sensor_trajectory T, execution X = sequential>
         return ray{sensor.position, sensor.direction_out(fan[i % beams])};
     };
 
-    const auto readings = detail::read_rays(read, b, lines * beams, ray_of, run);
+    const auto readings = detail::read_rays<C>(read, b, lines * beams, ray_of, run);
     true_scan result = detail::points_of(readings, world, ray_of);
     if (moves) {
         std::vector<point_index> line_of_point;
@@ -172,6 +175,54 @@ template <sensor_trajectory T, execution X = sequential>
                                  const scanner& finder = {}, const beam& b = {},
                                  const X& run = {}) {
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
+}
+
+/// Simulates the image of a depth camera, row by row, with the given ray caster. Errors of the beam
+/// come before those of the camera; `{.footprint = camera.pixel()}` gives pixels their width.
+///
+/// The same seed gives the same bytes for every execution.
+/// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint.
+///
+/// @param world   source of the ground truth. Precondition: `caster` was built from it
+/// @param sensor  the pose of the camera
+/// @return the points of all readings that did not fail, with one view point; with keep_failed also
+///         of those that did
+/// @throws std::invalid_argument  if camera or beam are not valid, the pose is no rigid motion, or
+///                                the caster reports a surface that `world` does not have
+template <ray_caster C, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const C& caster, const pose& sensor,
+                                 const depth_camera& camera, const beam& b = {},
+                                 const X& run = {}) {
+    camera.require_valid();
+    gnomon::detail::require(is_rigid(sensor), "simulate: the pose is no rigid motion");
+    const auto ray_of = [&](std::size_t pixel) {
+        return ray{sensor.position, sensor.direction_out(camera.direction(pixel))};
+    };
+    const detail::instrument<C> read(caster, b, 0.0, camera.max_range());
+    const Eigen::Vector3d axis = sensor.direction_out({1.0, 0.0, 0.0});
+    const auto read_depth = [&](const ray& r, random_stream& random) {
+        auto reading = read(r, random);
+        if (reading.kind == echo::none) return reading;
+        const double cosine = axis.dot(r.direction), z = reading.range * cosine;
+        const double noisy = camera.reported(z + camera.noise(z) * random.gaussian());
+        if (camera.sees(z) && camera.sees(noisy)) {
+            reading.range = noisy / cosine;
+        } else {
+            reading = {echo::none, camera.max_range(), std::nullopt};
+        }
+        return reading;
+    };
+    const auto readings = detail::read_rays<C>(read_depth, b, camera.pixels(), ray_of, run);
+    true_scan result = detail::points_of(readings, world, ray_of);
+    result.scan.viewpoints = sensor.position;
+    return result;
+}
+
+/// Simulates the image of a depth camera, as above, with a `bvh_caster`.
+template <execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const pose& sensor, const depth_camera& camera,
+                                 const beam& b = {}, const X& run = {}) {
+    return simulate(world, bvh_caster(world), sensor, camera, b, run);
 }
 
 }  // namespace gnomon::simulation

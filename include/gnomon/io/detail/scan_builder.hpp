@@ -46,7 +46,7 @@ class scan_builder {
     /// large enough to hold them.
     void reserve(std::size_t points) {
         result_.points.reserve(points);
-        for (scalar_field& field : result_.fields) field.values.reserve(points);
+        for (scan::scalar_field& field : result_.fields) field.values.reserve(points);
     }
 
     /// Adds a point.

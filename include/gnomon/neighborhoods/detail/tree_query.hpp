@@ -99,6 +99,9 @@ class tree_query {
 
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
+        if constexpr (requires { metric_.lower_bound(at_, box); }) {
+            return metric_.lower_bound(at_, box);
+        }
         std::array<double, 3> gap;
         for (std::size_t a = 0; a < 3; ++a)
             gap[a] = std::max({box.low[a] - at_[a], at_[a] - box.high[a], 0.0});

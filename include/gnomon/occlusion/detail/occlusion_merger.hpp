@@ -63,7 +63,10 @@ class occlusion_merger {
             const std::int32_t label = parts.labels()[known[f].members.front()];
             if (label == unlabeled) continue;
             const auto s = static_cast<std::size_t>(label);
-            if (std::ranges::equal(known[f].members, parts[s])) known_of[s] = f;
+            // (Not by std::ranges::equal, whose concepts all users would compile.)
+            const auto& before = known[f].members;
+            const auto now = parts[s];
+            if (std::equal(before.begin(), before.end(), now.begin(), now.end())) known_of[s] = f;
         }
         scratch<std::size_t> begin(parts.size(), 0);
         for (std::size_t s = 1; s < parts.size(); ++s)

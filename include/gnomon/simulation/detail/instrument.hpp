@@ -44,7 +44,7 @@ class instrument {
         std::optional<ray_hit> hit;
     };
 
-    [[nodiscard]] reading operator()(ray r, random_stream random) const {
+    [[nodiscard]] reading operator()(ray r, random_stream& random) const {
         r.reach = max_range_;
         const double chance = random.uniform();
         if (chance < beam_.clutter)

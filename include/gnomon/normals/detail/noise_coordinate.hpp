@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What noise is a function of: the range, as for range finders, or the depth along an optical
+/// axis, as for cameras.
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/normals/detail/noise_fit.hpp>
+#include <gnomon/normals/detail/residual_sampler.hpp>
+
+namespace gnomon::detail {
+
+/// What noise is a function of: the range, or the depth along an optical axis.
+struct noise_coordinate {
+    Eigen::Vector3d axis{0.0, 0.0, 0.0};  ///< of length 1; 0 for the range
+
+    /// 1 for the range; else the cosine between ray and axis.
+    [[nodiscard]] double cosine(const Eigen::Vector3d& ray) const {
+        return dot(axis, axis) > 0.0 ? std::abs(dot(ray, axis)) / length(ray) : 1.0;
+    }
+    /// How much the coordinate changes along a plane, for each metre across the ray.
+    [[nodiscard]] double slope(const sampled_plane& s) const {
+        const Eigen::Vector3d way = dot(axis, axis) > 0.0 ? axis : direction_of(s.ray);
+        const double c = dot(s.normal, way);
+        return std::sqrt(std::max(0.0, 1.0 - c * c)) / std::abs(c);
+    }
+    /// The range, or the depth, of the point at the end of a ray [m].
+    [[nodiscard]] double operator()(const Eigen::Vector3d& ray) const {
+        return length(ray) * cosine(ray);
+    }
+};
+
+/// The residuals of planes as errors of a coordinate. Of quantised readings, those of planes that
+/// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
+/// out: there the errors of rounding are not independent of each other.
+[[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,
+                                                          const noise_coordinate& coordinate,
+                                                          const even_quartic& quantized,
+                                                          double crossed) {
+    constexpr double exact = 0.25;
+    std::vector<residual_variance> residuals;
+    for (const sampled_plane& s : planes) {
+        if (dot(s.normal, s.normal) == 0.0) continue;
+        const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;
+        const double span = 2.0 * s.radius * coordinate.slope(s);
+        const double value = s.variance * cosine * cosine;
+        if (span * span >= crossed * crossed * 12.0 * quantized(x) && value >= exact * quantized(x))
+            residuals.push_back({x, value});
+    }
+    return residuals;
+}
+
+/// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
+/// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
+[[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
+    Eigen::Vector3d axis(0.0, 0.0, 0.0);
+    const auto farthest = [&] {
+        const Eigen::Vector3d* ray = nullptr;
+        double least = 2.0;
+        for (const sampled_plane& s : planes) {
+            const double cosine = dot(s.ray, axis) / length(s.ray);
+            if (cosine < least) least = cosine, ray = &s.ray;
+        }
+        return std::pair(ray, least);
+    };
+    constexpr int steps = 100;  // to about a degree
+    for (int i = 1; i <= steps; ++i) {
+        const auto [ray, cosine] = farthest();
+        if (ray == nullptr) return axis;
+        axis = combined(1.0 - 1.0 / i, axis, 1.0 / (i * length(*ray)), *ray);
+        if (!has_length(axis)) return {0.0, 0.0, 0.0};
+        axis = direction_of(axis);
+    }
+    return farthest().second > std::cos(0.785) ? axis : Eigen::Vector3d(0.0, 0.0, 0.0);
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Residuals of local planes along the rays: what `measure_noise` reads the noise from.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/detail/ray_metric.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/normals/detail/ray_regression.hpp>
+
+namespace gnomon::detail {
+
+/// A plane through the neighborhood of a point, fit along the rays.
+struct sampled_plane {
+    Eigen::Vector3d ray;     ///< from the view point to the point [m]
+    Eigen::Vector3d normal;  ///< of length 1; 0 if there is no plane
+    double variance = 0.0;   ///< of the residuals along the rays [m^2]
+    double radius = 0.0;     ///< of the neighborhood, across the ray [m]
+};
+
+/// Fits planes to some of the points of an index. (A template, so that only code that measures
+/// noise compiles it.)
+template <class Index>
+class residual_sampler {
+  public:
+    /// Of `samples` finite points, spread evenly over their order.
+    residual_sampler(const Index& index, std::size_t samples) : index_(&index) {
+        std::vector<point_index> finite;
+        finite.reserve(index.finite());
+        for (std::size_t i = 0; i < index.size(); ++i)
+            if (index.is_finite(i)) finite.push_back(static_cast<point_index>(i));
+        const std::size_t n = std::min(samples, finite.size());
+        for (std::size_t s = 0; s < n; ++s) chosen_.push_back(finite[s * finite.size() / n]);
+    }
+
+    /// The planes of the points with their 16 neighbors nearest to the segment of the ray, of
+    /// half_length(ray) [m] to either side.
+    [[nodiscard]] std::vector<sampled_plane> operator()(const execution auto& run,
+                                                        auto&& half_length) const {
+        std::vector<sampled_plane> planes(chosen_.size());
+        for_each_chunk(run, chosen_.size(), [&](std::size_t first, std::size_t last) {
+            std::vector<neighbor> found;
+            for (std::size_t s = first; s < last; ++s)
+                planes[s] = plane_at(chosen_[s], half_length, found);
+        });
+        return planes;
+    }
+
+    static constexpr std::size_t neighbors = 16;
+
+  private:
+    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
+                                         std::vector<neighbor>& found) const {
+        const Eigen::Vector3d p = (*index_)[i];
+        const Eigen::Vector3d viewpoint = index_->viewpoints[i];
+        sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
+        const double range = length(plane.ray);
+        if (!(range > 0.0 && std::isfinite(range))) return plane;
+        search_tree(index_->tree(), p, {.k = neighbors, .except = i}, found,
+                    ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
+        if (found.size() < neighbors) return plane;
+        ray_regression regression(plane.ray);
+        for (const neighbor& q : found) regression.add(difference((*index_)[q.index], p));
+        regression.solve();
+        if (!usable(regression.status())) return plane;
+        const Eigen::Vector3d m = regression.solution();  // the plane m . x = range
+        double sum = squared_residual(m, range, plane.ray, plane.ray);
+        for (const neighbor& q : found) {
+            const Eigen::Vector3d x = (*index_)[q.index];
+            sum += squared_residual(m, range, difference(x, viewpoint),
+                                    difference(x, index_->viewpoints[q.index]));
+        }
+        constexpr double freedom = neighbors + 1 - 3;  // less the parameters of a plane
+        if (!std::isfinite(sum)) return plane;
+        plane.normal = direction_of(m);
+        plane.variance = sum / freedom;
+        for (const neighbor& q : found)
+            plane.radius =
+                std::max(plane.radius, across(difference((*index_)[q.index], p), plane.ray));
+        return plane;
+    }
+
+    /// The length of d across a ray.
+    [[nodiscard]] static double across(const Eigen::Vector3d& d, const Eigen::Vector3d& ray) {
+        return length(cross(d, ray)) / length(ray);
+    }
+
+    /// The square of how far, along its own ray, the point x is off the plane m . x = d.
+    [[nodiscard]] static double squared_residual(const Eigen::Vector3d& m, double d,
+                                                 const Eigen::Vector3d& x,
+                                                 const Eigen::Vector3d& ray) {
+        const double e = (dot(m, x) - d) * length(ray) / dot(m, ray);
+        return e * e;
+    }
+
+    const Index* index_;
+    std::vector<point_index> chosen_;
+};
+
+}  // namespace gnomon::detail
