@@ -155,7 +155,7 @@ TEST(measure_noise, has_an_answer_for_every_cloud) {
     doubled.insert(doubled.end(), doubled.begin(), doubled.end());
     all.push_back({"all points twice", doubled});
     all.push_back({"on a line", clouds::cloud()});
-    for (int i = 0; i < 2000; ++i) all.back().second.emplace_back(0.01 * i, 1.0, 0.5);
+    for (int i = 0; i < 2000; ++i) all.back().points.emplace_back(0.01 * i, 1.0, 0.5);
     for (const auto& [name, points] : all) {
         SCOPED_TRACE(name);
         for (const Eigen::Vector3d& viewpoint :
