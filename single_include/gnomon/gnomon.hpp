@@ -756,7 +756,7 @@ namespace noises {
 ///
 /// The variance is a polynomial of the range of degree 4, exact for constant and quadratic
 /// standard deviations and for sums of independent sources, or a table for any other model.
-/// Quantisation is a lower bound: readings in steps err by step / sqrt(12) at least.
+/// Quantization is a lower bound: readings in steps err by step / sqrt(12) at least.
 
 namespace gnomon {
 
@@ -828,7 +828,7 @@ class noise_curve {
     [[nodiscard]] bool is_of_depth() const { return is_of_depth_; }
     /// The optical axis, of length 1; 0 where x is the range.
     [[nodiscard]] Eigen::Vector3d axis() const { return {axis_[0], axis_[1], axis_[2]}; }
-    /// The step of readings at x [m]; 0 where they are not quantised.
+    /// The step of readings at x [m]; 0 where they are not quantized.
     [[nodiscard]] double step(double x) const {
         return std::sqrt(12.0 * std::max(0.0, value(quantization_, x)));
     }
@@ -2473,7 +2473,7 @@ enum class tie_rule : bool {
     /// All of them, up to 2 k neighbors in total; distances are equal if their squares differ by
     /// less than 1e-9 of their value. The result then depends neither on the order of the points
     /// nor on a rigid motion of the cloud, except for the rounding of the moved coordinates. Clouds
-    /// of depth cameras, whose ranges are quantised, have many ties.
+    /// of depth cameras, whose ranges are quantized, have many ties.
     all
 };
 
@@ -8489,7 +8489,7 @@ struct noise_coordinate {
     }
 };
 
-/// The residuals of planes as errors of a coordinate. Of quantised readings, those of planes that
+/// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
 [[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,
@@ -8538,18 +8538,18 @@ struct noise_coordinate {
 // -------- gnomon/normals/detail/quantization.hpp -------------------------------------------------
 
 /// @file
-/// Quantised readings: the coordinate that takes few distinct values (the range, or the depth along
+/// Quantized readings: the coordinate that takes few distinct values (the range, or the depth along
 /// the optical axis of a camera), and the step between them.
 
 namespace gnomon::detail {
 
-/// The quantisation of a sensor.
+/// The quantization of a sensor.
 struct quantization {
     bool found = false;
     even_quartic variance = {};  ///< of the rounding to a step: step^2 / 12 [m^2]
 };
 
-/// The optical axis of a camera whose depth is quantised: where a whole neighborhood has one depth,
+/// The optical axis of a camera whose depth is quantized: where a whole neighborhood has one depth,
 /// its plane has no residuals and faces the camera. 0 if there is none.
 [[nodiscard]] Eigen::Vector3d axis_of_exact_planes(const auto& planes) {
     constexpr double exact = 1e-12;  // of the squared range: single precision rounds by 4e-15
@@ -8577,7 +8577,7 @@ struct quantization {
     return axis;
 }
 
-/// The quantisation of readings. Sorts them.
+/// The quantization of readings. Sorts them.
 [[nodiscard]] quantization quantization_of(auto& readings) {
     constexpr double distinct = 3e-6;      // relative; single precision rounds by 6e-8
     constexpr std::size_t per_value = 20;  // readings to each distinct value, at least
@@ -8720,7 +8720,7 @@ class sorted_directions {
 /// most scans are planes. Their residuals are noise, if neighbors are not chosen by their noise:
 /// they are those nearest to the segment of the ray, 4 standard deviations to either side, which is
 /// found by iteration. A trimmed variance leaves edges and bends out, and one model A + B x^2 +
-/// C x^4 of the variance joins all ranges, as at some of them there are few planes. Quantised
+/// C x^4 of the variance joins all ranges, as at some of them there are few planes. Quantized
 /// readings are noticed; their noise is at least step / sqrt(12).
 
 namespace gnomon {
@@ -8770,14 +8770,14 @@ class noise_meter {
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
 
-    /// The noise where too few planes are seen: at least that of quantisation is known.
+    /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {
         if (!is_quantized_) return {{}, too_little_flat};
         fit_ = {quantized_};
         return {curve(), {}};
     }
 
-    /// Determines whether the readings are quantised, and which coordinate.
+    /// Determines whether the readings are quantized, and which coordinate.
     void find_quantization(std::span<const sampled_plane> planes) {
         const noise_coordinate depth{axis_of_exact_planes(planes)};
         for (const noise_coordinate& candidate : {depth, noise_coordinate{}}) {
@@ -14304,7 +14304,7 @@ class range_image {
         detail::scratch<sight> visible;
         visible.reserve(p.size());
         for (std::size_t i = 0; i < p.size(); ++i) add(visible, p[i], i);
-        show(visible, format);
+        show(visible, p, format);
     }
 
     /// The image of some points of a cloud: what it shows has its index in the whole of it.
@@ -14322,7 +14322,7 @@ class range_image {
             detail::require(i < p.size(), "range_image: an index is out of range");
             add(visible, p[i], i);
         }
-        show(visible, format);
+        show(visible, p, format);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -14366,9 +14366,10 @@ class range_image {
 
     /// A point that is seen.
     struct sight {
-        Eigen::Vector3d offset;  // from the view point [m]
         view what;
-        pixel at = {};
+        std::uint32_t azimuth = 0, elevation = 0;  // its pixel
+
+        [[nodiscard]] pixel at() const { return {azimuth, elevation}; }
     };
 
     range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
@@ -14386,19 +14387,21 @@ class range_image {
     void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         if (detail::has_length(d))
-            visible.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
+            visible.push_back({{detail::length(d), static_cast<point_index>(i)}});
     }
 
-    void show(auto& visible, const range_image_options& format) {
-        const auto offset_of = [](const sight& s) -> const Eigen::Vector3d& { return s.offset; };
+    void show(auto& visible, const auto& points, const range_image_options& format) {
+        const auto offset_of = [&](const sight& s) {
+            return detail::difference(points[s.what.index], viewpoint_);
+        };
         axes_ = detail::image_axes::with_pole(
             format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
-        project(visible);
+        project(visible, offset_of);
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
         for (const sight& s : visible) {
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
+            lowest = std::min<std::size_t>(lowest, s.elevation);
+            highest = std::max<std::size_t>(highest, s.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -14428,20 +14431,20 @@ class range_image {
         is_sparse_ = pixels / few > visible.size();
         if (is_sparse_) {
             const auto key = [this](const sight& s) {
-                return std::tuple(place_of(s.at), s.what.range, s.what.index);
+                return std::tuple(place_of(s.at()), s.what.range, s.what.index);
             };
             std::sort(visible.begin(), visible.end(),
                       [&](const sight& a, const sight& b) { return key(a) < key(b); });
             for (const sight& s : visible) {
-                if (!taken_.empty() && taken_.back() == place_of(s.at)) continue;
-                taken_.push_back(place_of(s.at));
+                if (!taken_.empty() && taken_.back() == place_of(s.at())) continue;
+                taken_.push_back(place_of(s.at()));
                 seen_.push_back(s.what);
             }
             return;
         }
         seen_.resize(pixels);
         for (const sight& s : visible) {
-            view& v = seen_[place_of(s.at)];
+            view& v = seen_[place_of(s.at())];
             if (v.range < 0.0 || s.what.range < v.range) v = s.what;
         }
     }
@@ -14451,14 +14454,17 @@ class range_image {
     }
 
     /// Determines the pixel of each.
-    void project(auto& visible) const {
+    void project(auto& visible, const auto& offset_of) const {
         std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < visible.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), visible.size() - s);
             for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = visible[s + std::min(l, count - 1)].offset;
+                to[l] = offset_of(visible[s + std::min(l, count - 1)]);
             const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < count; ++l) visible[s + l].at = at[l];
+            for (std::size_t l = 0; l < count; ++l) {
+                visible[s + l].azimuth = static_cast<std::uint32_t>(at[l].azimuth);
+                visible[s + l].elevation = static_cast<std::uint32_t>(at[l].elevation);
+            }
         }
     }
 
@@ -15139,6 +15145,43 @@ namespace detail {
     return random_stream(static_cast<std::uint64_t>(all)).bits();
 }
 
+/// Which seeds a direction may be near to, by cubes.
+class cubes_of_seeds {
+  public:
+    /// @param reach  how far away rays are near [rad]
+    explicit cubes_of_seeds(double reach) : reach_(reach + 1e-9) {}
+
+    /// Adds seed number s, of up to 32, to all cubes with directions in its reach.
+    void add(std::size_t s, const Eigen::Vector3d& d) {
+        std::array<std::size_t, 3> low{}, high{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double at = d[static_cast<int>(a)];
+            low[a] = place(std::max(-1.0, at - reach_));
+            high[a] = place(std::min(1.0, at + reach_));
+        }
+        for (std::size_t x = low[0]; x <= high[0]; ++x)
+            for (std::size_t y = low[1]; y <= high[1]; ++y)
+                for (std::size_t z = low[2]; z <= high[2]; ++z)
+                    seeds_[(x * side + y) * side + z] |= 1U << s;
+    }
+
+    /// One bit for each seed.
+    [[nodiscard]] std::uint32_t seeds_near(const Eigen::Vector3d& d) const {
+        return seeds_[(place(d[0]) * side + place(d[1])) * side + place(d[2])];
+    }
+
+  private:
+    static constexpr std::size_t side = 21;  // cubes (performance only)
+
+    /// Of a coordinate from -1 to 1, with a margin for rounding.
+    [[nodiscard]] static std::size_t place(double x) {
+        return static_cast<std::size_t>((x + 1.05) * 10.0);
+    }
+
+    double reach_;
+    scratch<std::uint32_t> seeds_ = scratch<std::uint32_t>(side * side * side, 0);
+};
+
 /// See ray_spacing: one run over a cloud.
 template <class Points>
 class rays_of_cloud {
@@ -15158,11 +15201,26 @@ class rays_of_cloud {
     [[nodiscard]] angle spacing() const {
         if (directions_.empty()) return radians(most);
         scratch<double> squared;
-        for (scratch<double>& near : near_seeds(drawn())) {
-            squared.push_back(reach2);
-            if (near.size() <= neighbors) continue;
+        const auto add = [&squared](scratch<double>& near) {
             std::nth_element(near.begin(), near.begin() + neighbors, near.end());
-            squared.back() = near[neighbors];
+            squared.push_back(near[neighbors]);
+        };
+        // Most seeds have enough rays nearby; those of the others are looked for farther away.
+        const scratch<std::size_t> seeds = drawn();
+        scratch<scratch<double>> found = near_seeds(seeds, reach2 / 16.0);
+        scratch<std::size_t> others;
+        for (std::size_t s = 0; s < seeds.size(); ++s) {
+            if (found[s].size() > neighbors)
+                add(found[s]);
+            else
+                others.push_back(seeds[s]);
+        }
+        if (!others.empty()) found = near_seeds(others, reach2);
+        for (std::size_t s = 0; s < others.size(); ++s) {
+            if (found[s].size() > neighbors)
+                add(found[s]);
+            else
+                squared.push_back(reach2);
         }
         const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 3 / 4);
         std::nth_element(squared.begin(), at, squared.end());
@@ -15172,10 +15230,8 @@ class rays_of_cloud {
   private:
     static constexpr std::size_t neighbors = 16, seed_count = 32;
     static constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
-    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
-    static constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
-    static_assert(reach2 < size * size);
+    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart.
+    static constexpr double reach2 = most * most * neighbors / std::numbers::pi;
 
     /// Some of the rays, of different directions, drawn by their numbers: the same in whatever
     /// order the points are stored, which may well be as regular as any other way to draw them.
@@ -15200,13 +15256,10 @@ class rays_of_cloud {
     }
 
     /// The squares of the angles [rad^2] from each seed to the rays near it, as chords.
-    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen) const {
-        constexpr int cubes = 13;  // along a side, with one more at both ends
-        scratch<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
-        const auto cube_of = [](const Eigen::Vector3d& d) {
-            const auto place = [&d](int a) { return static_cast<int>(d[a] / size + 6.5); };
-            return static_cast<std::size_t>((place(0) * cubes + place(1)) * cubes + place(2));
-        };
+    /// @param within  the largest of them
+    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen,
+                                                      double within) const {
+        cubes_of_seeds about(std::sqrt(within));
         // From where the point of a seed is seen in nearly the same direction, rays count: stations
         // apart do not see more finely by being many, the lines of a moving sensor do.
         struct seed {
@@ -15219,19 +15272,16 @@ class rays_of_cloud {
             const Eigen::Vector3d origin = viewpoints_[i];
             seeds.push_back({directions_[chosen[s]], origin,
                              most * most * squared_distance(origin, points_[i])});
-            for (int c = 0; c < 27; ++c) {
-                const int way = ((c / 9 - 1) * cubes + c / 3 % 3 - 1) * cubes + c % 3 - 1;
-                seeds_about[cube_of(seeds[s].direction) + static_cast<std::size_t>(way)] |= 1U << s;
-            }
+            about.add(s, seeds[s].direction);
         }
         const bool is_still = viewpoints_.positions().size() <= 1;
         scratch<scratch<double>> near(chosen.size());
         for (std::size_t r = 0; r < directions_.size(); ++r) {
             const Eigen::Vector3d& d = directions_[r];
-            for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
+            for (std::uint32_t left = about.seeds_near(d); left != 0; left &= left - 1) {
                 const auto s = static_cast<std::size_t>(std::countr_zero(left));
                 const double squared = squared_distance(seeds[s].direction, d);
-                if (squared < reach2 &&
+                if (squared < within &&
                     (is_still ||
                      squared_distance(seeds[s].origin, viewpoints_[point_[r]]) <= seeds[s].apart2))
                     near[s].push_back(squared);

@@ -36,7 +36,7 @@ TEST(neighbor_order, is_canonical) {
     const std::vector<std::pair<std::string, std::function<double(double)>>> models{
         {"even", [](double u) { return u; }},
         {"equal", [](double) { return 0.25; }},
-        {"quantised", [](double u) { return std::floor(9 * u) / 9; }},
+        {"quantized", [](double u) { return std::floor(9 * u) / 9; }},
         {"differ in the last places", [](double u) { return 1 + 1e-15 * std::floor(9 * u); }},
         {"differ in the last places of floats", [](double u) { return 1 + 1e-6 * u; }},
         {"over all decades", [](double u) { return std::pow(10.0, 600 * u - 300); }},

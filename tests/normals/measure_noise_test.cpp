@@ -80,7 +80,7 @@ TEST(measure_noise, finds_that_of_a_depth_camera) {
 }
 
 /// Where steps are longer than the noise, it is step / sqrt(12).
-TEST(measure_noise, finds_the_steps_of_a_quantised_camera) {
+TEST(measure_noise, finds_the_steps_of_a_quantized_camera) {
     sim::depth_camera camera{.focal_length = 575.0, .baseline = 0.075, .disparity_step = 0.125};
     for (const double c : {0.0, 0.0003}) {
         camera.noise = gnomon::quadratic_noise{0.0, 0.0, c};

@@ -143,7 +143,7 @@ TEST_F(real_scans, partition_survives_permutation_translation_and_rotation) {
 
 /// Depth cameras quantise, and ties at the k-th place fall to one point or another. With all ties
 /// taken in, the partition stays the same; by the index it only nearly does.
-TEST_F(real_scans, partition_of_quantised_scans_survives_with_all_ties) {
+TEST_F(real_scans, partition_of_quantized_scans_survives_with_all_ties) {
     for (const char* name : {"scans/box_caixa.ply", "scans/pcl_office1_kinect.pcd"}) {
         SCOPED_TRACE(name);
         const auto [shuffled, shifted, turned] =

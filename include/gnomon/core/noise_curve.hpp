@@ -9,7 +9,7 @@
 ///
 /// The variance is a polynomial of the range of degree 4, exact for constant and quadratic
 /// standard deviations and for sums of independent sources, or a table for any other model.
-/// Quantisation is a lower bound: readings in steps err by step / sqrt(12) at least.
+/// Quantization is a lower bound: readings in steps err by step / sqrt(12) at least.
 #pragma once
 
 #include <algorithm>
@@ -95,7 +95,7 @@ class noise_curve {
     [[nodiscard]] bool is_of_depth() const { return is_of_depth_; }
     /// The optical axis, of length 1; 0 where x is the range.
     [[nodiscard]] Eigen::Vector3d axis() const { return {axis_[0], axis_[1], axis_[2]}; }
-    /// The step of readings at x [m]; 0 where they are not quantised.
+    /// The step of readings at x [m]; 0 where they are not quantized.
     [[nodiscard]] double step(double x) const {
         return std::sqrt(12.0 * std::max(0.0, value(quantization_, x)));
     }

@@ -26,7 +26,7 @@ enum class tie_rule : bool {
     /// All of them, up to 2 k neighbors in total; distances are equal if their squares differ by
     /// less than 1e-9 of their value. The result then depends neither on the order of the points
     /// nor on a rigid motion of the cloud, except for the rounding of the moved coordinates. Clouds
-    /// of depth cameras, whose ranges are quantised, have many ties.
+    /// of depth cameras, whose ranges are quantized, have many ties.
     all
 };
 

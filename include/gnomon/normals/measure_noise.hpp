@@ -11,7 +11,7 @@
 /// most scans are planes. Their residuals are noise, if neighbors are not chosen by their noise:
 /// they are those nearest to the segment of the ray, 4 standard deviations to either side, which is
 /// found by iteration. A trimmed variance leaves edges and bends out, and one model A + B x^2 +
-/// C x^4 of the variance joins all ranges, as at some of them there are few planes. Quantised
+/// C x^4 of the variance joins all ranges, as at some of them there are few planes. Quantized
 /// readings are noticed; their noise is at least step / sqrt(12).
 #pragma once
 
@@ -19,6 +19,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -83,14 +84,14 @@ class noise_meter {
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
 
-    /// The noise where too few planes are seen: at least that of quantisation is known.
+    /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {
         if (!is_quantized_) return {{}, too_little_flat};
         fit_ = {quantized_};
         return {curve(), {}};
     }
 
-    /// Determines whether the readings are quantised, and which coordinate.
+    /// Determines whether the readings are quantized, and which coordinate.
     void find_quantization(std::span<const sampled_plane> planes) {
         const noise_coordinate depth{axis_of_exact_planes(planes)};
         for (const noise_coordinate& candidate : {depth, noise_coordinate{}}) {

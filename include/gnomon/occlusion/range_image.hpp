@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <numbers>
 #include <optional>
@@ -63,7 +64,7 @@ class range_image {
         detail::scratch<sight> visible;
         visible.reserve(p.size());
         for (std::size_t i = 0; i < p.size(); ++i) add(visible, p[i], i);
-        show(visible, format);
+        show(visible, p, format);
     }
 
     /// The image of some points of a cloud: what it shows has its index in the whole of it.
@@ -81,7 +82,7 @@ class range_image {
             detail::require(i < p.size(), "range_image: an index is out of range");
             add(visible, p[i], i);
         }
-        show(visible, format);
+        show(visible, p, format);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -125,9 +126,10 @@ class range_image {
 
     /// A point that is seen.
     struct sight {
-        Eigen::Vector3d offset;  // from the view point [m]
         view what;
-        pixel at = {};
+        std::uint32_t azimuth = 0, elevation = 0;  // its pixel
+
+        [[nodiscard]] pixel at() const { return {azimuth, elevation}; }
     };
 
     range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
@@ -145,19 +147,21 @@ class range_image {
     void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
         if (detail::has_length(d))
-            visible.push_back({d, {detail::length(d), static_cast<point_index>(i)}});
+            visible.push_back({{detail::length(d), static_cast<point_index>(i)}});
     }
 
-    void show(auto& visible, const range_image_options& format) {
-        const auto offset_of = [](const sight& s) -> const Eigen::Vector3d& { return s.offset; };
+    void show(auto& visible, const auto& points, const range_image_options& format) {
+        const auto offset_of = [&](const sight& s) {
+            return detail::difference(points[s.what.index], viewpoint_);
+        };
         axes_ = detail::image_axes::with_pole(
             format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
-        project(visible);
+        project(visible, offset_of);
         // Only rows in which something is seen are kept, for scan lines a single one.
         std::size_t lowest = height_, highest = 0;
         for (const sight& s : visible) {
-            lowest = std::min(lowest, s.at.elevation);
-            highest = std::max(highest, s.at.elevation);
+            lowest = std::min<std::size_t>(lowest, s.elevation);
+            highest = std::max<std::size_t>(highest, s.elevation);
         }
         first_row_ = lowest;
         const auto sine_of_row = [this](double row) {
@@ -187,20 +191,20 @@ class range_image {
         is_sparse_ = pixels / few > visible.size();
         if (is_sparse_) {
             const auto key = [this](const sight& s) {
-                return std::tuple(place_of(s.at), s.what.range, s.what.index);
+                return std::tuple(place_of(s.at()), s.what.range, s.what.index);
             };
             std::sort(visible.begin(), visible.end(),
                       [&](const sight& a, const sight& b) { return key(a) < key(b); });
             for (const sight& s : visible) {
-                if (!taken_.empty() && taken_.back() == place_of(s.at)) continue;
-                taken_.push_back(place_of(s.at));
+                if (!taken_.empty() && taken_.back() == place_of(s.at())) continue;
+                taken_.push_back(place_of(s.at()));
                 seen_.push_back(s.what);
             }
             return;
         }
         seen_.resize(pixels);
         for (const sight& s : visible) {
-            view& v = seen_[place_of(s.at)];
+            view& v = seen_[place_of(s.at())];
             if (v.range < 0.0 || s.what.range < v.range) v = s.what;
         }
     }
@@ -210,14 +214,17 @@ class range_image {
     }
 
     /// Determines the pixel of each.
-    void project(auto& visible) const {
+    void project(auto& visible, const auto& offset_of) const {
         std::array<Eigen::Vector3d, detail::pack::size> to;
         for (std::size_t s = 0; s < visible.size(); s += to.size()) {
             const std::size_t count = std::min(to.size(), visible.size() - s);
             for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = visible[s + std::min(l, count - 1)].offset;
+                to[l] = offset_of(visible[s + std::min(l, count - 1)]);
             const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < count; ++l) visible[s + l].at = at[l];
+            for (std::size_t l = 0; l < count; ++l) {
+                visible[s + l].azimuth = static_cast<std::uint32_t>(at[l].azimuth);
+                visible[s + l].elevation = static_cast<std::uint32_t>(at[l].elevation);
+            }
         }
     }
 

@@ -35,6 +35,43 @@ namespace detail {
     return random_stream(static_cast<std::uint64_t>(all)).bits();
 }
 
+/// Which seeds a direction may be near to, by cubes.
+class cubes_of_seeds {
+  public:
+    /// @param reach  how far away rays are near [rad]
+    explicit cubes_of_seeds(double reach) : reach_(reach + 1e-9) {}
+
+    /// Adds seed number s, of up to 32, to all cubes with directions in its reach.
+    void add(std::size_t s, const Eigen::Vector3d& d) {
+        std::array<std::size_t, 3> low{}, high{};
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double at = d[static_cast<int>(a)];
+            low[a] = place(std::max(-1.0, at - reach_));
+            high[a] = place(std::min(1.0, at + reach_));
+        }
+        for (std::size_t x = low[0]; x <= high[0]; ++x)
+            for (std::size_t y = low[1]; y <= high[1]; ++y)
+                for (std::size_t z = low[2]; z <= high[2]; ++z)
+                    seeds_[(x * side + y) * side + z] |= 1U << s;
+    }
+
+    /// One bit for each seed.
+    [[nodiscard]] std::uint32_t seeds_near(const Eigen::Vector3d& d) const {
+        return seeds_[(place(d[0]) * side + place(d[1])) * side + place(d[2])];
+    }
+
+  private:
+    static constexpr std::size_t side = 21;  // cubes (performance only)
+
+    /// Of a coordinate from -1 to 1, with a margin for rounding.
+    [[nodiscard]] static std::size_t place(double x) {
+        return static_cast<std::size_t>((x + 1.05) * 10.0);
+    }
+
+    double reach_;
+    scratch<std::uint32_t> seeds_ = scratch<std::uint32_t>(side * side * side, 0);
+};
+
 /// See ray_spacing: one run over a cloud.
 template <class Points>
 class rays_of_cloud {
@@ -54,11 +91,26 @@ class rays_of_cloud {
     [[nodiscard]] angle spacing() const {
         if (directions_.empty()) return radians(most);
         scratch<double> squared;
-        for (scratch<double>& near : near_seeds(drawn())) {
-            squared.push_back(reach2);
-            if (near.size() <= neighbors) continue;
+        const auto add = [&squared](scratch<double>& near) {
             std::nth_element(near.begin(), near.begin() + neighbors, near.end());
-            squared.back() = near[neighbors];
+            squared.push_back(near[neighbors]);
+        };
+        // Most seeds have enough rays nearby; those of the others are looked for farther away.
+        const scratch<std::size_t> seeds = drawn();
+        scratch<scratch<double>> found = near_seeds(seeds, reach2 / 16.0);
+        scratch<std::size_t> others;
+        for (std::size_t s = 0; s < seeds.size(); ++s) {
+            if (found[s].size() > neighbors)
+                add(found[s]);
+            else
+                others.push_back(seeds[s]);
+        }
+        if (!others.empty()) found = near_seeds(others, reach2);
+        for (std::size_t s = 0; s < others.size(); ++s) {
+            if (found[s].size() > neighbors)
+                add(found[s]);
+            else
+                squared.push_back(reach2);
         }
         const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 3 / 4);
         std::nth_element(squared.begin(), at, squared.end());
@@ -68,10 +120,8 @@ class rays_of_cloud {
   private:
     static constexpr std::size_t neighbors = 16, seed_count = 32;
     static constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
-    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart. In
-    // cubes of more than this size, a ray has the seeds in its own cube and those about it.
-    static constexpr double reach2 = most * most * neighbors / std::numbers::pi, size = 0.2;
-    static_assert(reach2 < size * size);
+    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart.
+    static constexpr double reach2 = most * most * neighbors / std::numbers::pi;
 
     /// Some of the rays, of different directions, drawn by their numbers: the same in whatever
     /// order the points are stored, which may well be as regular as any other way to draw them.
@@ -96,13 +146,10 @@ class rays_of_cloud {
     }
 
     /// The squares of the angles [rad^2] from each seed to the rays near it, as chords.
-    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen) const {
-        constexpr int cubes = 13;  // along a side, with one more at both ends
-        scratch<std::uint32_t> seeds_about(cubes * cubes * cubes, 0);
-        const auto cube_of = [](const Eigen::Vector3d& d) {
-            const auto place = [&d](int a) { return static_cast<int>(d[a] / size + 6.5); };
-            return static_cast<std::size_t>((place(0) * cubes + place(1)) * cubes + place(2));
-        };
+    /// @param within  the largest of them
+    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen,
+                                                      double within) const {
+        cubes_of_seeds about(std::sqrt(within));
         // From where the point of a seed is seen in nearly the same direction, rays count: stations
         // apart do not see more finely by being many, the lines of a moving sensor do.
         struct seed {
@@ -115,19 +162,16 @@ class rays_of_cloud {
             const Eigen::Vector3d origin = viewpoints_[i];
             seeds.push_back({directions_[chosen[s]], origin,
                              most * most * squared_distance(origin, points_[i])});
-            for (int c = 0; c < 27; ++c) {
-                const int way = ((c / 9 - 1) * cubes + c / 3 % 3 - 1) * cubes + c % 3 - 1;
-                seeds_about[cube_of(seeds[s].direction) + static_cast<std::size_t>(way)] |= 1U << s;
-            }
+            about.add(s, seeds[s].direction);
         }
         const bool is_still = viewpoints_.positions().size() <= 1;
         scratch<scratch<double>> near(chosen.size());
         for (std::size_t r = 0; r < directions_.size(); ++r) {
             const Eigen::Vector3d& d = directions_[r];
-            for (std::uint32_t left = seeds_about[cube_of(d)]; left != 0; left &= left - 1) {
+            for (std::uint32_t left = about.seeds_near(d); left != 0; left &= left - 1) {
                 const auto s = static_cast<std::size_t>(std::countr_zero(left));
                 const double squared = squared_distance(seeds[s].direction, d);
-                if (squared < reach2 &&
+                if (squared < within &&
                     (is_still ||
                      squared_distance(seeds[s].origin, viewpoints_[point_[r]]) <= seeds[s].apart2))
                     near[s].push_back(squared);

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <span>
 #include <utility>
 #include <vector>
 
@@ -38,7 +37,7 @@ struct noise_coordinate {
     }
 };
 
-/// The residuals of planes as errors of a coordinate. Of quantised readings, those of planes that
+/// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
 [[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,

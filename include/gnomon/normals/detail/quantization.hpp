@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Quantised readings: the coordinate that takes few distinct values (the range, or the depth along
+/// Quantized readings: the coordinate that takes few distinct values (the range, or the depth along
 /// the optical axis of a camera), and the step between them.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
-#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -19,13 +18,13 @@
 
 namespace gnomon::detail {
 
-/// The quantisation of a sensor.
+/// The quantization of a sensor.
 struct quantization {
     bool found = false;
     even_quartic variance = {};  ///< of the rounding to a step: step^2 / 12 [m^2]
 };
 
-/// The optical axis of a camera whose depth is quantised: where a whole neighborhood has one depth,
+/// The optical axis of a camera whose depth is quantized: where a whole neighborhood has one depth,
 /// its plane has no residuals and faces the camera. 0 if there is none.
 [[nodiscard]] Eigen::Vector3d axis_of_exact_planes(const auto& planes) {
     constexpr double exact = 1e-12;  // of the squared range: single precision rounds by 4e-15
@@ -53,7 +52,7 @@ struct quantization {
     return axis;
 }
 
-/// The quantisation of readings. Sorts them.
+/// The quantization of readings. Sorts them.
 [[nodiscard]] quantization quantization_of(auto& readings) {
     constexpr double distinct = 3e-6;      // relative; single precision rounds by 6e-8
     constexpr std::size_t per_value = 20;  // readings to each distinct value, at least
