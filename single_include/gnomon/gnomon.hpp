@@ -8509,6 +8509,16 @@ struct noise_coordinate {
     return residuals;
 }
 
+/// Whether all rays are parallel, to a tenth of a degree: of points at world coordinates whose view
+/// point is given as the origin.
+[[nodiscard]] bool are_parallel(const auto& planes) {
+    constexpr double most = 0.0017;  // [rad]; no sensor has so narrow a field of view
+    const Eigen::Vector3d first = direction_of(planes.front().ray);
+    return std::all_of(planes.begin(), planes.end(), [&](const sampled_plane& s) {
+        return length(difference(direction_of(s.ray), first)) < most;
+    });
+}
+
 /// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
 /// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
 [[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
@@ -8745,6 +8755,7 @@ class noise_meter {
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
         const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
         std::vector<sampled_plane> planes = few_(run_, nothing);
+        if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
             few_ = many_;
@@ -8769,6 +8780,8 @@ class noise_meter {
 
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
+    static constexpr std::string_view no_view_point =
+        "the view point is not one: it is too far away from the points";
 
     /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {

@@ -127,6 +127,16 @@ TEST(measure_noise, notices_a_view_point_that_is_none) {
     EXPECT_NE(measured.reason.find("view point"), std::string_view::npos) << measured.reason;
 }
 
+/// World coordinates without a view point: the origin, which is taken for it, is far away.
+TEST(measure_noise, notices_an_origin_that_is_far_away) {
+    gnomon::scan scan = range_finder({.sigma = 0.01, .seed = 6});
+    for (Eigen::Vector3d& p : scan.points) p += Eigen::Vector3d(6e5, 4.8e6, 100.0);
+    scan.viewpoints = {};
+    const auto measured = measure_noise(scan);
+    EXPECT_FALSE(measured.curve.has_value());
+    EXPECT_NE(measured.reason.find("view point"), std::string_view::npos) << measured.reason;
+}
+
 TEST(measure_noise, gives_a_reason_where_there_are_no_planes) {
     gnomon::random_stream random(7);
     gnomon::scan leaves;

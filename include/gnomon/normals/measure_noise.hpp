@@ -59,6 +59,7 @@ class noise_meter {
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
         const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
         std::vector<sampled_plane> planes = few_(run_, nothing);
+        if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
             few_ = many_;
@@ -83,6 +84,8 @@ class noise_meter {
 
   private:
     static constexpr std::string_view too_little_flat = "too little of the scan is flat";
+    static constexpr std::string_view no_view_point =
+        "the view point is not one: it is too far away from the points";
 
     /// The noise where too few planes are seen: at least that of quantization is known.
     [[nodiscard]] measured_noise without_fit() {

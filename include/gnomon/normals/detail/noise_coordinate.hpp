@@ -57,6 +57,16 @@ struct noise_coordinate {
     return residuals;
 }
 
+/// Whether all rays are parallel, to a tenth of a degree: of points at world coordinates whose view
+/// point is given as the origin.
+[[nodiscard]] bool are_parallel(const auto& planes) {
+    constexpr double most = 0.0017;  // [rad]; no sensor has so narrow a field of view
+    const Eigen::Vector3d first = direction_of(planes.front().ray);
+    return std::all_of(planes.begin(), planes.end(), [&](const sampled_plane& s) {
+        return length(difference(direction_of(s.ray), first)) < most;
+    });
+}
+
 /// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
 /// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
 [[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
