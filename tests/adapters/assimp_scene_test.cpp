@@ -20,6 +20,7 @@ namespace sim = gnomon::simulation;
 namespace {
 
 std::string written(const std::string& name, const std::string& text) {
+    // Tests run at the same time: each has a file of its own.
     const std::string path = testing::TempDir() + "assimp_scene_" + name;
     std::ofstream(path, std::ios::binary) << text;
     return path;
@@ -55,7 +56,7 @@ TEST(assimp_scene, keeps_the_names_of_groups) {
 /// A group stays one object, of however many materials it is.
 TEST(assimp_scene, keeps_groups_of_several_materials_together) {
     const std::string path = written(
-        "chair.obj",
+        "chair_of_two_materials.obj",
         "o chair\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 0 1 1\nusemtl wood\nf 1 2 3\n"
         "usemtl steel\nf 4 5 6\no floor\nv 0 0 -1\nv 1 0 -1\nv 0 1 -1\nusemtl wood\nf 7 8 9\n");
     const auto room = sim::read_scene(path);
