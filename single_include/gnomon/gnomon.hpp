@@ -3277,6 +3277,7 @@ class tree_query {
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
         if constexpr (requires { metric_.lower_bound(at_, box); }) {
+            // Of a metric in which the nearest position of a box is not that of each coordinate.
             return metric_.lower_bound(at_, box);
         }
         std::array<double, 3> gap;
@@ -8119,11 +8120,27 @@ class even_regression {
     Eigen::Vector3d right_{0.0, 0.0, 0.0};
 };
 
-/// The variance of the residuals of a plane fit to 17 points at the range, or depth, x [m].
-struct residual_variance {
-    double x;
-    double value;  // [m^2]
+/// A value at the range, or depth, x [m]: the variance of the residuals of a plane fit to 17 points
+/// [m^2], or the step between two readings [m].
+struct value_at {
+    double x, value;
 };
+
+/// Calls visit(x, y) for each of up to 20 bins of values in the order of x: the x in the middle of
+/// a bin, and a quantile of its values.
+/// @param fewest  values to a bin, unless there is only one
+inline void for_each_bin(const auto& values, std::size_t fewest, double part, auto&& visit) {
+    constexpr std::size_t most_bins = 20;  // chosen on furnished rooms 20,001 to 20,006
+    const std::size_t n = values.size();
+    const std::size_t bins = std::clamp<std::size_t>(n / fewest, 1, most_bins);
+    std::vector<double> of_bin;
+    for (std::size_t b = 0; b < bins; ++b) {
+        const std::size_t begin = b * n / bins, end = (b + 1) * n / bins;
+        of_bin.clear();
+        for (std::size_t i = begin; i < end; ++i) of_bin.push_back(values[i].value);
+        visit(values[(begin + end) / 2].x, quantile(of_bin, part));
+    }
+}
 
 /// The noise of planes, and how the residuals agree with it.
 struct noise_fit {
@@ -8141,19 +8158,13 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// planes. Sorts the residuals by range.
 [[nodiscard]] even_quartic noise_of_lower_quartiles(auto& all, const even_quartic& least,
                                                     double unit) {
-    constexpr std::size_t bin = 150, most_bins = 20;  // chosen on rooms 20,001 to 20,006
+    constexpr std::size_t fewest = 150;  // for a quartile; chosen on rooms 20,001 to 20,006
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-    const std::size_t bins = std::clamp<std::size_t>(all.size() / bin, 1, most_bins);
     even_regression regression(unit);
-    std::vector<double> values;
-    for (std::size_t b = 0; b < bins; ++b) {
-        const std::size_t begin = b * all.size() / bins, end = (b + 1) * all.size() / bins;
-        values.clear();
-        for (std::size_t i = begin; i < end; ++i) values.push_back(all[i].value);
-        const double y = quantile(values, 0.25) / chi2_of_25;
-        const double x = all[(begin + end) / 2].x;
+    for_each_bin(all, fewest, 0.25, [&](double x, double quartile) {
+        const double y = quartile / chi2_of_25;
         if (y > 0.0) regression.add(x, y - least(x), 1.0 / (y * y));
-    }
+    });
     return least + regression.solve();
 }
 
@@ -8163,7 +8174,7 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// @param least  part of the noise that is known
 [[nodiscard]] noise_fit fit_noise(auto all, const even_quartic& least) {
     std::vector<double> xs;
-    for (const residual_variance& s : all) xs.push_back(s.x);
+    for (const value_at& s : all) xs.push_back(s.x);
     const double unit = quantile(xs, 0.5);
     noise_fit fit{noise_of_lower_quartiles(all, least, unit)};
     const double first = all.front().x, last = all.back().x;
@@ -8385,25 +8396,23 @@ struct sampled_plane {
 template <class Index>
 class residual_sampler {
   public:
-    /// Of `samples` finite points, spread evenly over their order.
-    residual_sampler(const Index& index, std::size_t samples) : index_(&index) {
-        std::vector<point_index> finite;
-        finite.reserve(index.finite());
+    explicit residual_sampler(const Index& index) : index_(index) {
+        finite_.reserve(index.finite());
         for (std::size_t i = 0; i < index.size(); ++i)
-            if (index.is_finite(i)) finite.push_back(static_cast<point_index>(i));
-        const std::size_t n = std::min(samples, finite.size());
-        for (std::size_t s = 0; s < n; ++s) chosen_.push_back(finite[s * finite.size() / n]);
+            if (index.is_finite(i)) finite_.push_back(static_cast<point_index>(i));
     }
 
-    /// The planes of the points with their 16 neighbors nearest to the segment of the ray, of
-    /// half_length(ray) [m] to either side.
-    [[nodiscard]] std::vector<sampled_plane> operator()(const execution auto& run,
+    /// The planes of `samples` finite points, spread evenly over their order, with their 16
+    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
+    [[nodiscard]] std::vector<sampled_plane> operator()(std::size_t samples,
+                                                        const execution auto& run,
                                                         auto&& half_length) const {
-        std::vector<sampled_plane> planes(chosen_.size());
-        for_each_chunk(run, chosen_.size(), [&](std::size_t first, std::size_t last) {
+        const std::size_t n = std::min(samples, finite_.size());
+        std::vector<sampled_plane> planes(n);
+        for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
             std::vector<neighbor> found;
             for (std::size_t s = first; s < last; ++s)
-                planes[s] = plane_at(chosen_[s], half_length, found);
+                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
         });
         return planes;
     }
@@ -8413,24 +8422,24 @@ class residual_sampler {
   private:
     [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
                                          std::vector<neighbor>& found) const {
-        const Eigen::Vector3d p = (*index_)[i];
-        const Eigen::Vector3d viewpoint = index_->viewpoints[i];
+        const Eigen::Vector3d p = index_[i];
+        const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
         const double range = length(plane.ray);
         if (!(range > 0.0 && std::isfinite(range))) return plane;
-        search_tree(index_->tree(), p, {.k = neighbors, .except = i}, found,
+        search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
         ray_regression regression(plane.ray);
-        for (const neighbor& q : found) regression.add(difference((*index_)[q.index], p));
+        for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();
         if (!usable(regression.status())) return plane;
         const Eigen::Vector3d m = regression.solution();  // the plane m . x = range
         double sum = squared_residual(m, range, plane.ray, plane.ray);
         for (const neighbor& q : found) {
-            const Eigen::Vector3d x = (*index_)[q.index];
+            const Eigen::Vector3d x = index_[q.index];
             sum += squared_residual(m, range, difference(x, viewpoint),
-                                    difference(x, index_->viewpoints[q.index]));
+                                    difference(x, index_.viewpoints[q.index]));
         }
         constexpr double freedom = neighbors + 1 - 3;  // less the parameters of a plane
         if (!std::isfinite(sum)) return plane;
@@ -8438,7 +8447,7 @@ class residual_sampler {
         plane.variance = sum / freedom;
         for (const neighbor& q : found)
             plane.radius =
-                std::max(plane.radius, across(difference((*index_)[q.index], p), plane.ray));
+                std::max(plane.radius, across(difference(index_[q.index], p), plane.ray));
         return plane;
     }
 
@@ -8455,8 +8464,8 @@ class residual_sampler {
         return e * e;
     }
 
-    const Index* index_;
-    std::vector<point_index> chosen_;
+    const Index& index_;
+    std::vector<point_index> finite_;
 };
 
 }  // namespace gnomon::detail
@@ -8492,12 +8501,13 @@ struct noise_coordinate {
 /// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
-[[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,
-                                                          const noise_coordinate& coordinate,
-                                                          const even_quartic& quantized,
-                                                          double crossed) {
+[[nodiscard]] std::vector<value_at> residuals_of(const auto& planes,
+                                                 const noise_coordinate& coordinate,
+                                                 const even_quartic& quantized, double crossed) {
+    // Of the variance of rounding: its estimate from 17 points is below a quarter of it in two of
+    // 1,000 cases (chi^2 with 14 degrees of freedom).
     constexpr double exact = 0.25;
-    std::vector<residual_variance> residuals;
+    std::vector<value_at> residuals;
     for (const sampled_plane& s : planes) {
         if (dot(s.normal, s.normal) == 0.0) continue;
         const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;
@@ -8562,8 +8572,9 @@ struct quantization {
 /// The optical axis of a camera whose depth is quantized: where a whole neighborhood has one depth,
 /// its plane has no residuals and faces the camera. 0 if there is none.
 [[nodiscard]] Eigen::Vector3d axis_of_exact_planes(const auto& planes) {
-    constexpr double exact = 1e-12;  // of the squared range: single precision rounds by 4e-15
-    constexpr double same = 1.0 - 1e-6;
+    constexpr double exact = 1e-12;      // of the squared range: single precision rounds by 4e-15
+    constexpr double same = 1.0 - 1e-6;  // the cosine of .08 degrees, for single precision
+    // Chosen, on cameras in furnished rooms 20,001 to 20,006: some by chance do not make an axis.
     constexpr std::size_t needed = 30;
     std::vector<Eigen::Vector3d> normals;
     for (const sampled_plane& s : planes)
@@ -8589,29 +8600,26 @@ struct quantization {
 
 /// The quantization of readings. Sorts them.
 [[nodiscard]] quantization quantization_of(auto& readings) {
-    constexpr double distinct = 3e-6;      // relative; single precision rounds by 6e-8
-    constexpr std::size_t per_value = 20;  // readings to each distinct value, at least
-    constexpr std::size_t fewest_steps = 5;
+    constexpr double distinct = 3e-6;  // relative; single precision rounds by 6e-8
+    // Readings to each distinct value, and values, at least (noise-free continuous readings have 1;
+    // quantized ones 50 and more). Chosen on the same cameras.
+    constexpr std::size_t per_value = 20, fewest_steps = 5;
     std::sort(readings.begin(), readings.end());
-    std::vector<residual_variance> steps;
+    std::vector<value_at> steps;
     for (std::size_t i = 1; i < readings.size(); ++i) {
         const double gap = readings[i] - readings[i - 1];
         if (gap > distinct * std::max(0.1, readings[i])) steps.push_back({readings[i], gap});
     }
     if (steps.size() < fewest_steps || steps.size() * per_value > readings.size()) return {};
-    // Values that no reading took make some gaps two steps wide, so less than the median.
-    constexpr double typical = 0.4;
-    constexpr std::size_t bin = 10, most_bins = 20;
-    const std::size_t bins = std::clamp<std::size_t>(steps.size() / bin, 1, most_bins);
+    // Values that no reading took make some gaps two steps wide, so less than the median. Chosen on
+    // the same cameras.
+    constexpr double typical = 0.4;     // quantile
+    constexpr std::size_t fewest = 10;  // steps to a bin
     even_regression regression(steps[steps.size() / 2].x);
-    std::vector<double> gaps;
-    for (std::size_t b = 0; b < bins; ++b) {
-        const std::size_t first = b * steps.size() / bins, last = (b + 1) * steps.size() / bins;
-        gaps.clear();
-        for (std::size_t i = first; i < last; ++i) gaps.push_back(steps[i].value);
-        const double gap = quantile(gaps, typical), variance = gap * gap / 12.0;
-        regression.add(steps[(first + last) / 2].x, variance, 1.0 / (variance * variance));
-    }
+    for_each_bin(steps, fewest, typical, [&](double x, double step) {
+        const double variance = step * step / 12.0;
+        regression.add(x, variance, 1.0 / (variance * variance));
+    });
     return {true, regression.solve()};
 }
 
@@ -8671,7 +8679,7 @@ class sorted_directions {
         for (std::size_t i = 1; i < all_.size(); ++i) {
             if (apart[i - 1] > near) continue;
             const double a = all_[i - 1].range, b = all_[i].range;
-            constexpr double steep = 10.0;  // the tangent of 84 degrees
+            constexpr double steep = 10.0;  // the tangent of 84 degrees; chosen
             const double slope = steep * apart[i - 1] * std::min(a, b);
             ++pairs;
             several += std::abs(a - b) > slope + 8.0 * noise(all_[i].direction, std::max(a, b));
@@ -8748,30 +8756,32 @@ template <execution X>
 class noise_meter {
   public:
     noise_meter(const spatial_index& index, const X& run)
-        : index_(index), run_(run), few_(index, 1000), many_(index, 3000) {}  // performance only
+        : index_(index), run_(run), sample_(index) {}
 
     [[nodiscard]] measured_noise operator()() {
         constexpr std::size_t fewest_points = 500;
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
         const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
-        std::vector<sampled_plane> planes = few_(run_, nothing);
+        constexpr std::size_t many = 3000;  // planes; the more, the less the noise of the result
+        std::size_t few = 1000;             // performance only
+        std::vector<sampled_plane> planes = sample_(few, run_, nothing);
         if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
-            few_ = many_;
-            planes = few_(run_, nothing);
+            few = many;
+            planes = sample_(few, run_, nothing);
         }
         if (!fit(planes)) return without_fit();
         // Longer segments find more of the noise, until they hold all of it.
-        constexpr double converged = 0.005;
+        constexpr double converged = 0.005;  // of the standard deviation; performance only
         constexpr int most_passes = 8;
         for (int pass = 0; pass < most_passes; ++pass) {
             const double before = typical();
-            planes = few_(run_, half_length());
+            planes = sample_(few, run_, half_length());
             if (!fit(planes)) return without_fit();
             if (std::abs(typical() - before) <= converged * before) break;
         }
-        planes = many_(run_, half_length());
+        planes = sample_(many, run_, half_length());
         if (!fit(planes)) return without_fit();
         if (!is_quantized_) prefer_depth(planes);
         if (!is_of_planes()) return {{}, too_little_flat};
@@ -8811,7 +8821,7 @@ class noise_meter {
 
     /// Fits the model to the planes; false if there are too few.
     [[nodiscard]] bool fit(std::span<const sampled_plane> planes) {
-        constexpr std::size_t fewest = 100;
+        constexpr std::size_t fewest = 100;  // planes: the result errs by 2 % then, 1 / sqrt(28 n)
         auto residuals = residuals_of(planes, coordinate_, quantized_, 2.0);
         if (residuals.size() < fewest)
             residuals = residuals_of(planes, coordinate_, quantized_, 0.0);
@@ -8825,9 +8835,8 @@ class noise_meter {
     /// residuals better.
     void prefer_depth(std::span<const sampled_plane> planes) {
         const noise_coordinate depth{axis_of_cone(planes)};
-        const auto residuals = residuals_of(planes, depth, {}, 0.0);
         if (dot(depth.axis, depth.axis) == 0.0) return;
-        const noise_fit of_depth = fit_noise(residuals, {});
+        const noise_fit of_depth = fit_noise(residuals_of(planes, depth, {}, 0.0), {});
         double gain = 0.0;  // of the logarithm of the likelihood
         for (const sampled_plane& s : planes) {
             if (dot(s.normal, s.normal) == 0.0) continue;
@@ -8837,6 +8846,7 @@ class noise_meter {
             if (s.variance > chi2_of_90 * std::min(by_range, by_depth)) continue;
             gain += std::log(by_range / by_depth) + s.variance / by_range - s.variance / by_depth;
         }
+        // A plane counts as its 14 degrees of freedom; the odds of the depth must be e^5 = 148.
         constexpr double half_of_freedom = 7.0, needed = 5.0;
         if (half_of_freedom * gain < needed) return;
         coordinate_ = depth;
@@ -8845,9 +8855,11 @@ class noise_meter {
 
     /// Whether the residuals that the model was fit to are distributed as those of planes.
     [[nodiscard]] bool is_of_planes() const {
-        constexpr double fewest = 0.15;  // of the neighborhoods
-        constexpr double expected = 0.2 / 0.85, tolerance = 0.12;
-        constexpr double most = 0.1;  // of the range: more is no noise, but a cloud of points
+        // Chosen, with the noise of ten real scans in view: of a street and a registered office
+        // with clutter, 17 and 13 % of the neighborhoods are planes of one noise.
+        constexpr double fewest = 0.15;
+        constexpr double expected = 0.2 / 0.85, tolerance = 0.12;  // chosen on the same scans
+        constexpr double most = 0.1;  // of the range; chosen: more is no noise, but a cloud
         return fit_.inliers >= fewest && typical() <= most * median_ &&
                (is_quantized_ || std::abs(fit_.low - expected) <= tolerance);
     }
@@ -8863,12 +8875,13 @@ class noise_meter {
     }
 
     [[nodiscard]] auto half_length() const {
-        return [noise = curve()](const Eigen::Vector3d& ray) { return 4.0 * noise.along(ray); };
+        constexpr double all = 4.0;  // standard deviations: 99.99 % of the noise
+        return [noise = curve()](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
     }
 
     const spatial_index& index_;
     const X& run_;
-    residual_sampler<spatial_index> few_, many_;
+    residual_sampler<spatial_index> sample_;
     noise_coordinate coordinate_;
     bool is_quantized_ = false;
     even_quartic quantized_;  // variance [m^2]
@@ -8880,7 +8893,7 @@ class noise_meter {
 [[nodiscard]] bool has_rays(const auto& index, const noise_curve& noise) {
     if (index.viewpoints.positions().size() > 1) return true;
     const sorted_directions directions(index, index.viewpoints[0]);
-    constexpr double most = 0.3;
+    constexpr double most = 0.3;  // chosen: in ten real scans there are 0 to 23 %
     return directions.share_of_several_depths([&](const Eigen::Vector3d& u, double range) {
         return noise.along(scaled(range, u));
     }) < most;

@@ -100,6 +100,7 @@ class tree_query {
     [[nodiscard]] double bound(const leaf_tree::subtree& node) const {
         const leaf_box& box = tree_.box(node);
         if constexpr (requires { metric_.lower_bound(at_, box); }) {
+            // Of a metric in which the nearest position of a box is not that of each coordinate.
             return metric_.lower_bound(at_, box);
         }
         std::array<double, 3> gap;

@@ -40,12 +40,13 @@ struct noise_coordinate {
 /// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
-[[nodiscard]] std::vector<residual_variance> residuals_of(const auto& planes,
-                                                          const noise_coordinate& coordinate,
-                                                          const even_quartic& quantized,
-                                                          double crossed) {
+[[nodiscard]] std::vector<value_at> residuals_of(const auto& planes,
+                                                 const noise_coordinate& coordinate,
+                                                 const even_quartic& quantized, double crossed) {
+    // Of the variance of rounding: its estimate from 17 points is below a quarter of it in two of
+    // 1,000 cases (chi^2 with 14 degrees of freedom).
     constexpr double exact = 0.25;
-    std::vector<residual_variance> residuals;
+    std::vector<value_at> residuals;
     for (const sampled_plane& s : planes) {
         if (dot(s.normal, s.normal) == 0.0) continue;
         const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;

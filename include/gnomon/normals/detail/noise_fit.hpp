@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -74,11 +73,27 @@ class even_regression {
     Eigen::Vector3d right_{0.0, 0.0, 0.0};
 };
 
-/// The variance of the residuals of a plane fit to 17 points at the range, or depth, x [m].
-struct residual_variance {
-    double x;
-    double value;  // [m^2]
+/// A value at the range, or depth, x [m]: the variance of the residuals of a plane fit to 17 points
+/// [m^2], or the step between two readings [m].
+struct value_at {
+    double x, value;
 };
+
+/// Calls visit(x, y) for each of up to 20 bins of values in the order of x: the x in the middle of
+/// a bin, and a quantile of its values.
+/// @param fewest  values to a bin, unless there is only one
+inline void for_each_bin(const auto& values, std::size_t fewest, double part, auto&& visit) {
+    constexpr std::size_t most_bins = 20;  // chosen on furnished rooms 20,001 to 20,006
+    const std::size_t n = values.size();
+    const std::size_t bins = std::clamp<std::size_t>(n / fewest, 1, most_bins);
+    std::vector<double> of_bin;
+    for (std::size_t b = 0; b < bins; ++b) {
+        const std::size_t begin = b * n / bins, end = (b + 1) * n / bins;
+        of_bin.clear();
+        for (std::size_t i = begin; i < end; ++i) of_bin.push_back(values[i].value);
+        visit(values[(begin + end) / 2].x, quantile(of_bin, part));
+    }
+}
 
 /// The noise of planes, and how the residuals agree with it.
 struct noise_fit {
@@ -96,19 +111,13 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// planes. Sorts the residuals by range.
 [[nodiscard]] even_quartic noise_of_lower_quartiles(auto& all, const even_quartic& least,
                                                     double unit) {
-    constexpr std::size_t bin = 150, most_bins = 20;  // chosen on rooms 20,001 to 20,006
+    constexpr std::size_t fewest = 150;  // for a quartile; chosen on rooms 20,001 to 20,006
     std::sort(all.begin(), all.end(), [](const auto& a, const auto& b) { return a.x < b.x; });
-    const std::size_t bins = std::clamp<std::size_t>(all.size() / bin, 1, most_bins);
     even_regression regression(unit);
-    std::vector<double> values;
-    for (std::size_t b = 0; b < bins; ++b) {
-        const std::size_t begin = b * all.size() / bins, end = (b + 1) * all.size() / bins;
-        values.clear();
-        for (std::size_t i = begin; i < end; ++i) values.push_back(all[i].value);
-        const double y = quantile(values, 0.25) / chi2_of_25;
-        const double x = all[(begin + end) / 2].x;
+    for_each_bin(all, fewest, 0.25, [&](double x, double quartile) {
+        const double y = quartile / chi2_of_25;
         if (y > 0.0) regression.add(x, y - least(x), 1.0 / (y * y));
-    }
+    });
     return least + regression.solve();
 }
 
@@ -118,7 +127,7 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// @param least  part of the noise that is known
 [[nodiscard]] noise_fit fit_noise(auto all, const even_quartic& least) {
     std::vector<double> xs;
-    for (const residual_variance& s : all) xs.push_back(s.x);
+    for (const value_at& s : all) xs.push_back(s.x);
     const double unit = quantile(xs, 0.5);
     noise_fit fit{noise_of_lower_quartiles(all, least, unit)};
     const double first = all.front().x, last = all.back().x;

@@ -35,25 +35,23 @@ struct sampled_plane {
 template <class Index>
 class residual_sampler {
   public:
-    /// Of `samples` finite points, spread evenly over their order.
-    residual_sampler(const Index& index, std::size_t samples) : index_(&index) {
-        std::vector<point_index> finite;
-        finite.reserve(index.finite());
+    explicit residual_sampler(const Index& index) : index_(index) {
+        finite_.reserve(index.finite());
         for (std::size_t i = 0; i < index.size(); ++i)
-            if (index.is_finite(i)) finite.push_back(static_cast<point_index>(i));
-        const std::size_t n = std::min(samples, finite.size());
-        for (std::size_t s = 0; s < n; ++s) chosen_.push_back(finite[s * finite.size() / n]);
+            if (index.is_finite(i)) finite_.push_back(static_cast<point_index>(i));
     }
 
-    /// The planes of the points with their 16 neighbors nearest to the segment of the ray, of
-    /// half_length(ray) [m] to either side.
-    [[nodiscard]] std::vector<sampled_plane> operator()(const execution auto& run,
+    /// The planes of `samples` finite points, spread evenly over their order, with their 16
+    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
+    [[nodiscard]] std::vector<sampled_plane> operator()(std::size_t samples,
+                                                        const execution auto& run,
                                                         auto&& half_length) const {
-        std::vector<sampled_plane> planes(chosen_.size());
-        for_each_chunk(run, chosen_.size(), [&](std::size_t first, std::size_t last) {
+        const std::size_t n = std::min(samples, finite_.size());
+        std::vector<sampled_plane> planes(n);
+        for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
             std::vector<neighbor> found;
             for (std::size_t s = first; s < last; ++s)
-                planes[s] = plane_at(chosen_[s], half_length, found);
+                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
         });
         return planes;
     }
@@ -63,24 +61,24 @@ class residual_sampler {
   private:
     [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
                                          std::vector<neighbor>& found) const {
-        const Eigen::Vector3d p = (*index_)[i];
-        const Eigen::Vector3d viewpoint = index_->viewpoints[i];
+        const Eigen::Vector3d p = index_[i];
+        const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
         const double range = length(plane.ray);
         if (!(range > 0.0 && std::isfinite(range))) return plane;
-        search_tree(index_->tree(), p, {.k = neighbors, .except = i}, found,
+        search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
         ray_regression regression(plane.ray);
-        for (const neighbor& q : found) regression.add(difference((*index_)[q.index], p));
+        for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();
         if (!usable(regression.status())) return plane;
         const Eigen::Vector3d m = regression.solution();  // the plane m . x = range
         double sum = squared_residual(m, range, plane.ray, plane.ray);
         for (const neighbor& q : found) {
-            const Eigen::Vector3d x = (*index_)[q.index];
+            const Eigen::Vector3d x = index_[q.index];
             sum += squared_residual(m, range, difference(x, viewpoint),
-                                    difference(x, index_->viewpoints[q.index]));
+                                    difference(x, index_.viewpoints[q.index]));
         }
         constexpr double freedom = neighbors + 1 - 3;  // less the parameters of a plane
         if (!std::isfinite(sum)) return plane;
@@ -88,7 +86,7 @@ class residual_sampler {
         plane.variance = sum / freedom;
         for (const neighbor& q : found)
             plane.radius =
-                std::max(plane.radius, across(difference((*index_)[q.index], p), plane.ray));
+                std::max(plane.radius, across(difference(index_[q.index], p), plane.ray));
         return plane;
     }
 
@@ -105,8 +103,8 @@ class residual_sampler {
         return e * e;
     }
 
-    const Index* index_;
-    std::vector<point_index> chosen_;
+    const Index& index_;
+    std::vector<point_index> finite_;
 };
 
 }  // namespace gnomon::detail

@@ -5,10 +5,8 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <utility>
 #include <vector>
 
@@ -68,7 +66,7 @@ class sorted_directions {
         for (std::size_t i = 1; i < all_.size(); ++i) {
             if (apart[i - 1] > near) continue;
             const double a = all_[i - 1].range, b = all_[i].range;
-            constexpr double steep = 10.0;  // the tangent of 84 degrees
+            constexpr double steep = 10.0;  // the tangent of 84 degrees; chosen
             const double slope = steep * apart[i - 1] * std::min(a, b);
             ++pairs;
             several += std::abs(a - b) > slope + 8.0 * noise(all_[i].direction, std::max(a, b));
