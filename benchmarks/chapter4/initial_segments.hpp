@@ -114,6 +114,58 @@ struct merge_tallies {
     merge_tally pairs, by_points;
 };
 
+/// Whether, for most lines across a gap, rays to most positions on the line hit an occluder.
+inline bool is_occluded_between(const std::vector<gnomon::detail::boundary_pair>& lines,
+                                const std::vector<Eigen::Vector3d>& places, const auto& viewpoints,
+                                const sim::bvh_caster& caster) {
+    constexpr int steps = 39;
+    const auto is_hidden = [&](const auto& line) {
+        const Eigen::Vector3d p = places[line.first], q = places[line.second];
+        const Eigen::Vector3d from = 0.5 * (viewpoints[line.first] + viewpoints[line.second]);
+        int hidden = 0;
+        for (int s = 1; s <= steps; ++s) {
+            const Eigen::Vector3d way = p + (q - p) * s / (steps + 1.0) - from;
+            const double range = way.norm();
+            const auto hit = caster(sim::ray{from, way / range});
+            hidden += hit && hit->range < range - 0.03 ? 1 : 0;
+        }
+        return 2 * hidden > steps;
+    };
+    return 2 * std::count_if(lines.begin(), lines.end(), is_hidden) >
+           static_cast<std::ptrdiff_t>(lines.size());
+}
+
+/// For each segment, the set of segments that a chain of occluded gaps connects it with.
+/// @param is_coplanar  whether two segments are of one flat true surface
+inline std::vector<gnomon::point_index> chains_of_occluded_gaps(const sim::bvh_caster& caster,
+                                                                const sim::true_scan& truth,
+                                                                const gnomon::segments& parts,
+                                                                auto&& is_coplanar) {
+    std::vector<Eigen::Vector3d> places;
+    for (std::size_t i = 0; i < truth.scan.size(); ++i) places.push_back(true_place(truth, i));
+    std::vector<Eigen::Vector3d> centroids;
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+        Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+        for (const auto i : parts[s]) sum += places[i];
+        centroids.push_back(sum / static_cast<double>(parts[s].size()));
+    }
+    gnomon::detail::union_find together(parts.size());
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t j = i + 1; j < parts.size(); ++j) {
+            if (!is_coplanar(i, j)) continue;
+            const auto lines = gnomon::detail::boundary_pairs(places, parts[i], parts[j],
+                                                              {centroids[i], centroids[j]});
+            if (is_occluded_between(lines, places, truth.scan.viewpoints, caster))
+                together.unite(static_cast<gnomon::point_index>(i),
+                               static_cast<gnomon::point_index>(j));
+        }
+    }
+    std::vector<gnomon::point_index> chain;
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        chain.push_back(together.find(static_cast<gnomon::point_index>(i)));
+    return chain;
+}
+
 /// The segments of a scan before merging, with their true surfaces. Segments with a fifth or more
 /// of their points on other surfaces have none, and are not counted.
 class initial_segments {
@@ -123,36 +175,18 @@ class initial_segments {
     initial_segments(const sim::bvh_caster& caster, const sim::true_scan& truth,
                      const gnomon::segments& parts, unit one = unit::surface)
         : surfaces_(truth, one), parts_(parts) {
-        std::vector<Eigen::Vector3d> places;
-        for (std::size_t i = 0; i < truth.scan.size(); ++i) places.push_back(true_place(truth, i));
-        std::vector<Eigen::Vector3d> centroids;
         for (std::size_t s = 0; s < parts.size(); ++s) {
             std::map<std::int32_t, std::size_t> count;
-            Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-            for (const auto i : parts[s]) {
-                ++count[surfaces_.of(truth.surfaces[i])];
-                sum += places[i];
-            }
+            for (const auto i : parts[s]) ++count[surfaces_.of(truth.surfaces[i])];
             const auto most =
                 std::max_element(count.begin(), count.end(),
                                  [](const auto& a, const auto& b) { return a.second < b.second; });
             const bool is_mixed = 5 * most->second <= 4 * parts[s].size();
             surface_.push_back(is_mixed ? sim::nothing : most->first);
-            centroids.push_back(sum / static_cast<double>(parts[s].size()));
         }
-        gnomon::detail::union_find together(parts.size());
-        for (std::size_t i = 0; i < parts.size(); ++i) {
-            for (std::size_t j = i + 1; j < parts.size(); ++j) {
-                if (!is_coplanar(i, j)) continue;
-                const auto lines = gnomon::detail::boundary_pairs(places, parts[i], parts[j],
-                                                                  {centroids[i], centroids[j]});
-                if (is_occluded_between(lines, places, truth.scan.viewpoints, caster))
-                    together.unite(static_cast<gnomon::point_index>(i),
-                                   static_cast<gnomon::point_index>(j));
-            }
-        }
-        for (std::size_t i = 0; i < parts.size(); ++i)
-            whole_.push_back(together.find(static_cast<gnomon::point_index>(i)));
+        whole_ = chains_of_occluded_gaps(
+            caster, truth, parts,
+            [this](std::size_t i, std::size_t j) { return is_coplanar(i, j); });
     }
 
     /// The true surface of a segment, or `nothing`.
@@ -194,27 +228,6 @@ class initial_segments {
     [[nodiscard]] bool is_coplanar(std::size_t i, std::size_t j) const {
         return surface_[i] == surface_[j] && surface_[i] != sim::nothing &&
                surfaces_.is_flat(surface_[i]);
-    }
-
-    /// Whether, for most lines across a gap, rays to most positions on the line hit an occluder.
-    static bool is_occluded_between(const std::vector<gnomon::detail::boundary_pair>& lines,
-                                    const std::vector<Eigen::Vector3d>& places,
-                                    const auto& viewpoints, const sim::bvh_caster& caster) {
-        constexpr int steps = 39;
-        const auto is_hidden = [&](const auto& line) {
-            const Eigen::Vector3d p = places[line.first], q = places[line.second];
-            const Eigen::Vector3d from = 0.5 * (viewpoints[line.first] + viewpoints[line.second]);
-            int hidden = 0;
-            for (int s = 1; s <= steps; ++s) {
-                const Eigen::Vector3d way = p + (q - p) * s / (steps + 1.0) - from;
-                const double range = way.norm();
-                const auto hit = caster(sim::ray{from, way / range});
-                hidden += hit && hit->range < range - 0.03 ? 1 : 0;
-            }
-            return 2 * hidden > steps;
-        };
-        return 2 * std::count_if(lines.begin(), lines.end(), is_hidden) >
-               static_cast<std::ptrdiff_t>(lines.size());
     }
 
     true_surfaces surfaces_;

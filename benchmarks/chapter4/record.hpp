@@ -22,6 +22,11 @@
 
 using json = nlohmann::ordered_json;
 
+#ifndef BENCHMARK_COMPILER  // compiled by hand
+#define BENCHMARK_COMPILER "GNU or clang " __VERSION__
+#define BENCHMARK_FLAGS "unknown"
+#endif
+
 /// The extent of the measurement, and the folder for its results.
 struct effort {
     bool quick = false;
@@ -43,8 +48,8 @@ inline json context_of(const effort& much) {
     }
     return {{"quick", much.quick},
             {"processor", processor},
-            {"compiler", CHAPTER4_COMPILER},
-            {"flags", CHAPTER4_FLAGS}};
+            {"compiler", BENCHMARK_COMPILER},
+            {"flags", BENCHMARK_FLAGS}};
 }
 
 /// Precondition: there are some.
