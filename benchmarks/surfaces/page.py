@@ -1,0 +1,179 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Writes the page of surfaces from the measurements of its programs.
+
+Reads DIR/surfaces/*.json, and writes DIR/surfaces.json (the tables) and DIR/surfaces.md. Both are
+functions of the measurements, to the byte; --check writes nothing and reports whether they are up to
+date.
+"""
+
+import argparse
+import json
+import math
+import pathlib
+import sys
+
+# Program, title, and what its tables are.
+SECTIONS = [
+    ("rooms", "Furnished rooms",
+     "Random furnished rooms, one scan each at each noise, density of the scan lines and trajectory; "
+     "\"half\" and \"double\" are half and twice as many lines. The moving sensor is rotational on a path "
+     "of 10 cm, so that each scan line has a view point of its own. A true surface is a curved face, or all "
+     "flat faces whose planes are within 2 degrees and 1 cm and whose points are less than 20 cm apart; "
+     "floor and ceiling are left out, and surfaces of fewer than 100 points do not count. The IoU of a "
+     "surface is that with its best segment; a mean is over the surfaces of a room, each counting once or "
+     "\"by points\", and then over rooms. Impurity is the share of labeled points that are not of the true "
+     "surface of most points of their segment. Merging is judged by pairs of initial segments, which count "
+     "with the points of the smaller one: wanted are those of one flat surface that an occluder "
+     "interrupts, right those of them that are merged, wrong those that are merged and of two surfaces."),
+    ("cameras", "Depth cameras",
+     "Images of 640 x 480 pixels of the same rooms, by structured light: depths come in steps that grow "
+     "with the square of the depth. Surfaces of less than 2 % of the points do not count; nothing is left "
+     "out."),
+    ("noise", "Measured noise",
+     "`measure_noise` without parameters. Errors are those of the standard deviation: the root of the mean "
+     "ratio of measured and true variance, over all points, and over those of half a meter of range or "
+     "depth where these are 1 % or more. Disparities of the cameras come in eighths of a pixel, and their "
+     "noise grows with the square of the depth, from the given one at 1 m."),
+    ("floors", "Floors",
+     "Furniture alone, seen from 2 m in 8 directions and from 5 heights: there is no floor to be found. "
+     "Furnished rooms, tilted by 0 to 3 degrees about a random horizontal axis: the error of the normal of "
+     "the floor, and of the height of the sensor above it."),
+]
+PAGE_WITHOUT = ("rooms",)  # tables with a row for each room are in the files
+
+
+class Results:
+    """The tables of all programs."""
+
+    def __init__(self, folder):
+        self.contexts, self.tables = {}, {}
+        for program, _, _ in SECTIONS:
+            path = folder / f"{program}.json"
+            if path.exists():
+                raw = json.loads(path.read_text(encoding="utf-8"))
+                self.contexts[program] = raw["context"]
+                self.tables[program] = raw["tables"]
+        if not self.tables:
+            raise ValueError(f"no measurements in {folder}")
+        self.quick = any(c["quick"] for c in self.contexts.values())
+        before = folder / "rooms_before.json"
+        if before.exists() and "rooms" in self.tables:
+            raw = json.loads(before.read_text(encoding="utf-8"))
+            compared = comparison(raw["tables"]["rooms"], self.tables["rooms"]["rooms"])
+            if compared:
+                self.tables["rooms"]["compared with an older version"] = compared
+
+
+def room_of(row):
+    return tuple(row[c] for c in ("noise [mm]", "density", "trajectory", "seed"))
+
+
+def paired(before, after, column):
+    """The mean difference over rooms, and its standard error, as text. A room is scanned several times:
+    the differences of its scans are not independent, and count as one, their mean."""
+    by_seed = {}
+    for key in sorted(before.keys() & after.keys()):
+        by_seed.setdefault(key[-1], []).append(after[key][column] - before[key][column])
+    means = [sum(d) / len(d) for d in by_seed.values()]
+    n, mean = len(means), sum(means) / len(means)
+    if n < 2:
+        return f"{mean:+.4f}"
+    error = math.sqrt(sum((d - mean) ** 2 for d in means) / (n - 1) / n)
+    return f"{mean:+.4f} ± {error:.4f}"
+
+
+def comparison(before, after):
+    rows = []
+    for noise in sorted({r["noise [mm]"] for r in before} & {r["noise [mm]"] for r in after}):
+        old, new = ({room_of(r): r for r in rows_of if r["noise [mm]"] == noise}
+                    for rows_of in (before, after))
+        common = old.keys() & new.keys()
+        if not common:
+            continue
+
+        def mean(rows_of, column):
+            return round(sum(rows_of[k][column] for k in sorted(common)) / len(common), 4)
+
+        rows.append({"noise [mm]": noise, "scans": len(common),
+                     "mean IoU before": mean(old, "IoU"), "mean IoU": mean(new, "IoU"),
+                     "difference": paired(old, new, "IoU"),
+                     "of IoU by points": paired(old, new, "by points"),
+                     "of impurity": paired(old, new, "impurity")})
+    return rows
+
+
+def cell(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    return f"{value:,}" if isinstance(value, int) else str(value)
+
+
+def table(rows):
+    lines = [list(rows[0]), ["---"] * len(rows[0]), *(list(r.values()) for r in rows)]
+    return ["| " + " | ".join(cell(c) for c in line) + " |" for line in lines] + [""]
+
+
+def shown(program, tables):
+    return {title: rows for title, rows in tables.items()
+            if rows and not (program == "rooms" and title in PAGE_WITHOUT)}
+
+
+def page(results):
+    context = next(iter(results.contexts.values()))
+    lines = ["# Surfaces of simulated scans", "",
+             "<!-- Written by benchmarks/surfaces/page.py from surfaces/*.json: do not edit. -->", ""]
+    if results.quick:
+        lines += ["**Measured with `--quick`: few rooms. A test of the programs, not a result.**", ""]
+    lines += ["`perception` and what it relies on, against the truth of simulated scans, by one command:", "",
+              "    sh benchmarks/reproduce.sh surfaces", "",
+              f"{context['processor']}, {context['compiler']}, flags `{context['flags']}`. Times are those of "
+              "one call on one thread, where two rooms are processed at a time. The results of each program "
+              "are in [surfaces/](surfaces/), the tables in [surfaces.json](surfaces.json).", ""]
+    for program, title, about in SECTIONS:
+        if program not in results.tables:
+            continue
+        lines += [f"## {title}", "", f"{about} `{program} --out DIR`", ""]
+        for name, rows in shown(program, results.tables[program]).items():
+            lines += [f"{name[0].upper()}{name[1:]}:", "", *table(rows)]
+            if name == "compared with an older version":
+                lines += ["The same scans by an older version, which is told the noise; differences with "
+                          "their standard errors over rooms.", ""]
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, nargs="?")
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; fail if the page is not up to date")
+    parser.add_argument("--programs", action="store_true", help="name the programs, and no more")
+    options = parser.parse_args()
+    if options.programs:
+        print(*(program for program, _, _ in SECTIONS))
+        return 0
+    if options.folder is None:
+        parser.error("DIR is missing")
+    try:
+        results = Results(options.folder / "surfaces")
+    except (OSError, ValueError) as problem:
+        parser.error(str(problem))
+    tables = {program: shown(program, of) for program, of in results.tables.items()}
+    texts = {"surfaces.json": json.dumps(tables, indent=2, ensure_ascii=False) + "\n",
+             "surfaces.md": page(results)}
+    if options.check:
+        stale = [name for name, text in texts.items()
+                 if (options.folder / name).read_text(encoding="utf-8") != text]
+        for name in stale:
+            print(f"{options.folder / name} is not up to date; run page.py")
+        return 1 if stale else 0
+    for name, text in texts.items():
+        (options.folder / name).write_text(text, encoding="utf-8")
+    print(f"wrote {options.folder / 'surfaces.md'}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
