@@ -17,7 +17,7 @@
 #include <gnomon/simulation.hpp>
 
 #if !__has_include(<gnomon/perception/perception_result.hpp>)
-// Names as of a version with fewer namespaces.
+// The names in a version with fewer namespaces.
 namespace gnomon {
 namespace simulation {
 using namespace gnomon;

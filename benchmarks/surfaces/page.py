@@ -23,7 +23,7 @@ SECTIONS = [
      "floor and ceiling are left out, and surfaces of fewer than 100 points do not count. The IoU of a "
      "surface is that with its best segment; a mean is over the surfaces of a room, each counting once or "
      "\"by points\", and then over rooms. Impurity is the share of labeled points that are not of the true "
-     "surface of most points of their segment. Merging is judged by pairs of initial segments, which count "
+     "surface of most points of their segment. Merging is tested by pairs of initial segments, which count "
      "with the points of the smaller one: wanted are those of one flat surface that an occluder "
      "interrupts, right those of them that are merged, wrong those that are merged and of two surfaces."),
     ("cameras", "Depth cameras",
@@ -139,7 +139,7 @@ def page(results):
         for name, rows in shown(program, results.tables[program]).items():
             lines += [f"{name[0].upper()}{name[1:]}:", "", *table(rows)]
             if name == "compared with an older version":
-                lines += ["The same scans by an older version, which is told the noise; differences with "
+                lines += ["The same scans by an older version, which has the true noise as a parameter; differences with "
                           "their standard errors over rooms.", ""]
     return "\n".join(lines).rstrip() + "\n"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The chain that these programs judge, in its default form: all that they use of `perception`, and
+/// The chain that these programs test, in its default form: all that they use of `perception`, and
 /// of its result only the members `initial_segments`, `surfaces`, `kept`, `floor` and `seconds`.
 ///
-/// For a comparison, rooms.cpp also compiles with older versions of the library, which are told the
-/// noise; see older_library.hpp.
+/// For a comparison, rooms.cpp also compiles with older versions of the library, which require
+/// the noise as a parameter; see older_library.hpp.
 #pragma once
 
 #include <optional>
