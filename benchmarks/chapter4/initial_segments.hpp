@@ -136,7 +136,7 @@ inline bool is_occluded_between(const std::vector<gnomon::detail::boundary_pair>
 }
 
 /// For each segment, the set of segments that a chain of occluded gaps connects it with.
-/// @param is_coplanar  whether two segments are of one flat true surface
+/// @param is_coplanar  whether two segments belong to one flat true surface
 inline std::vector<gnomon::point_index> chains_of_occluded_gaps(const sim::bvh_caster& caster,
                                                                 const sim::true_scan& truth,
                                                                 const gnomon::segments& parts,

@@ -75,29 +75,40 @@ struct floor_error {
     double height;  // of the sensor [m]
 };
 
+/// A scan in a frame that is turned about the origin.
+gnomon::scan turned(const gnomon::scan& scan, const Eigen::Matrix3d& turn) {
+    gnomon::scan result;
+    std::vector<Eigen::Vector3d> viewpoints;  // of the scan lines, or of the whole scan
+    std::vector<gnomon::point_index> viewpoint_of_point;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3d viewpoint = turn * scan.viewpoints[i];
+        if (viewpoints.empty() || viewpoints.back() != viewpoint) viewpoints.push_back(viewpoint);
+        viewpoint_of_point.push_back(static_cast<gnomon::point_index>(viewpoints.size() - 1));
+        result.points.push_back(turn * scan.points[i]);
+    }
+    if (viewpoints.size() == 1)
+        result.viewpoints = viewpoints.front();
+    else
+        result.viewpoints = gnomon::viewpoint_table(viewpoints, viewpoint_of_point);
+    return result;
+}
+
 std::optional<floor_error> floor_error_of(const setting& how, std::uint64_t seed) {
-    const sim::scene world = furnished(seed);
-    gnomon::scan scan = scan_of(world, sim::bvh_caster(world), how, 1000 * seed + 1).scan;
     gnomon::random_stream random(seed);
     const double way = random.uniform(0.0, 2.0 * std::numbers::pi);
-    const Eigen::Vector3d axis(std::cos(way), std::sin(way), 0.0);
     const double tilt = gnomon::degrees(random.uniform(0.0, 3.0)).radians();
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(tilt, axis).toRotationMatrix();
-    std::vector<Eigen::Vector3d> viewpoints;
-    for (std::size_t i = 0; i < scan.size(); ++i) {
-        viewpoints.push_back(turn * scan.viewpoints[i]);
-        scan.points[i] = turn * scan.points[i];
-    }
-    if (how.trajectory == "moving")
-        scan.viewpoints = gnomon::viewpoint_table(viewpoints);
-    else
-        scan.viewpoints = viewpoints.front();
+    const Eigen::Matrix3d turn =
+        Eigen::AngleAxisd(tilt, Eigen::Vector3d(std::cos(way), std::sin(way), 0.0))
+            .toRotationMatrix();
+    const sim::scene world = furnished(seed);
+    const sim::true_scan upright = scan_of(world, sim::bvh_caster(world), how, 1000 * seed + 1);
+    const gnomon::scan scan = turned(upright.scan, turn);
     const auto floor = perceive(scan, true, how.sigma()).floor;
     if (!floor) return std::nullopt;
-    const Eigen::Vector3d up = turn.col(2);  // through the origin
+    const Eigen::Vector3d up = turn.col(2), sensor = scan.viewpoints[0];  // floor: up . x = 0
     const double sine = floor->normal.cross(up).norm();
     return floor_error{gnomon::radians(std::atan2(sine, floor->normal.dot(up))).degrees(),
-                       std::abs(floor->signed_distance(viewpoints[0]) - up.dot(viewpoints[0]))};
+                       std::abs(floor->signed_distance(sensor) - up.dot(sensor))};
 }
 
 json row_of(json row, const std::vector<std::optional<floor_error>>& rooms) {
