@@ -13,6 +13,7 @@
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/neighborhoods_into.hpp>
+#include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/neighborhoods/search_options.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>

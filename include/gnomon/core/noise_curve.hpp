@@ -89,6 +89,19 @@ class noise_curve {
         return variance(range * cosine) / (cosine * cosine);
     }
 
+    /// The curve of this noise and an independent error of the same deviation [m] everywhere.
+    [[nodiscard]] noise_curve plus(double sigma) const {
+        require_deviation(sigma);
+        noise_curve sum = *this;
+        sum.is_zero_ = is_zero_ && sigma == 0.0;
+        sum.variance_[0] += sigma * sigma;
+        for (float& log_sigma : sum.log_sigma_) {
+            const double own = std::exp(static_cast<double>(log_sigma));
+            log_sigma = static_cast<float>(std::log(std::sqrt(own * own + sigma * sigma)));
+        }
+        return sum;
+    }
+
     /// Whether there is no noise at any range from 5 cm to 500 m.
     [[nodiscard]] bool is_zero() const { return is_zero_; }
     /// Whether x is the depth along axis(), not the range.

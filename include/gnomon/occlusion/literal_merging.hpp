@@ -14,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
@@ -67,20 +68,33 @@ template <merge_policy M>
 
 }  // namespace detail
 
-/// Merges flat segments by Alg. 4.3. The parameters are those of merge_occluded, but sigma is not
-/// used; a pair of boundary points from different view points counts as not occluded.
+/// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
+struct literal_merging_options {
+    double max_variation =
+        0.15;  ///< sigma_sv,max of a flat segment, Eq. (3.28): 0 a plane, 1 a ball
+    angle max_angle = degrees(15);   ///< rho_a between coplanar segments
+    double max_offset = 0.05;        ///< rho_o of coplanar segments [m]
+    double max_gap = 0.20;           ///< rho_c [m]: narrower gaps are closed
+    std::size_t boundary_pairs = 6;  ///< n_b, an even number
+    std::size_t candidates = 0;      ///< k_c, as in `merge_occluded_options`
+};
+
+/// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as not occluded.
 /// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                thresholds as in merge_occluded
+///                                an odd or no number of boundary pairs, and a negative or NaN threshold
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
                                                 const visibility& visible, const M& policy = {},
-                                                const merge_occluded_options& options = {},
+                                                const literal_merging_options& options = {},
                                                 Proj projection = {}) {
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
-    detail::require_thresholds(options);
+    detail::require_boundary_pairs(options.boundary_pairs);
+    detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
+                        options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
+                    "merge_occluded_literally: a threshold is negative or NaN");
     const viewpoint_table viewpoints = detail::viewpoints_of(points);
     // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {

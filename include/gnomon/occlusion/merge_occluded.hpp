@@ -12,6 +12,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 #include <utility>
@@ -19,41 +20,34 @@
 
 #include <Eigen/Core>
 
-#include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/detail/fragment.hpp>
 #include <gnomon/occlusion/detail/occlusion_merger.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
 
-/// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
+/// Parameters of `merge_occluded`.
 struct merge_occluded_options {
-    double max_variation =
-        0.15;  ///< sigma_sv,max of a flat segment, Eq. (3.28): 0 a plane, 1 a ball
-    angle max_angle = degrees(15);  ///< rho_a between coplanar segments
-    double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
+    noise_curve noise = constant_noise{};  ///< along the rays
+    double max_offset = 0.05;              ///< rho_o between coplanar segments side by side [m]
     /// rho_c [m]: narrower gaps are closed whatever the policy, unless free space was observed in
-    /// them or their sides are too narrow to determine that they are one surface.
+    /// them.
     double max_gap = 0.20;
-    /// Standard deviation of ranges [m], greater than 0; of points across a surface it is no more.
-    /// What is less flat, or less in one plane, than the thresholds want may be so by noise, and
-    /// what keeps to them by less than noise would.
-    double sigma = 0.015;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
     /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
-    /// to 300 segments, and for 20 of more. Two that become neighbors only because others merged
-    /// are not compared in the same run.
+    /// to 300 segments, and for 20 of more.
     std::size_t candidates = 0;
 };
 
@@ -77,60 +71,63 @@ struct merged_segments {
 
 namespace detail {
 
-/// Refuses what no form of the algorithm can work with.
-inline void require_thresholds(const merge_occluded_options& options) {
-    require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
-            "merge_occluded_options: the number of boundary pairs must be even and not 0");
-    require(options.max_variation >= 0.0 && options.max_offset >= 0.0 && options.max_gap >= 0.0 &&
-                options.max_angle.radians() >= 0.0,
-            "merge_occluded_options: a threshold is negative or NaN");
+/// @throws std::invalid_argument  for what no form of the algorithm can work with
+inline void require_boundary_pairs(std::size_t pairs) {
+    require(pairs > 0 && pairs % 2 == 0,
+            "merging: the number of boundary pairs must be even and not 0");
 }
 
-/// Normals of points without any.
-struct no_normals {
-    struct element {
-        Eigen::Vector3d normal{0.0, 0.0, 0.0};
-    };
-    [[nodiscard]] element operator[](std::size_t) const { return {}; }
-};
+inline void require_valid(const merge_occluded_options& options) {
+    require_boundary_pairs(options.boundary_pairs);
+    require(options.max_offset >= 0.0 && options.max_gap >= 0.0,
+            "merge_occluded: max_offset and max_gap must not be negative or NaN");
+}
 
-/// merge_occluded(), in the memory of `result`, which may be `parts`.
-/// @param known      fragments of the first run for a second one with the same points, normals and
-///                   options; none for the first run. Becomes those of this run.
-/// @param each_gap   each_gap(examined_gap) is called for all gaps, in the order of the rounds
-template <class R, class Normals, merge_policy M, execution X, class Proj>
-void merge_occluded_into(segments& result, const R& points, const Normals& normals,
-                         const segments& parts, const visibility& visible, const M& policy,
-                         const merge_occluded_options& options, const X& run,
-                         const Proj& projection, scratch<fragment>& known, auto&& each_gap) {
-    const position_view<R, Proj> p(points, projection);
-    require(parts.labels().size() == p.size(),
+/// The sets of the segments of an index that merge_occluded makes one.
+/// @param each_gap  each_gap(examined_gap) is called for all gaps
+template <class Normals, merge_policy M, execution X>
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const Normals& normals,
+                                     const segments& parts, const visibility& visible,
+                                     const M& policy, const merge_occluded_options& options,
+                                     const X& run, auto&& each_gap) {
+    require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
-    require_thresholds(options);
-    require(options.sigma > 0.0 && std::isfinite(options.sigma),
-            "merge_occluded: sigma must be greater than 0, and finite");
-    with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        occlusion_merger merge(p, viewpoints, normals, parts, visible, policy, options, run, known);
-        merge();
-        result.assign(merge.labels());
-        for (const examined_gap& gap : merge.gaps()) each_gap(gap);
-        known = merge.take_fragments();
-    });
+    require_valid(options);
+    const planar_cloud cloud(points, normals, options.noise, run);
+    occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
+    union_find sets = merge();
+    for (const examined_gap& gap : merge.gaps()) each_gap(gap);
+    return sets;
 }
 
-/// The same without a second run.
+/// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
+template <class Normals, merge_policy M, execution X>
+void merge_occluded_into(segments& result, const spatial_index& points, const Normals& normals,
+                         const segments& parts, const visibility& visible, const M& policy,
+                         const merge_occluded_options& options, const X& run, auto&& each_gap) {
+    union_find sets =
+        merged_sets(points, normals, parts, visible, policy, options, run, each_gap);
+    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    for (std::int32_t& label : labels)
+        if (label != unlabeled)
+            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+    number_by_size(labels);
+    result.assign(labels);
+}
+
+/// The same, as a value.
 template <class R, class Normals, merge_policy M, execution X, class Proj>
 [[nodiscard]] merged_segments merged_once(const R& points, const Normals& normals,
                                           const segments& parts, const visibility& visible,
                                           const M& policy, const merge_occluded_options& options,
                                           const X& run, const Proj& projection) {
     merged_segments result;
-    scratch<fragment> none;
-    merge_occluded_into(
-        result.segments, points, normals, parts, visible, policy, options, run, projection, none,
-        [&result](const examined_gap& gap) {
-            result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
-        });
+    const auto& team = staying(run);
+    merge_occluded_into(result.segments, index_of(points, team, projection), normals, parts,
+                        visible, policy, options, team, [&result](const examined_gap& gap) {
+                            result.gaps.push_back(
+                                {{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+                        });
     return result;
 }
 

@@ -26,6 +26,7 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
@@ -40,10 +41,23 @@ namespace gnomon {
 struct visibility_options {
     angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
     std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_options`
-    /// Standard deviation of ranges [m]; three of them are no difference, and view points in a cube
-    /// of this size are one.
-    double sigma = 0.015;
+    /// Along the rays: three standard deviations are no difference, and view points in a cube as
+    /// wide as the typical one are one.
+    noise_curve noise = constant_noise{};
 };
+
+namespace detail {
+
+/// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian
+///                                to 90 degrees
+inline void require_valid(const visibility_options& options) {
+    constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+    const double given = options.pixel.radians();
+    require(given == 0.0 || (given >= least && given <= most),
+            "visibility: a pixel has between a microradian and 90 degrees");
+}
+
+}  // namespace detail
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
@@ -66,20 +80,14 @@ class visibility {
     /// The observations of a whole cloud: also of points that belong to no segment, such as floor
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
-    /// @throws std::invalid_argument  for a sigma that is negative or not finite, an angle of
-    ///                                a pixel that is neither 0 nor from a microradian to 90
+    /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian to 90
     ///                                degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
                         Proj projection = {})
-        : sigma_(options.sigma) {
-        detail::require(options.sigma >= 0.0 && std::isfinite(options.sigma),
-                        "visibility: sigma must be finite and not negative");
-        constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
-        const double given = options.pixel.radians();
-        detail::require(given == 0.0 || (given >= least && given <= most),
-                        "visibility: a pixel has between a microradian and 90 degrees");
+        : noise_(options.noise) {
+        detail::require_valid(options);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             observe(points, viewpoints, options, run, projection);
         });
@@ -145,7 +153,7 @@ class visibility {
         pixel_ = std::numbers::pi / static_cast<double>(height);
         const range_image_options format{2 * height, height, options.pole};
 
-        const auto places = detail::places_of_sensor(p, viewpoints, options.sigma);
+        const auto places = detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
         detail::scratch<std::optional<range_image>> images(places.size());
         run(places.size(), [&](std::size_t i) {
             images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
@@ -154,12 +162,28 @@ class visibility {
         for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
     }
 
+    /// The standard deviation of a range of the cloud [m], in the mean.
+    [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
+        constexpr std::size_t enough = 1000;
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
+            const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
+            if (!std::isfinite(variance)) continue;
+            sum += variance;
+            count += 1.0;
+        }
+        return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    }
+
     /// What one view point has seen there.
     [[nodiscard]] observation towards(const Eigen::Vector3d& place,
                                       const range_image& image) const {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
-        const double margin = 3.0 * sigma_ + expected * pixel_;
+        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        const double margin =
+            deviations * noise_.along(detail::difference(place, image.viewpoint())) +
+            expected * pixel_;
         const auto told_by = [&](const range_image::pixel& other) {
             const double range = image.range(other);
             if (range < 0.0) return observation::unobserved;
@@ -202,7 +226,7 @@ class visibility {
         return about;
     }
 
-    double sigma_;
+    noise_curve noise_;
     double pixel_ = 0.0;  // [rad]
     detail::scratch<range_image> images_;
 };

@@ -1,28 +1,33 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling,
-/// normals and their orientation, segmentation into smooth surfaces, merging of occluded segments,
-/// assignment of unlabeled points and joining of surfaces of revolution. Each step is a policy of
-/// its own floor; the result holds what each step returned and how long it took. All steps share
-/// one index of the points (Klasing 2010, Fig. 4.2, Table 4.1).
+/// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
+/// noise of the sensor, normals, planes and smooth surfaces, and merging of what an occluder
+/// interrupts. Each step is a policy of its own floor; the result holds what each step returned, and
+/// how long it took. All steps share one index of the points, one of their cells, and one noise.
 ///
-///     const gnomon::perception<> chain{.neighborhood = {.k = 50}};
+///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
 ///
 /// and for each further scan, in the same memory:
 ///
 ///     chain.into(seen, next_scan, team);
+///
+/// The chain of the thesis is (Klasing 2010, Fig. 4.2, Sec. 4.4.1):
+///
+///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces> chain;
 #pragma once
 
 #include <concepts>
+#include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>
 
 #include <gnomon/core/detail/refused_points.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
@@ -31,10 +36,9 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/perception_run.hpp>
 #include <gnomon/perception/perception_result.hpp>
-#include <gnomon/segmentation/assign_unlabeled.hpp>
-#include <gnomon/segmentation/join_surfaces_of_revolution.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
+#include <gnomon/segmentation/segment_planes.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
-#include <gnomon/segmentation/split_outliers.hpp>
 
 namespace gnomon {
 
@@ -44,55 +48,76 @@ struct floor_and_ceiling {
     find_floor_options floor{};
     find_ceiling_options ceiling{};
     crop_height_options bands{};
+
+    /// @throws std::invalid_argument  what the search throws for parameters out of range
+    void require_valid() const {
+        detail::require_hesse({up, 0.0});
+        detail::require_valid(floor);
+        detail::require_valid(ceiling);
+    }
 };
 
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
+/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces (`segment_surfaces`)
+/// in what is left: right for every sensor, as all lengths are multiples of its noise.
+struct planes_first {
+    segment_planes_options planes{};
+    /// Of cells; nothing to leave all unlabeled that is not planar.
+    std::optional<segment_surfaces_options> remainder = segment_surfaces_options{};
+};
+
+/// The segmentation of the thesis: smooth surfaces, from the normals of all points.
+struct smooth_surfaces {
+    segment_surfaces_options surfaces{};
+    /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
+    /// estimator can.
+    repair_anisotropic_options repair{};
+};
+
 /// The chain, ready to be called on one scan after the other.
 ///
-/// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
-/// `merge_policy`, or `no_merging{}`. Name these three, and the types follow; by members, name the
-/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}` or
-/// `perception<knn, plane_pca, liberal>{.visibility = {.sigma = 0.01}}`.
-template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
+/// `neighborhood` is any model of `neighborhood` that is indexed, `estimate` of `estimator`, `merge`
+/// of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the chain.
+template <class Neighborhood = noise_knn, class Estimator = plane_pca, class Merge = conservative,
+          class Segmentation = planes_first>
 struct perception {
     static_assert(merge_policy<Merge> || std::same_as<Merge, no_merging>,
                   "perception: merge by a merge_policy, or by no_merging{}");
+    static_assert(std::same_as<Segmentation, planes_first> ||
+                      std::same_as<Segmentation, smooth_surfaces>,
+                  "perception: the segmentation is planes_first, or smooth_surfaces");
+    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_first>;
 
     Neighborhood neighborhood{};
     Estimator estimate{};
     Merge merge{};
-    segment_surfaces_options segmentation{};
+    Segmentation segmentation{};
+    /// Along the rays; by default it is measured.
+    std::optional<noise_curve> noise = std::nullopt;
+    std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};
     visibility_options visibility{};
-    std::optional<floor_and_ceiling> leave_out = std::nullopt;
-    /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
-    /// estimator can.
-    repair_anisotropic_options repair{};
-    /// Unlabeled points are assigned to planar segments.
-    std::optional<assign_unlabeled_options> assignment = assign_unlabeled_options{};
-    /// Before that, outliers of planar segments are split off, and segments merged once more.
-    std::optional<split_outliers_options> splitting = split_outliers_options{};
-    /// At the end, oversegmented surfaces of revolution are joined.
-    std::optional<join_surfaces_of_revolution_options> revolution =
-        join_surfaces_of_revolution_options{};
 
-    /// The same chain for ranges of this standard deviation [m], in the steps after the normals.
-    /// The estimator and the neighborhood keep their own.
-    [[nodiscard]] perception with_sigma(double sigma) const {
-        perception chain = *this;
-        chain.merging.sigma = chain.visibility.sigma = sigma;
-        if (chain.assignment) chain.assignment->sigma = sigma;
-        if (chain.splitting) chain.splitting->sigma = sigma;
-        if (chain.revolution) chain.revolution->sigma = sigma;
-        return chain;
+    /// @throws std::invalid_argument  what the steps throw for parameters out of range
+    void require_valid() const {
+        detail::require_valid(neighborhood);
+        detail::require_valid(merging);
+        detail::require_valid(visibility);
+        if (leave_out) detail::require_valid(*leave_out);
+        if constexpr (is_on_cells) {
+            detail::require_valid(segmentation.planes);
+            if (segmentation.remainder) detail::require_valid(*segmentation.remainder);
+        } else {
+            detail::require_valid(segmentation.surfaces);
+        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
+    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if the
     ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
@@ -130,13 +155,12 @@ struct perception {
 };
 
 /// For clang, which does not deduce the parameters of an aggregate by itself.
-template <class Neighborhood, class Estimator, class Merge>
-perception(Neighborhood, Estimator, Merge, segment_surfaces_options = {},
-           merge_occluded_options = {}, visibility_options = {},
-           std::optional<floor_and_ceiling> = std::nullopt, repair_anisotropic_options = {},
-           std::optional<assign_unlabeled_options> = assign_unlabeled_options{},
-           std::optional<split_outliers_options> = split_outliers_options{},
-           std::optional<join_surfaces_of_revolution_options> =
-               join_surfaces_of_revolution_options{}) -> perception<Neighborhood, Estimator, Merge>;
+template <class Neighborhood, class Estimator, class Merge = conservative,
+          class Segmentation = planes_first>
+perception(Neighborhood, Estimator, Merge = {}, Segmentation = {},
+           std::optional<noise_curve> = std::nullopt,
+           std::optional<floor_and_ceiling> = std::nullopt, merge_occluded_options = {},
+           visibility_options = {})
+    -> perception<Neighborhood, Estimator, Merge, Segmentation>;
 
 }  // namespace gnomon

@@ -4,8 +4,10 @@
 #pragma once
 
 #include <optional>
+#include <string_view>
 #include <vector>
 
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -13,6 +15,7 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/perception/detail/perception_memory.hpp>
+#include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
@@ -21,15 +24,20 @@ namespace gnomon {
 /// @tparam Estimate  what the estimator gives: estimate_t<Estimator>
 template <class Estimate = plane_fit>
 struct perception_result {
-    /// How long the steps took [s].
-    struct durations {
-        double preprocessing = 0.0;  ///< finding floor and ceiling
-        double index = 0.0;          ///< building it
-        double normals = 0.0;        ///< with their repair and orientation
-        double segmentation = 0.0;
-        double merging = 0.0;     ///< with range images
-        double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points,
-                                  ///< joining of surfaces of revolution
+    /// A step and how long it took [s].
+    struct timed_step {
+        std::string_view name;
+        double seconds;
+    };
+    /// The noise that all steps went by.
+    struct known_noise {
+        noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
+        /// The same of wide planes, where neighbors have errors in common; else the same.
+        noise_curve of_planes = constant_noise{0.0};
+        /// Whether it is that across the surfaces, in place of that along the rays; then nothing
+        /// was merged behind occluders.
+        bool is_across_surface = false;
+        std::string_view reason = {};  ///< why it is so
     };
 
     std::optional<plane> floor;             ///< if it was searched for and found
@@ -37,13 +45,21 @@ struct perception_result {
     std::vector<point_index> kept;          ///< the points that were not removed, ascending
     spatial_index index;                    ///< of the kept points; empty if an index was
                                             ///< given and no point was removed
+    known_noise noise;
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
-    segments initial_segments;              ///< of the n points, before merging
+    segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
-    std::vector<considered_gap> gaps;       ///< all that the first merging considered, and what
-                                            ///< the second one merged
-    durations seconds;
+    std::vector<plane_estimate> planes;     ///< of the surfaces; which of them are flat
+    std::vector<considered_gap> gaps;       ///< all that the merging considered, between points
+    std::vector<timed_step> steps;          ///< in their order
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
+
+    /// The duration of all steps [s].
+    [[nodiscard]] double seconds() const {
+        double sum = 0.0;
+        for (const timed_step& step : steps) sum += step.seconds;
+        return sum;
+    }
 };
 
 }  // namespace gnomon

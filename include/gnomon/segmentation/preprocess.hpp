@@ -70,6 +70,15 @@ inline void require_hesse(const plane& p) {
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
+inline void require_valid(const find_floor_options& search) {
+    require(search.band > 0.0, "find_floor: the band must be positive");
+}
+
+inline void require_valid(const find_ceiling_options& search) {
+    require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+}
+
 }  // namespace detail
 
 /// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
@@ -106,7 +115,7 @@ template <class R, class Proj = std::identity>
 [[nodiscard]] std::optional<plane> find_floor(const R& points, const plane& guess = {},
                                               const find_floor_options& search = {},
                                               Proj projection = {}) {
-    detail::require(search.band > 0.0, "find_floor: the band must be positive");
+    detail::require_valid(search);
     detail::require_hesse(guess);
     const position_view<R, Proj> p(points, std::move(projection));
     plane floor = guess;
@@ -164,8 +173,7 @@ template <class R, class Proj = std::identity>
 [[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
                                                  const find_ceiling_options& search = {},
                                                  Proj projection = {}) {
-    detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
-    detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    detail::require_valid(search);
     detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);

@@ -48,6 +48,14 @@ struct segment_surfaces_options {
 
 namespace detail {
 
+/// @throws std::invalid_argument  for a negative or NaN max_distance or a max_angle outside [0, 90]
+///                                degrees
+inline void require_valid(const segment_surfaces_options& options) {
+    (void)min_cosine(options.max_angle);
+    require(options.max_distance >= 0.0,
+            "segment_surfaces: max_distance must not be negative or NaN");
+}
+
 /// The criterion and the search radius of Alg. 4.2.
 template <surfel_range Surface>
 class smooth_link {
@@ -56,8 +64,7 @@ class smooth_link {
         : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
         require(std::ranges::size(surface) == points,
                 "segment_surfaces: surface and points differ in size");
-        require(options.max_distance >= 0.0,
-                "segment_surfaces: max_distance must not be negative or NaN");
+        require_valid(options);
     }
 
     /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in

@@ -1,14 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The rounds of merge_occluded: which pairs of segments are compared, which gaps are closed, and
-/// which segments become one.
+/// Which segments merge_occluded compares, and which gaps between them it closes.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
-#include <numeric>
 #include <span>
 #include <utility>
 
@@ -19,156 +16,108 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/detail/fragment.hpp>
 #include <gnomon/occlusion/detail/gap_verdict.hpp>
-#include <gnomon/occlusion/detail/plane_comparison.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/segmentation/detail/agglomeration.hpp>
+#include <gnomon/segmentation/detail/plane_comparison.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
 /// A gap between two segments, as `considered_gap`.
 struct examined_gap {
+    region_pair sides;
     scratch<boundary_pair> lines;
     observation_count seen = {};
     bool merged = false;
 };
 
 /// One run of the algorithm.
-/// @tparam Points   a position_view
+/// @tparam Cloud    a planar_cloud
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <class Points, class Normals, merge_policy M, class Options, execution X>
+template <class Cloud, merge_policy M, class Options>
 class occlusion_merger {
   public:
-    /// @param known  fragments of an earlier run over the same points, with the same options: those
-    ///               with the same members as a segment are not computed again
-    occlusion_merger(const Points& points, const viewpoint_table& viewpoints,
-                     const Normals& normals, const segments& parts, const visibility& visible,
-                     const M& policy, const Options& options, const X& run,
-                     scratch<fragment>& known)
+    template <execution X>
+    occlusion_merger(const spatial_index& points, const Cloud& cloud, const segments& parts,
+                     const visibility& visible, const M& policy, const Options& options,
+                     const X& run)
         : points_(points),
-          viewpoints_(viewpoints),
-          normals_(normals),
           visible_(visible),
           policy_(policy),
           options_(options),
-          positions_(points.size()) {
-        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-        scratch<std::size_t> known_of(parts.size(), none);
-        for (std::size_t f = 0; f < known.size(); ++f) {
-            const std::int32_t label = parts.labels()[known[f].members.front()];
-            if (label == unlabeled) continue;
-            const auto s = static_cast<std::size_t>(label);
-            // (Not by std::ranges::equal, whose concepts all users would compile.)
-            const auto& before = known[f].members;
-            const auto now = parts[s];
-            if (std::equal(before.begin(), before.end(), now.begin(), now.end())) known_of[s] = f;
-        }
-        scratch<std::size_t> begin(parts.size(), 0);
-        for (std::size_t s = 1; s < parts.size(); ++s)
-            begin[s] = begin[s - 1] + parts[s - 1].size();
-        scratch<fragment> all(parts.size());
+          regions_(parts.size()),
+          members_(parts.size()),
+          is_flat_(parts.size(), false) {
         run(parts.size(), [&](std::size_t s) {
             if (parts[s].empty()) return;
-            const bool is_known = known_of[s] != none;
-            all[s] = is_known ? std::move(known[known_of[s]])
-                              : fragment_with({parts[s].begin(), parts[s].end()}, begin[s]);
-            all[s].is_new = true;
+            const plane_of_members found(cloud, parts[s]);
+            regions_[s] = found.region;
+            is_flat_[s] = found.is_flat;
+            for (const point_index i : parts[s])
+                if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
+                    members_[s].push_back(i);
         });
-        for (fragment& f : all)
-            if (!f.members.empty()) fragments_.push_back(std::move(f));
     }
 
-    /// Merges, round by round.
-    void operator()() {
-        while (merge_once()) {
-        }
-    }
-
-    /// The labels of the points.
-    [[nodiscard]] scratch<std::int32_t> labels() const {
-        return labels_of_groups(points_.size(), fragments_, &fragment::members);
-    }
-    /// All gaps that were examined, in the order of the rounds.
-    [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
-    /// The fragments after merging, for another run.
-    [[nodiscard]] scratch<fragment> take_fragments() { return std::move(fragments_); }
-
-  private:
-    /// @param begin  of its positions in `positions_`
-    [[nodiscard]] fragment fragment_with(scratch<point_index> members, std::size_t begin) {
-        const auto positions = std::span(positions_).subspan(begin, members.size());
-        return fragment_of(points_, normals_, viewpoints_, std::move(members), positions,
-                           options_.max_variation, options_.max_angle, options_.sigma);
-    }
-
-    /// A gap that may be closed.
-    struct link {
-        point_index first, second;  ///< the fragments on both sides
-        double offset;              ///< of one from the plane of the other [m]
-        std::size_t gap;            ///< its number
-    };
-
-    /// One round.
-    /// @return whether it merged any
-    bool merge_once() {
-        scratch<link> links;
-        for (const auto& [i, j] : pairs_to_compare(fragments_, options_.candidates,
-                                                   &fragment::is_flat, &fragment::frame)) {
-            const fragment &a = fragments_[i], &b = fragments_[j];
-            if (!a.is_new && !b.is_new) continue;
-            const plane_comparison planes = comparison_of(a, b, options_.sigma);
-            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
-            examined_gap gap;
-            gap.lines.reserve(options_.boundary_pairs);
-            append_boundary_pairs(gap.lines, points_, a.on_plane, b.on_plane,
-                                  {a.frame.centroid, b.frame.centroid}, options_.boundary_pairs);
-            if (is_closed(gap, may_adjoin(a, b)))
-                links.push_back({i, j, planes.offset(), gaps_.size()});
-            gaps_.push_back(std::move(gap));
-        }
-        if (links.empty()) return false;
-        union_find sets = sets_of(links);
-        for (const link& l : links) gaps_[l.gap].merged = sets.find(l.first) == sets.find(l.second);
-        gather(sets);
-        return true;
-    }
-
-    /// What the links join, the closest planes first. A fragment that tells little of its plane may
-    /// be of one with two that are certainly of two: it does not join these, each set being judged
-    /// by its largest fragment.
-    [[nodiscard]] union_find sets_of(scratch<link>& links) const {
-        std::sort(links.begin(), links.end(), [this](const link& a, const link& b) {
-            if (a.offset != b.offset) return a.offset < b.offset;
-            return coplanar_distance(gaps_[a.gap].lines) < coplanar_distance(gaps_[b.gap].lines);
-        });
-        union_find sets(fragments_.size());
-        scratch<point_index> largest(fragments_.size());
-        std::iota(largest.begin(), largest.end(), point_index{0});
-        for (const link& l : links) {
-            const point_index a = largest[sets.find(l.first)], b = largest[sets.find(l.second)];
-            if (comparison_of(fragments_[a], fragments_[b], options_.sigma)
-                    .is_of_two(options_.max_angle, options_.max_offset))
-                continue;
-            const bool first = fragments_[a].members.size() >= fragments_[b].members.size();
-            largest[sets.unite(l.first, l.second)] = first ? a : b;
-        }
+    /// Merges the segments; their sets.
+    [[nodiscard]] union_find operator()() {
+        union_find sets = agglomerated(
+            regions_, pairs(),
+            [this](const planar_region& a, const planar_region& b) {
+                return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
+            },
+            [this](point_index a, point_index b) { return is_closed(a, b); },
+            [this](point_index into, point_index from) {
+                members_[into].insert(members_[into].end(), members_[from].begin(),
+                                      members_[from].end());
+                members_[from].clear();
+            });
+        for (examined_gap& gap : gaps_)
+            gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
         return sets;
     }
 
-    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow and its
-    /// sides may adjoin, whether `liberal` does.
-    /// @param gap  stores what was seen in it
-    [[nodiscard]] bool is_closed(examined_gap& gap, bool may_adjoin) const {
+    /// All gaps that were examined.
+    [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
+
+  private:
+    /// Pairs of flat segments that may be one.
+    [[nodiscard]] scratch<region_pair> pairs() const {
+        scratch<std::size_t> all(regions_.size());
+        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
+        return pairs_to_compare(
+            all, options_.candidates, [this](std::size_t r) { return is_flat_[r] != 0; },
+            [this](std::size_t r) { return regions_[r].fit; });
+    }
+
+    /// Whether the centroid of the segment that knows less of its plane is near that of the other:
+    /// farther away, directions are less certain.
+    [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
+        constexpr double slope = 0.1;  // chosen
+        const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
+        const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
+        return std::abs(dot(wide.fit.plane.normal, between)) <=
+               options_.max_offset + slope * length(between);
+    }
+
+    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow, whether
+    /// `liberal` does.
+    [[nodiscard]] bool is_closed(point_index a, point_index b) {
+        examined_gap gap{{a, b}, {}};
+        append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
+                              {centroid(a), centroid(b)}, options_.boundary_pairs);
         std::size_t accepted = 0, passable = 0;
         bool is_kept_open = false;
         for (const boundary_pair& line : gap.lines) {
             const Eigen::Vector3d v =
-                combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
+                combined(0.5, points_.viewpoints[line.first], 0.5, points_.viewpoints[line.second]);
             const observation_count seen =
                 visible_.between(points_[line.first], points_[line.second], v);
             gap.seen += seen;
@@ -176,40 +125,29 @@ class occlusion_merger {
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
-        return !is_kept_open && (2 * accepted > gap.lines.size() ||
-                                 (may_adjoin && coplanar_distance(gap.lines) < options_.max_gap &&
-                                  2 * passable > gap.lines.size()));
+        const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
+        const std::size_t most = is_narrow ? std::max(accepted, passable) : accepted;
+        const bool is_one = !is_kept_open && 2 * most > gap.lines.size();
+        gaps_.push_back(std::move(gap));
+        return is_one;
     }
 
-    /// Makes one segment of each set.
-    void gather(union_find& sets) {
-        for (fragment& f : fragments_) f.is_new = false;
-        for (std::size_t i = 0; i < fragments_.size(); ++i) {
-            const point_index root = sets.find(static_cast<point_index>(i));
-            if (root == i) continue;
-            auto &from = fragments_[i].members, &to = fragments_[root].members;
-            to.insert(to.end(), from.begin(), from.end());
-            from.clear();
-            fragments_[root].is_new = true;
-        }
-        std::erase_if(fragments_, [](const fragment& f) { return f.members.empty(); });
-        for (fragment& f : fragments_) {
-            if (!f.is_new) continue;
-            std::sort(f.members.begin(), f.members.end());
-            f = fragment_with(std::move(f.members), 0);
-        }
+    /// Of the points of a segment on its plane, at the beginning of a round [m].
+    [[nodiscard]] Eigen::Vector3d centroid(point_index r) const {
+        Eigen::Vector3d sum(0.0, 0.0, 0.0);
+        const Eigen::Vector3d first = points_[members_[r].front()];
+        for (const point_index i : members_[r])
+            sum = combined(1.0, sum, 1.0, difference(points_[i], first));
+        return combined(1.0, first, 1.0 / static_cast<double>(members_[r].size()), sum);
     }
 
-    const Points& points_;
-    const viewpoint_table& viewpoints_;
-    const Normals& normals_;
+    const spatial_index& points_;
     const visibility& visible_;
     const M& policy_;
     const Options& options_;
-    // One array for all threads: the memory in use does not depend on which segments are fitted at
-    // the same time.
-    scratch<Eigen::Vector3d> positions_;
-    scratch<fragment> fragments_;
+    scratch<planar_region> regions_;
+    scratch<scratch<point_index>> members_;  // on the planes
+    scratch<char> is_flat_;
     scratch<examined_gap> gaps_;
 };
 

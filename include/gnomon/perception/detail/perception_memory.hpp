@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <gnomon/core/detail/memory_pool.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/surfel.hpp>
-#include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
@@ -15,8 +15,8 @@ namespace gnomon::detail {
 template <class Estimate>
 class perception_memory {
   public:
-    std::vector<surfel<Estimate>> surface;  ///< of the kept points, where some were removed
-    segments parts;                         ///< of these
+    spatial_index cells;                    ///< the index of the cells
+    std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;
     perception_memory(const perception_memory&) : perception_memory() {}

@@ -11,35 +11,42 @@
 #include <numeric>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/stopwatch.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/supervised.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/wide_noise.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/measure_noise.hpp>
+#include <gnomon/normals/noise_level.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
 #include <gnomon/normals/surfel.hpp>
-#include <gnomon/occlusion/detail/fragment.hpp>
-#include <gnomon/occlusion/detail/occlusion_merger.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/cell_surfaces.hpp>
 #include <gnomon/perception/perception_result.hpp>
-#include <gnomon/segmentation/assign_unlabeled.hpp>
-#include <gnomon/segmentation/join_surfaces_of_revolution.hpp>
+#include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
 #include <gnomon/segmentation/segments.hpp>
-#include <gnomon/segmentation/split_outliers.hpp>
 
 namespace gnomon::detail {
+
+/// The same policy for this noise, if it depends on any.
+template <class Policy>
+[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
+    return policy;
+}
 
 /// One call of the chain. All its steps take scratch memory from the pools of the result, and write
 /// their results over those of the last call.
@@ -57,41 +64,29 @@ class perception_run {
 
     void operator()() {
         const pool_scope scope(&result_.memory.pool());
-        result_.seconds = {};
-        step("preprocessing", result_.seconds.preprocessing, [&] { keep(); });
-        step("index", result_.seconds.index, [&] { index_kept(); });
-        step("normals", result_.seconds.normals, [&] { estimate(); });
-        step("segmentation", result_.seconds.segmentation, [&] { segment(); });
-        merging merged;
-        merge(merged);
-        step("assignment", result_.seconds.assignment, [&] { split(); });
-        if (chain_.splitting) merge(merged);  // planes are more accurate without outliers
-        result_.gaps.resize(merged.gaps);
-        step("assignment", result_.seconds.assignment, [&] { assign_and_join(); });
+        chain_.require_valid();
+        result_.steps.clear();
+        result_.gaps.clear();
+        step("floor", [&] { keep(); });
+        step("index", [&] { index_kept(); });
+        step("noise", [&] { know_noise(); });
+        if constexpr (Chain::is_on_cells)
+            find_on_cells();
+        else
+            find_on_points();
+        step("planes of surfaces", [&] { estimate_planes_of_all(); });
     }
 
   private:
-    /// What the second merging reuses of the first one.
-    struct merging {
-        std::optional<visibility> seen = {};
-        scratch<fragment> fragments = {};
-        std::size_t gaps = 0;  ///< in the result
-    };
+    static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
+    static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
-    /// The number of steps: not all chains merge, or split and merge again.
-    [[nodiscard]] std::size_t steps() const {
-        if constexpr (merge_policy<decltype(chain_.merge)>)
-            return chain_.splitting ? 8 : 7;
-        else
-            return 6;
-    }
-
-    /// Announces a step, and adds its time to `seconds`.
-    void step(const char* name, double& seconds, auto&& work) {
-        begin_step(progress_, name, ++step_, steps());
+    /// Announces a step, and notes its time.
+    void step(const char* name, auto&& work) {
+        begin_step(progress_, name, result_.steps.size() + 1, steps);
         const stopwatch watch;
         work();
-        seconds += watch.seconds();
+        result_.steps.push_back({name, watch.seconds()});
     }
 
     [[nodiscard]] std::size_t size() const {
@@ -131,96 +126,142 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    void estimate() {
-        const auto& index = *given_;
-        auto& surface = surface_of_kept();
-        estimate_normals_into(surface, index, chain_.neighborhood, chain_.estimate, run_);
-        if constexpr (requires {
-                          repair_anisotropic(index, chain_.neighborhood, surface, chain_.estimate,
-                                             chain_.repair, run_);
-                      })
-            repair_anisotropic(index, chain_.neighborhood, surface, chain_.estimate, chain_.repair,
-                               run_);
-        orient_normals(index, surface, run_);
-        if (keeps_all()) return;
-        result_.surface.assign(size(), {});
-        for (std::size_t i = 0; i < surface.size(); ++i)
-            result_.surface[result_.kept[i]] = surface[i];
+    /// The noise that is given, or measured; or else that across the surfaces.
+    void know_noise() {
+        auto& noise = result_.noise;
+        noise = {};
+        if (chain_.noise) {
+            noise.curve = noise.of_planes = *chain_.noise;
+            return;
+        }
+        const measured_noise found = measure_noise(*given_, run_);
+        if (found.curve) {
+            noise.curve = *found.curve;
+            noise.of_planes = noise_of_wide_planes(*given_, noise.curve, run_);
+            return;
+        }
+        noise.curve = noise.of_planes = constant_noise{noise_level(*given_, run_)};
+        noise.is_across_surface = true;
+        noise.reason = found.reason;
     }
 
-    /// The surface elements of the kept points.
-    [[nodiscard]] std::vector<surfel<Estimate>>& surface_of_kept() const {
-        return keeps_all() ? result_.surface : result_.memory.surface;
-    }
-
-    void segment() {
-        segments& parts = keeps_all() ? result_.initial_segments : result_.memory.parts;
-        segment_surfaces_into(parts, *given_, surface_of_kept(), chain_.segmentation, run_);
-        if (!keeps_all()) assign_to_all(result_.initial_segments, parts);
-        result_.surfaces = result_.initial_segments;
-    }
-
-    /// Makes segments of all points from those of the kept ones.
-    void assign_to_all(segments& all, const segments& of_kept) const {
-        scratch<std::int32_t> labels(size(), unlabeled);
-        for (std::size_t i = 0; i < result_.kept.size(); ++i)
-            labels[result_.kept[i]] = of_kept.labels()[i];
-        all.assign(labels);
-    }
-
-    /// Calls change(segments) with result_.surfaces, or with those of the kept points, which then
-    /// become those of all.
-    void change_segments_of_kept(auto&& change) const {
-        if (keeps_all()) return change(result_.surfaces);
-        segments& parts = result_.memory.parts;
-        scratch<std::int32_t> labels;
-        labels.reserve(result_.kept.size());
-        for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
-        parts.assign(labels);
-        change(parts);
-        assign_to_all(result_.surfaces, parts);
-    }
-
-    /// Merges occluded segments. Points that were removed occlude as well as others.
-    void merge(merging& state) {
-        if constexpr (merge_policy<decltype(chain_.merge)>) {
-            step("merging", result_.seconds.merging, [&] {
-                const bool is_first = !state.seen;
-                if (is_first) state.seen.emplace(points_, chain_.visibility, run_, projection_);
-                merge_occluded_into(result_.surfaces, points_, result_.surface, result_.surfaces,
-                                    *state.seen, chain_.merge, chain_.merging, run_, projection_,
-                                    state.fragments, [&](const examined_gap& gap) {
-                                        if (is_first || gap.merged) write(gap, state.gaps++);
-                                    });
+    /// Calls work(visibility) if segments are merged, and may be.
+    void merging(auto&& work) {
+        if constexpr (merges) {
+            step("merging", [&] {
+                if (result_.noise.is_across_surface) return;
+                const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
+                work(visibility(points_, options, run_, projection_));
             });
         }
     }
 
-    /// Writes gap number g of the result, over that of the last call.
-    void write(const examined_gap& gap, std::size_t g) const {
-        if (g == result_.gaps.size()) result_.gaps.emplace_back();
-        considered_gap& to = result_.gaps[g];
-        to.lines.assign(gap.lines.begin(), gap.lines.end());
-        to.seen = gap.seen;
-        to.merged = gap.merged;
-    }
-
-    void split() {
-        if (!chain_.splitting) return;
-        change_segments_of_kept([&](segments& parts) {
-            split_outliers_into(parts, *given_, surface_of_kept(), parts, *chain_.splitting, run_);
+    /// `planes_first`
+    void find_on_cells() {
+        const noise_curve& noise = result_.noise.of_planes;
+        std::optional<cell_surfaces<Estimate>> found;
+        step("cells", [&] {
+            found.emplace(*given_, noise, !result_.noise.is_across_surface, result_.memory.cells,
+                          result_.memory.surface, run_);
+        });
+        step("normals", [&] {
+            found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
+                            at_noise(chain_.estimate, noise), run_);
+            result_.surface.assign(size(), {});
+            for (std::size_t i = 0; i < result_.kept.size(); ++i)
+                result_.surface[result_.kept[i]] = found->element_of(i);
+        });
+        step("planes", [&] {
+            found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_);
+        });
+        scratch<std::int32_t> labels;
+        step("assignment", [&] {
+            labels = found->labels_of_points(run_);
+            set_segments(result_.initial_segments, labels);
+            result_.surfaces = result_.initial_segments;
+        });
+        merging([&](const visibility& visible) {
+            segments parts;
+            parts.assign(found->labels());
+            union_find sets = merged_sets(
+                found->index(), found->surface(), parts, visible, chain_.merge,
+                at_noise(chain_.merging, noise), run_, [&](const examined_gap& gap) {
+                    note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
+                });
+            for (std::int32_t& label : labels)
+                if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
+                    label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+            set_segments(result_.surfaces, labels);
         });
     }
 
-    void assign_and_join() {
-        if (!chain_.assignment && !chain_.revolution) return;
-        change_segments_of_kept([&](segments& parts) {
-            if (chain_.assignment)
-                assign_unlabeled_into(parts, *given_, parts, *chain_.assignment, run_);
-            if (chain_.revolution)
-                join_surfaces_of_revolution_into(parts, *given_, surface_of_kept(), parts,
-                                                 *chain_.revolution, run_);
+    /// `smooth_surfaces`
+    void find_on_points() {
+        auto& surface = keeps_all() ? result_.surface : result_.memory.surface;
+        const auto neighborhood = at_noise(chain_.neighborhood, result_.noise.curve);
+        const auto estimate = at_noise(chain_.estimate, result_.noise.curve);
+        step("normals", [&] {
+            estimate_normals_into(surface, *given_, neighborhood, estimate, run_);
+            const auto& repair = chain_.segmentation.repair;
+            if constexpr (requires {
+                              repair_anisotropic(*given_, neighborhood, surface, estimate, repair,
+                                                 run_);
+                          })
+                repair_anisotropic(*given_, neighborhood, surface, estimate, repair, run_);
+            orient_normals(*given_, surface, run_);
+            if (keeps_all()) return;
+            result_.surface.assign(size(), {});
+            for (std::size_t i = 0; i < surface.size(); ++i)
+                result_.surface[result_.kept[i]] = surface[i];
         });
+        segments parts;
+        step("segmentation", [&] {
+            segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
+            scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+            set_segments(result_.initial_segments, labels);
+            result_.surfaces = result_.initial_segments;
+        });
+        merging([&](const visibility& visible) {
+            segments merged;
+            merge_occluded_into(merged, *given_, surface, parts, visible, chain_.merge,
+                                at_noise(chain_.merging, result_.noise.of_planes), run_,
+                                [&](const examined_gap& gap) {
+                                    note(gap, [&](point_index i) { return result_.kept[i]; });
+                                });
+            scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
+            set_segments(result_.surfaces, labels);
+        });
+    }
+
+    /// Makes segments of all points from labels of the kept ones.
+    void set_segments(segments& all, const scratch<std::int32_t>& of_kept) const {
+        scratch<std::int32_t> labels(size(), unlabeled);
+        for (std::size_t i = 0; i < result_.kept.size(); ++i)
+            labels[result_.kept[i]] = of_kept[i];
+        number_by_size(labels);
+        all.assign(labels);
+    }
+
+    /// Writes a gap to the result.
+    /// @param point_of  the number in the cloud of what the gap is between
+    void note(const examined_gap& gap, auto&& point_of) const {
+        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
+        for (auto& line : to.lines) {
+            line.first = point_of(line.first);
+            line.second = point_of(line.second);
+        }
+        result_.gaps.push_back(std::move(to));
+    }
+
+    void estimate_planes_of_all() {
+        const no_normals normals;
+        const planar_cloud cloud(*given_, normals, result_.noise.of_planes, run_);
+        scratch<std::int32_t> labels;
+        labels.reserve(result_.kept.size());
+        for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
+        const label_groups parts(labels);
+        result_.planes.assign(result_.surfaces.size(), {});
+        run_(parts.size(), [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s]); });
     }
 
     const Chain& chain_;
@@ -230,7 +271,6 @@ class perception_run {
     pooled_run<X> run_;
     const Proj& projection_;
     const spatial_index* given_ = nullptr;  // of the kept points
-    std::size_t step_ = 0;
 };
 
 }  // namespace gnomon::detail

@@ -1,170 +1,174 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How segment_planes grows a region: from a seed to neighbors that lie on its plane, which is
-/// fitted again each time that it has doubled.
+/// Growth of planes: from the flattest points on, those neighbors join whose normals agree and
+/// which are within three standard deviations of the plane of the region, which is fit again as the
+/// region grows (after Poppinga et al. 2008).
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <utility>
-#include <vector>
+#include <limits>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/moments.hpp>
-#include <gnomon/core/normal_range.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/segmentation/detail/plane_of_sums.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
-/// What regions have to keep to.
-struct plane_rules {
-    double noise;       ///< sigma, across the surface [m]
-    double deviations;  ///< of a point from its plane, in sigma
-    double min_cosine;  ///< between a point's normal and its plane's
-    std::size_t min_points;
-};
+/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
+/// normal distribution.
+inline constexpr double most_deviations = 3.0;
 
-/// Regions of the points of a position_view, one after the other.
-template <class Points, neighborhood_graph Graph, normal_range Surface>
+/// Grows planes in a cloud.
+template <class Cloud, neighborhood_graph G>
 class plane_growth {
   public:
-    plane_growth(const Points& points, const Graph& graph, const Surface& surface,
-                 const plane_rules& rules)
-        : points_(points),
+    /// @param labels  those of the regions; grown ones are added
+    plane_growth(const Cloud& cloud, const G& graph, std::size_t min_points,
+                 scratch<std::int32_t>& labels)
+        : cloud_(cloud),
           graph_(graph),
-          surface_(surface),
-          rules_(rules),
-          labels_(points.size(), unlabeled),
-          visit_(points.size(), 0) {}
+          min_points_(min_points),
+          labels_(labels),
+          visit_(cloud.size(), 0) {}
 
-    /// From one seed after the other, those in the flattest surroundings first.
-    /// @return the labels of the points
+    /// Grows regions of unlabeled points.
+    /// @param min_cosine  of the angle between normals of points and planes
+    /// @param next        the label of the first new region
     template <execution X>
-    [[nodiscard]] std::vector<std::int32_t> operator()(const X& run) {
-        std::int32_t label = 0;
-        for (const point_index seed : seeds(run)) {
-            if (labels_[seed] != unlabeled) continue;
-            grow(seed);
-            if (members_.size() < rules_.min_points) continue;
-            for (const point_index i : members_) labels_[i] = label;
-            ++label;
+    void operator()(double min_cosine, std::int32_t next, const X& run) {
+        min_cosine_ = min_cosine;
+        scratch<char> was_tried(cloud_.size(), false);
+        for (const point_index seed : flattest_first(run)) {
+            if (was_tried[seed] != 0 || !is_free(seed)) continue;
+            const plane_sums sums = grown_from(seed);
+            if (sums.count >= min_points_) {
+                for (const point_index i : members_) labels_[i] = next;
+                ++next;
+            } else {
+                for (const point_index i : members_) was_tried[i] = true;
+            }
         }
-        return std::move(labels_);
     }
 
   private:
-    /// The points with a normal, by the mean square of their neighbors' distances from their
-    /// tangent planes.
+    [[nodiscard]] bool is_free(std::size_t i) const {
+        return labels_[i] == unlabeled && !is_missing(cloud_.normal(i));
+    }
+
+    /// The free points by the mean squared distance of their neighbors from the plane of their
+    /// normal, in variances of the noise.
     template <execution X>
-    std::vector<point_index> seeds(const X& run) const {
-        std::vector<double> roughness(points_.size(), 0.0);
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (!may_grow(i)) continue;
-                std::size_t count = 0;
-                for (const point_index j : graph_[i]) {
-                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
-                    if (!std::isfinite(d)) continue;
-                    roughness[i] += d * d;
-                    ++count;
-                }
-                if (count > 0) roughness[i] /= static_cast<double>(count);
-            }
+    [[nodiscard]] scratch<point_index> flattest_first(const X& run) const {
+        scratch<double> roughness(cloud_.size(), std::numeric_limits<double>::infinity());
+        for_each_chunk(run, cloud_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (is_free(i)) roughness[i] = roughness_at(i);
         });
-        std::vector<point_index> order;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
-        }
-        std::stable_sort(order.begin(), order.end(),
-                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
+        scratch<point_index> order;
+        for (std::size_t i = 0; i < cloud_.size(); ++i)
+            if (is_free(i)) order.push_back(static_cast<point_index>(i));
+        std::sort(order.begin(), order.end(), [&](point_index a, point_index b) {
+            return roughness[a] != roughness[b] ? roughness[a] < roughness[b] : a < b;
+        });
         return order;
     }
 
-    bool may_grow(std::size_t i) const {
-        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
+    [[nodiscard]] double roughness_at(std::size_t i) const {
+        const Eigen::Vector3d n = cloud_.normal(i);
+        double sum = 0.0, count = 1.0, mean = 0.0;
+        for (const point_index j : graph_[i]) {
+            const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
+            sum += d * d;
+            mean += d;
+            count += 1.0;
+        }
+        const double dev = cloud_.noise[i].across(n);
+        mean /= count;
+        return (sum / count - mean * mean) / (dev * dev);
     }
 
     /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
-    /// twice more with the final plane, which corrects the decisions of early planes.
-    void grow(point_index seed) {
-        gnomon::plane along{surface_[seed].normal, 0.0};
-        double reach = rules_.deviations * rules_.noise;
-        along.offset = dot(along.normal, mean_around(seed, along.normal));
-        members_.clear();
-        if (!fits(seed, along, reach)) return;
-        members_.push_back(seed);
+    /// twice again with the final plane, which corrects the decisions of early planes.
+    plane_sums grown_from(point_index seed) {
         constexpr int passes = 3;
+        region_plane to = start_at(seed);
+        plane_sums sums;
+        members_.clear();
+        if (!fits(seed, to)) return sums;
+        members_.push_back(seed);
         for (int pass = 0; pass < passes; ++pass) {
-            ++stamp_;
             if (pass > 0)
-                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
-            for (const point_index i : members_) visit_[i] = stamp_;
-            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
-            for (std::size_t next = 0; next < members_.size(); ++next) {
-                for (const point_index j : graph_[members_[next]]) {
-                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
-                    visit_[j] = stamp_;
-                    members_.push_back(j);
-                }
-                if (members_.size() < refit_at) continue;
-                if (const auto f = plane_of_members(points_[seed]); !is_missing(f.plane.normal))
-                    along = f.plane;
-                refit_at *= 2;
-            }
-            const fitted_plane f = plane_of_members(points_[seed]);
-            if (is_missing(f.plane.normal)) {
-                members_.clear();
-                return;
-            }
-            along = f.plane;
-            // Where there is more noise than elsewhere, up to twice as much.
-            reach = rules_.deviations *
-                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
+                std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
+            sums = spread(to, pass == 0);
+            const region_plane next = sums.fit();
+            if (!next.is_determined) return sums;
+            to = next;
         }
+        return sums;
     }
 
-    /// Whether a free point may join a plane.
-    bool fits(point_index i, const gnomon::plane& to, double reach) const {
-        return labels_[i] == unlabeled && may_grow(i) &&
-               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
-               std::abs(to.signed_distance(points_[i])) <= reach;
+    /// Adds to members_ what fits a plane and is connected with them.
+    /// @param follows  whether the plane is fit again each time that their number has doubled
+    plane_sums spread(region_plane& to, bool follows) {
+        ++stamp_;
+        for (const point_index i : members_) visit_[i] = stamp_;
+        plane_sums sums;
+        std::size_t refit_at = follows ? 8 : std::numeric_limits<std::size_t>::max();
+        for (std::size_t next = 0; next < members_.size(); ++next) {
+            const point_index i = members_[next];
+            cloud_.add(i, sums);
+            for (const point_index j : graph_[i]) {
+                if (visit_[j] == stamp_ || !fits(j, to)) continue;
+                visit_[j] = stamp_;
+                members_.push_back(j);
+            }
+            if (sums.count < refit_at) continue;
+            const double excess = to.chi2;
+            if (const region_plane f = sums.fit(); f.is_determined) to = f;
+            to.chi2 = excess;  // that of a part tells little
+            refit_at *= 2;
+        }
+        return sums;
     }
 
-    /// The mean of the seed and those of its neighbors whose normals agree [m].
-    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
-        moments m;
+    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
+        return is_free(i) && std::abs(dot(to.plane.normal, cloud_.normal(i))) >= min_cosine_ &&
+               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+    }
+
+    /// The plane through the mean of the seed and those of its neighbors whose normals agree.
+    [[nodiscard]] region_plane start_at(point_index seed) const {
+        const Eigen::Vector3d n = cloud_.normal(seed);
+        Eigen::Vector3d sum = cloud_.offsets[seed];
+        double count = 1.0;
         for (const point_index j : graph_[seed]) {
-            if (labels_[j] == unlabeled && may_grow(j) &&
-                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
-                m.add(difference(points_[j], points_[seed]));
+            if (!is_free(j) || std::abs(dot(n, cloud_.normal(j))) < min_cosine_) continue;
+            sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
+            count += 1.0;
         }
-        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
+        region_plane start;
+        start.plane = {n, dot(n, sum) / count};
+        return start;
     }
 
-    /// The plane of the members.
-    fitted_plane plane_of_members(const Eigen::Vector3d& origin) const {
-        moments m;
-        for (const point_index i : members_) m.add(difference(points_[i], origin));
-        return fitted(m, origin);
-    }
-
-    const Points& points_;
-    const Graph& graph_;
-    const Surface& surface_;
-    plane_rules rules_;
-    std::vector<std::int32_t> labels_;
-    std::vector<std::size_t> visit_;  // by which pass of which seed
+    const Cloud& cloud_;
+    const G& graph_;
+    std::size_t min_points_;
+    scratch<std::int32_t>& labels_;
+    double min_cosine_ = 1.0;
+    scratch<std::size_t> visit_;  // by which spreading
     std::size_t stamp_ = 0;
-    std::vector<point_index> members_;
+    scratch<point_index> members_;
 };
 
 }  // namespace gnomon::detail

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The k nearest neighbors within a few standard deviations of the noise: as wide as a normal
+/// requires, and no wider, so that edges stay sharp where the sensor is precise. Where fewer points
+/// are that near, the nearest few, however far.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/found_neighbors.hpp>
+#include <gnomon/neighborhoods/detail/graph_of.hpp>
+#include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+
+namespace gnomon {
+
+/// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest first.
+struct noise_knn {
+    noise_curve noise = constant_noise{};  ///< along the rays
+    std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
+    std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
+    double deviations = 6.0;               ///< within so many standard deviations of the point
+
+    /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
+    /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return detail::graph_of(*this, points, run, projection);
+    }
+
+    /// Replaces the content of `found` by the neighbors of the finite point i. O(log n + k log k).
+    /// Errors: those of operator().
+    template <class Allocator>
+    void find(const spatial_index& index, std::size_t i,
+              std::vector<neighbor, Allocator>& found) const {
+        require_valid();
+        detail::search_tree(index.tree(), index[i],
+                            {.k = k, .except = static_cast<point_index>(i)}, found);
+        const double within = squared_reach(index, i);
+        const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
+        const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
+        found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
+    }
+
+    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// Errors: those of operator().
+    template <execution X>
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        require_valid();
+        detail::search_all_groups(
+            index.tree(), run,
+            [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
+            [&] { return gate(*this, index, make_visitor()); });
+    }
+
+    /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
+    void require_valid() const {
+        detail::require(k > 0, "noise_knn: k must be at least 1");
+        detail::require(deviations >= 0.0, "noise_knn: deviations must not be negative or NaN");
+    }
+
+  private:
+    /// The square of the distance [m^2] within which point i has its neighbors.
+    [[nodiscard]] double squared_reach(const spatial_index& index, std::size_t i) const {
+        const Eigen::Vector3d ray = detail::difference(index[i], index.viewpoints[i]);
+        return deviations * deviations * noise.variance_along(ray);
+    }
+
+    /// Shows a visitor those of the k nearest that are near enough.
+    template <class Visit>
+    class gate {
+      public:
+        gate(const noise_knn& policy, const spatial_index& index, Visit visit)
+            : policy_(policy), index_(index), visit_(std::move(visit)) {}
+
+        void operator()(std::size_t place, std::span<const std::uint32_t> places) {
+            const detail::leaf_tree& tree = index_.tree();
+            const point_index i = tree.index()[place];
+            const double within = policy_.squared_reach(index_, i);
+            near_.assign(places.begin(), places.end());
+            const auto key = [&](std::uint32_t at) {
+                return neighbor{tree.squared_distance(place, at), tree.index()[at]};
+            };
+            auto end = std::partition(near_.begin(), near_.end(), [&](std::uint32_t at) {
+                return tree.squared_distance(place, at) <= within;
+            });
+            const std::size_t fewest = std::min(policy_.fewest, near_.size());
+            if (static_cast<std::size_t>(end - near_.begin()) < fewest) {
+                end = near_.begin() + static_cast<std::ptrdiff_t>(fewest);
+                std::partial_sort(near_.begin(), end, near_.end(),
+                                  [&](auto a, auto b) { return key(a) < key(b); });
+            }
+            const std::size_t count = static_cast<std::size_t>(end - near_.begin());
+            visit_(i, detail::found_neighbors(tree, place, std::span(near_.data(), count)));
+        }
+
+        void finish() {
+            if constexpr (requires { visit_.finish(); }) visit_.finish();
+        }
+
+      private:
+        const noise_knn& policy_;
+        const spatial_index& index_;
+        Visit visit_;
+        detail::scratch<std::uint32_t> near_;
+    };
+};
+
+}  // namespace gnomon

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
+/// scatter, so that a plane that is wide deviates more than a small neighborhood tells. It is
+/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/measure_noise.hpp>
+
+namespace gnomon::detail {
+
+/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
+/// measured, and is more.
+/// @param noise  that of small neighborhoods
+template <class X>
+[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
+                                               const X& run) {
+    constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
+    const std::size_t thinning = index.finite() / enough;
+    if (thinning < 2) return noise;
+    scratch<point_index> some;
+    double range = 0.0;
+    for (std::size_t i = 0; i < index.size(); ++i) {
+        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
+        some.push_back(static_cast<point_index>(i));
+        range += length(difference(index[i], index.viewpoints[i]));
+    }
+    const measured_noise wide = measure_noise(subset_view<spatial_index>(index, some), run);
+    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
+    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which tell
+/// as much as the points, and are fewer; the last one gives the points their segments.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/detail/scratch_graph.hpp>
+#include <gnomon/neighborhoods/detail/swept_graph.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/orient.hpp>
+#include <gnomon/normals/surfel.hpp>
+#include <gnomon/segmentation/detail/cells.hpp>
+#include <gnomon/segmentation/detail/label_competition.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_regions.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
+#include <gnomon/segmentation/segment_planes.hpp>
+#include <gnomon/segmentation/segment_surfaces.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::detail {
+
+/// The cells of the points of an index, and what is found in them step by step.
+template <class Estimate>
+class cell_surfaces {
+  public:
+    using surface_type = std::vector<surfel<Estimate>>;
+
+    /// @param points   of which the cells are
+    /// @param noise    of wide planes
+    /// @param is_seen  whether the view points are known
+    /// @param index    memory for the index of the cells
+    /// @param surface  memory for their surface elements
+    template <execution X>
+    cell_surfaces(const spatial_index& points, const noise_curve& noise, bool is_seen,
+                  spatial_index& index, surface_type& surface, const X& run)
+        : points_(points),
+          noise_(noise),
+          index_(index),
+          surface_(surface),
+          cells_(points, [&](std::size_t i) {
+              constexpr double least = 1e-6;  // [m]: at no noise, a cell is a point
+              const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
+              return std::max(noise.along(ray), least);
+          }) {
+        index.rebuild(cells_.means, run);
+        if (is_seen) index.viewpoints = known_viewpoints();
+    }
+
+    /// The normals of the cells, and which are neighbors.
+    template <class N, class E, execution X>
+    void estimate(const N& neighborhood, const E& estimator, const X& run) {
+        estimate_normals_into(surface_, index_, neighborhood, estimator, run);
+        orient_normals(index_, surface_, run);
+        constexpr std::size_t neighbors = 30;  // as for normals
+        scratch_graph::arrays graph;
+        sweep_any_sizes(knn{.k = neighbors}, index_, run, graph);
+        graph_.emplace(std::move(graph));
+    }
+
+    /// The planes, and in what is left the smooth surfaces.
+    template <execution X>
+    void find(const segment_planes_options& planes,
+              const std::optional<segment_surfaces_options>& remainder, const X& run) {
+        cloud_.emplace(index_, surface_, noise_, run);
+        regions_.emplace(
+            regions_of_planes(*cloud_, *graph_, planes.min_points, planes.max_angle, run));
+        if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
+    }
+
+    /// The labels of the points, of the regions.
+    template <execution X>
+    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
+        scratch<std::int32_t> labels(points_.size(), unlabeled);
+        const auto& of_cells = regions_->labels();
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            label_competition competition;
+            for (std::size_t i = begin; i < end; ++i) {
+                const point_index c = cells_.of_point[i];
+                if (c == cells::no_cell) continue;
+                competition.begin((*graph_)[c], of_cells, of_cells[c]);
+                const point_noise noise = noise_of_point(points_, noise_, i, !index_.viewpoints.empty());
+                const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
+                labels[i] = competition.winner([&](std::int32_t label) {
+                    return misfit_of(offset, noise, regions_->regions()[static_cast<std::size_t>(label)]);
+                });
+            }
+        });
+        return labels;
+    }
+
+    [[nodiscard]] const spatial_index& index() const { return index_; }
+    [[nodiscard]] const surface_type& surface() const { return surface_; }
+    /// The labels of the cells.
+    [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
+    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
+    /// A point of a cell.
+    [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
+    /// The surface element of a point: that of its cell.
+    [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
+        const point_index c = cells_.of_point[point];
+        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+    }
+
+  private:
+    using cloud_type = planar_cloud<surface_type>;
+
+    [[nodiscard]] viewpoint_table known_viewpoints() const {
+        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
+        return cells_.viewpoints;
+    }
+
+    /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
+    template <execution X>
+    [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
+                                                         const X& run) const {
+        surface_type rest = surface_;
+        for (std::size_t c = 0; c < rest.size(); ++c)
+            if (labels()[c] != unlabeled) rest[c].normal = Eigen::Vector3d(0.0, 0.0, 0.0);
+        const segments found = segment_surfaces(index_, *graph_, rest, options, run);
+        return {found.labels().begin(), found.labels().end()};
+    }
+
+    const spatial_index& points_;
+    const noise_curve& noise_;
+    spatial_index& index_;
+    surface_type& surface_;
+    cells cells_;
+    std::optional<scratch_graph> graph_;
+    std::optional<cloud_type> cloud_;
+    std::optional<plane_regions<cloud_type, scratch_graph>> regions_;
+};
+
+}  // namespace gnomon::detail

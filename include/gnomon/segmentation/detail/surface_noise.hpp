@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// How far noise displaces the points of a cloud across a surface. This is the only place where
+/// noise enters segmentation and merging: all else is counted in these deviations.
+///
+/// Noise acts along the rays, so that at oblique incidence its component across the surface is
+/// small; where no view point is known, it is the same in all directions. No surface is an exact
+/// plane, and no ray exactly known: neither is a deviation smaller than a flatness of 2 mm, nor
+/// than a third of the noise along the ray, nor than the rounding of the coordinates.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+
+namespace gnomon::detail {
+
+inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
+inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
+/// The cosine of the angle between a ray and the normal of a surface, below which the surface was
+/// not seen: planes of less are those of scan lines, which contain their view point.
+inline constexpr double edge_on = 0.02;  // chosen: one degree
+
+/// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
+/// which is zero where no view point is known.
+struct point_noise {
+    double sigma;
+    Eigen::Vector3d ray;
+
+    /// @param position   of the point [m]
+    /// @param viewpoint  from where it was seen, if that is known
+    /// @param rounding   of its coordinates [m]
+    point_noise(const noise_curve& noise, const Eigen::Vector3d& position,
+                const Eigen::Vector3d* viewpoint, double rounding)
+        : ray(0.0, 0.0, 0.0) {
+        double variance = flatness * flatness + rounding * rounding;
+        if (viewpoint != nullptr) {
+            const Eigen::Vector3d from = difference(position, *viewpoint);
+            variance += noise.variance_along(from);
+            if (has_length(from)) ray = direction_of(from);
+        } else {
+            variance += noise.variance_along({0.0, 0.0, 0.0});
+        }
+        sigma = std::sqrt(variance);
+    }
+
+    [[nodiscard]] bool has_ray() const { return dot(ray, ray) > 0.0; }
+
+    /// The standard deviation of the point across a plane [m].
+    /// @param normal  of unit length
+    [[nodiscard]] double across(const Eigen::Vector3d& normal) const {
+        return has_ray() ? sigma * std::max(std::abs(dot(normal, ray)), least_cosine) : sigma;
+    }
+};
+
+/// The noise of a point of an index.
+/// @param is_seen  whether the view points are known; the origin where there are none
+[[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
+                                                const noise_curve& noise, std::size_t i,
+                                                bool is_seen) {
+    const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
+    const double rounding =
+        index.epsilon() * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    return {noise, p, is_seen && is_finite(v) ? &v : nullptr, rounding};
+}
+
+/// The noise of all points of an index.
+template <execution X>
+[[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
+                                                   const noise_curve& noise, const X& run) {
+    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
+    for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, !index.viewpoints.empty());
+    });
+    return all;
+}
+
+}  // namespace gnomon::detail

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The plane of a segment: fit to those of its points that are on it, with its covariance, and
+/// whether the segment is flat.
+///
+///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/symmetric_eigen.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_growth.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon {
+
+/// A plane and what is known of it.
+struct plane_estimate {
+    /// In Hesse normal form, towards the view point where one is known; without a normal if the
+    /// points do not determine one.
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
+    /// Unit columns: the directions of largest and second largest variance in the plane, and its
+    /// normal.
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
+    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid [m].
+    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
+    double chi2 = 0.0;            ///< mean squared deviation, in variances of the noise
+    std::size_t points = 0;       ///< on the plane, which is fit to them
+    bool is_flat = false;         ///< whether the segment is of this plane
+};
+
+namespace detail {
+
+/// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
+/// left out again and again, unless they are more than half.
+template <class Cloud>
+struct plane_of_members {
+    planar_region region;
+    bool is_flat = false;
+
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members) {
+        region = sums_of(cloud, members, [](point_index) { return true; });
+        const std::size_t all = region.sums.count;
+        constexpr int most_passes = 5;
+        for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
+            const planar_region on = sums_of(
+                cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
+            if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+            const bool rests = on.sums.count == region.sums.count;
+            region = on;
+            if (rests) break;
+        }
+        is_flat = region.fit.is_determined && region.fit.is_seen && region.fit.chi2 <= region_plane::most_excess &&
+                  4 * region.sums.count >= 3 * all && off_it(cloud, members) < fewest_off;
+    }
+
+    /// Whether point i is on the plane of a region.
+    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
+        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+    }
+
+  private:
+    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
+
+    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
+                                               std::span<const point_index> members, auto&& of) {
+        planar_region some;
+        for (const point_index i : members)
+            if (cloud.is_finite(i) && of(i)) cloud.add(i, some.sums);
+        some.fit = some.sums.fit();
+        return some;
+    }
+
+    /// How many points are certainly not on the plane.
+    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
+                                     std::span<const point_index> members) const {
+        constexpr double certainly = 5.0;  // standard deviations, as the thesis
+        std::size_t off = 0;
+        for (const point_index i : members)
+            if (cloud.is_finite(i) && cloud.deviations(i, region.fit.plane) > certainly) ++off;
+        return off;
+    }
+};
+
+/// The planes of segments, as regions.
+template <class Cloud, execution X>
+[[nodiscard]] scratch<planar_region> regions_of(const Cloud& cloud, const segments& parts,
+                                                const X& run) {
+    scratch<planar_region> regions(parts.size());
+    run(parts.size(), [&](std::size_t s) {
+        const plane_of_members found(cloud, parts[s]);
+        regions[s] = found.region;
+        regions[s].is_planar = found.is_flat;
+    });
+    return regions;
+}
+
+/// What is known of the plane of some points of a cloud.
+template <class Cloud>
+[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud,
+                                         std::span<const point_index> members) {
+    const plane_of_members found(cloud, members);
+    const plane_sums& sums = found.region.sums;
+    const region_plane& fit = found.region.fit;
+    plane_estimate e;
+    e.points = sums.count;
+    if (e.points == 0) return e;
+    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
+    if (!fit.is_determined) return e;
+    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
+    const Eigen::Vector3d towards = scaled(-1.0, cloud.noise[members.front()].ray);
+    const Eigen::Vector3d n =
+        scaled(dot(fit.plane.normal, towards) < 0.0 ? -1.0 : 1.0, fit.plane.normal);
+    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
+    for (int i = 0; i < 3; ++i) {
+        e.axes(i, 0) = first[i];
+        e.axes(i, 1) = second[i];
+        e.axes(i, 2) = n[i];
+    }
+    e.plane = {n, dot(n, e.centroid)};
+    e.chi2 = fit.chi2;
+    e.is_flat = found.is_flat;
+    // A turn about one axis moves the points along the other one.
+    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
+    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
+    return e;
+}
+
+}  // namespace detail
+
+/// The planes of segments.
+///
+/// @param points  any point range of n points [m]; where view points are known, noise lies along
+///                the rays, else it is the same in all directions
+/// @param parts   segments of these points
+/// @param noise   of the sensor
+/// @return an estimate for each segment. It is flat if three of four of its points are on the
+///         plane, within three standard deviations, fewer than 30 are farther from it than five,
+///         and the noise explains at least a quarter of the variance
+/// @throws std::invalid_argument  if points, segments or view points differ in number
+/// Complexity: O(n), and an index if `points` is none.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<plane_estimate> estimate_planes(const R& points, const segments& parts,
+                                                          const noise_curve& noise,
+                                                          const X& run = {}, Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(parts.labels().size() == index.size(),
+                    "estimate_planes: the numbers of points and of labels differ");
+    const detail::no_normals normals;
+    const detail::planar_cloud cloud(index, normals, noise, team);
+    std::vector<plane_estimate> planes(parts.size());
+    team(parts.size(), [&](std::size_t s) {
+        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s]);
+    });
+    return planes;
+}
+
+}  // namespace gnomon
