@@ -52,8 +52,8 @@ struct noise_knn {
     void find(const spatial_index& index, std::size_t i,
               std::vector<neighbor, Allocator>& found) const {
         require_valid();
-        detail::search_tree(index.tree(), index[i],
-                            {.k = k, .except = static_cast<point_index>(i)}, found);
+        detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
+                            found);
         const double within = squared_reach(index, i);
         const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();

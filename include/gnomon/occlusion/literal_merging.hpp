@@ -79,9 +79,11 @@ struct literal_merging_options {
     std::size_t candidates = 0;      ///< k_c, as in `merge_occluded_options`
 };
 
-/// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as not occluded.
+/// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
+/// not occluded.
 /// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, and a negative or NaN threshold
+///                                an odd or no number of boundary pairs, and a negative or NaN
+///                                threshold
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,

@@ -3,29 +3,25 @@
 /// Merging of occluded segments: flat coplanar segments are merged where the observations in the
 /// gap between them are evidence for one surface.
 ///
-/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: in rounds, each
-/// of which tests all pairs with a new segment and merges the accepted ones, until there are none.
-/// Two segments that are certainly not coplanar are not joined through a third one. A narrow gap,
-/// which the thesis always closes, stays open where free space was observed (docs/thesis-notes.md,
-/// A18). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
-/// also on their normals. merge_occluded_literally is the algorithm as printed.
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: the most alike
+/// first, until no two are alike. Coplanarity is a test of all points of both (Chow 1960), so that
+/// two planes are not joined through a third segment that would be of either. A narrow gap, which
+/// the thesis always closes, stays open where free space was observed (docs/thesis-notes.md, A18).
+/// merge_occluded_literally is the algorithm as printed.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <iterator>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
-#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -85,15 +81,15 @@ inline void require_valid(const merge_occluded_options& options) {
 
 /// The sets of the segments of an index that merge_occluded makes one.
 /// @param each_gap  each_gap(examined_gap) is called for all gaps
-template <class Normals, merge_policy M, execution X>
-[[nodiscard]] union_find merged_sets(const spatial_index& points, const Normals& normals,
-                                     const segments& parts, const visibility& visible,
-                                     const M& policy, const merge_occluded_options& options,
-                                     const X& run, auto&& each_gap) {
+template <merge_policy M, execution X>
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const segments& parts,
+                                     const visibility& visible, const M& policy,
+                                     const merge_occluded_options& options, const X& run,
+                                     auto&& each_gap) {
     require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
     require_valid(options);
-    const planar_cloud cloud(points, normals, options.noise, run);
+    const planar_cloud cloud(points, options.noise, run);
     occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
     union_find sets = merge();
     for (const examined_gap& gap : merge.gaps()) each_gap(gap);
@@ -101,12 +97,11 @@ template <class Normals, merge_policy M, execution X>
 }
 
 /// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
-template <class Normals, merge_policy M, execution X>
-void merge_occluded_into(segments& result, const spatial_index& points, const Normals& normals,
-                         const segments& parts, const visibility& visible, const M& policy,
+template <merge_policy M, execution X>
+void merge_occluded_into(segments& result, const spatial_index& points, const segments& parts,
+                         const visibility& visible, const M& policy,
                          const merge_occluded_options& options, const X& run, auto&& each_gap) {
-    union_find sets =
-        merged_sets(points, normals, parts, visible, policy, options, run, each_gap);
+    union_find sets = merged_sets(points, parts, visible, policy, options, run, each_gap);
     scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
     for (std::int32_t& label : labels)
         if (label != unlabeled)
@@ -115,51 +110,18 @@ void merge_occluded_into(segments& result, const spatial_index& points, const No
     result.assign(labels);
 }
 
-/// The same, as a value.
-template <class R, class Normals, merge_policy M, execution X, class Proj>
-[[nodiscard]] merged_segments merged_once(const R& points, const Normals& normals,
-                                          const segments& parts, const visibility& visible,
-                                          const M& policy, const merge_occluded_options& options,
-                                          const X& run, const Proj& projection) {
-    merged_segments result;
-    const auto& team = staying(run);
-    merge_occluded_into(result.segments, index_of(points, team, projection), normals, parts,
-                        visible, policy, options, team, [&result](const examined_gap& gap) {
-                            result.gaps.push_back(
-                                {{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
-                        });
-    return result;
-}
-
 }  // namespace detail
 
 /// Merges flat segments that are one surface behind something.
 ///
 /// @param points   any point range of n points; their view points as in `visibility`
-/// @param surface  their n surface elements, or anything with normals towards the view points; what
-///                 has none is judged without
 /// @param parts    segments of these points
-/// @param visible   what was seen from where, best by the whole cloud
+/// @param visible  what was seen from where, best by the whole cloud
 /// @param policy   `conservative`, `liberal` or another
-/// @throws std::invalid_argument  if the surface or the segments are of another number of points,
-///                                for an odd or no number of boundary pairs, a negative or NaN
-///                                threshold, or a sigma that is not finite and
-///                                greater than 0
+/// @throws std::invalid_argument  if the segments or view points are of another number of points,
+///                                for an odd or no number of boundary pairs, or a negative or NaN
+///                                threshold
 /// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
-template <class R, normal_range Surface, merge_policy M = conservative, execution X = sequential,
-          class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] merged_segments merge_occluded(const R& points, const Surface& surface,
-                                             const segments& parts, const visibility& visible,
-                                             const M& policy = {},
-                                             const merge_occluded_options& options = {},
-                                             const X& run = {}, Proj projection = {}) {
-    detail::require(std::ranges::size(surface) == parts.labels().size(),
-                    "merge_occluded: surface and points differ in size");
-    return detail::merged_once(points, surface, parts, visible, policy, options, run, projection);
-}
-
-/// The same without normals: more adjacent narrow segments are merged.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -167,8 +129,14 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const visibility& visible, const M& policy = {},
                                              const merge_occluded_options& options = {},
                                              const X& run = {}, Proj projection = {}) {
-    return detail::merged_once(points, detail::no_normals{}, parts, visible, policy, options, run,
-                               projection);
+    merged_segments result;
+    const auto& team = detail::staying(run);
+    detail::merge_occluded_into(
+        result.segments, detail::index_of(points, team, projection), parts, visible, policy,
+        options, team, [&](const auto& gap) {
+            result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        });
+    return result;
 }
 
 }  // namespace gnomon

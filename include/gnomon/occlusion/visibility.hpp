@@ -80,7 +80,8 @@ class visibility {
     /// The observations of a whole cloud: also of points that belong to no segment, such as floor
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
-    /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian to 90
+    /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
+    /// microradian to 90
     ///                                degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

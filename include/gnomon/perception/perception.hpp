@@ -2,8 +2,9 @@
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
 /// noise of the sensor, normals, planes and smooth surfaces, and merging of what an occluder
-/// interrupts. Each step is a policy of its own floor; the result holds what each step returned, and
-/// how long it took. All steps share one index of the points, one of their cells, and one noise.
+/// interrupts. Each step is a policy of its own floor; the result holds what each step returned,
+/// and how long it took. All steps share one index of the points, one of their cells, and one
+/// noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
@@ -60,8 +61,9 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces (`segment_surfaces`)
-/// in what is left: right for every sensor, as all lengths are multiples of its noise.
+/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces
+/// (`segment_surfaces`) in what is left: right for every sensor, as all lengths are multiples of
+/// its noise.
 struct planes_first {
     segment_planes_options planes{};
     /// Of cells; nothing to leave all unlabeled that is not planar.
@@ -78,8 +80,9 @@ struct smooth_surfaces {
 
 /// The chain, ready to be called on one scan after the other.
 ///
-/// `neighborhood` is any model of `neighborhood` that is indexed, `estimate` of `estimator`, `merge`
-/// of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the chain.
+/// `neighborhood` is any model of `neighborhood` that is indexed, `estimate` of `estimator`,
+/// `merge` of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the
+/// chain.
 template <class Neighborhood = noise_knn, class Estimator = plane_pca, class Merge = conservative,
           class Segmentation = planes_first>
 struct perception {
@@ -117,7 +120,8 @@ struct perception {
     using result_type = perception_result<estimate_t<Estimator>>;
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if the
+    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if
+    /// the
     ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
@@ -160,7 +164,6 @@ template <class Neighborhood, class Estimator, class Merge = conservative,
 perception(Neighborhood, Estimator, Merge = {}, Segmentation = {},
            std::optional<noise_curve> = std::nullopt,
            std::optional<floor_and_ceiling> = std::nullopt, merge_occluded_options = {},
-           visibility_options = {})
-    -> perception<Neighborhood, Estimator, Merge, Segmentation>;
+           visibility_options = {}) -> perception<Neighborhood, Estimator, Merge, Segmentation>;
 
 }  // namespace gnomon

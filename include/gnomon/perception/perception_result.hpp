@@ -40,11 +40,11 @@ struct perception_result {
         std::string_view reason = {};  ///< why it is so
     };
 
-    std::optional<plane> floor;             ///< if it was searched for and found
-    std::optional<double> ceiling;          ///< its height above the floor [m]
-    std::vector<point_index> kept;          ///< the points that were not removed, ascending
-    spatial_index index;                    ///< of the kept points; empty if an index was
-                                            ///< given and no point was removed
+    std::optional<plane> floor;     ///< if it was searched for and found
+    std::optional<double> ceiling;  ///< its height above the floor [m]
+    std::vector<point_index> kept;  ///< the points that were not removed, ascending
+    spatial_index index;            ///< of the kept points; empty if an index was
+                                    ///< given and no point was removed
     known_noise noise;
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
     segments initial_segments;              ///< of the n points, before merging behind occluders

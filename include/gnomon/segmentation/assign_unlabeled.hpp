@@ -47,12 +47,12 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     const auto& index = detail::index_of(points, team, projection);
     detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
                     "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
-    const detail::no_normals normals;
-    const detail::planar_cloud cloud(index, normals, noise, team);
+    const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
-        auto labels = detail::labels_after_competition(cloud, graph, regions, result.labels(), team);
+        auto labels =
+            detail::labels_after_competition(cloud, graph, regions, result.labels(), team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }

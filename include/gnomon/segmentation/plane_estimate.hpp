@@ -25,7 +25,6 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
-#include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -41,47 +40,49 @@ struct plane_estimate {
     /// Unit columns: the directions of largest and second largest variance in the plane, and its
     /// normal.
     Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
-    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid [m].
+    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid
+    /// [m].
     Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
-    double chi2 = 0.0;            ///< mean squared deviation, in variances of the noise
-    std::size_t points = 0;       ///< on the plane, which is fit to them
-    bool is_flat = false;         ///< whether the segment is of this plane
+    double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
+    std::size_t points = 0;  ///< on the plane, which is fit to them
+    bool is_flat = false;    ///< whether the segment is of this plane
 };
 
 namespace detail {
 
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
 /// left out again and again, unless they are more than half.
-template <class Cloud>
 struct plane_of_members {
     planar_region region;
     bool is_flat = false;
 
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members) {
+    plane_of_members(const planar_cloud& cloud, std::span<const point_index> members) {
         region = sums_of(cloud, members, [](point_index) { return true; });
         const std::size_t all = region.sums.count;
         constexpr int most_passes = 5;
         for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
-            const planar_region on = sums_of(
-                cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
+            const planar_region on =
+                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
             if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
             const bool rests = on.sums.count == region.sums.count;
             region = on;
             if (rests) break;
         }
-        is_flat = region.fit.is_determined && region.fit.is_seen && region.fit.chi2 <= region_plane::most_excess &&
+        is_flat = region.fit.is_determined && region.fit.is_seen &&
+                  region.fit.chi2 <= region_plane::most_excess &&
                   4 * region.sums.count >= 3 * all && off_it(cloud, members) < fewest_off;
     }
 
     /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
+    [[nodiscard]] static bool is_on(const planar_cloud& cloud, point_index i,
+                                    const region_plane& to) {
         return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
     }
 
   private:
     static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
 
-    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
+    [[nodiscard]] static planar_region sums_of(const planar_cloud& cloud,
                                                std::span<const point_index> members, auto&& of) {
         planar_region some;
         for (const point_index i : members)
@@ -91,7 +92,7 @@ struct plane_of_members {
     }
 
     /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
+    [[nodiscard]] std::size_t off_it(const planar_cloud& cloud,
                                      std::span<const point_index> members) const {
         constexpr double certainly = 5.0;  // standard deviations, as the thesis
         std::size_t off = 0;
@@ -102,8 +103,8 @@ struct plane_of_members {
 };
 
 /// The planes of segments, as regions.
-template <class Cloud, execution X>
-[[nodiscard]] scratch<planar_region> regions_of(const Cloud& cloud, const segments& parts,
+template <execution X>
+[[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
                                                 const X& run) {
     scratch<planar_region> regions(parts.size());
     run(parts.size(), [&](std::size_t s) {
@@ -115,9 +116,8 @@ template <class Cloud, execution X>
 }
 
 /// What is known of the plane of some points of a cloud.
-template <class Cloud>
-[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud,
-                                         std::span<const point_index> members) {
+[[nodiscard]] inline plane_estimate estimate_of(const planar_cloud& cloud,
+                                                std::span<const point_index> members) {
     const plane_of_members found(cloud, members);
     const plane_sums& sums = found.region.sums;
     const region_plane& fit = found.region.fit;
@@ -167,8 +167,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& index = detail::index_of(points, team, projection);
     detail::require(parts.labels().size() == index.size(),
                     "estimate_planes: the numbers of points and of labels differ");
-    const detail::no_normals normals;
-    const detail::planar_cloud cloud(index, normals, noise, team);
+    const detail::planar_cloud cloud(index, noise, team);
     std::vector<plane_estimate> planes(parts.size());
     team(parts.size(), [&](std::size_t s) {
         if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s]);

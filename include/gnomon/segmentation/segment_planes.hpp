@@ -11,8 +11,8 @@
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, by a wider angle. All lengths are multiples of the noise, so
-/// that no distance need be set.
+/// All three once more in what is left, by a wider angle. All lengths are multiples of the noise,
+/// so that no distance need be set.
 #pragma once
 
 #include <algorithm>
@@ -54,15 +54,15 @@ inline void require_valid(const segment_planes_options& options) {
 }
 
 /// The regions of the planes of a cloud.
-template <class Cloud, neighborhood_graph G, execution X>
-[[nodiscard]] plane_regions<Cloud, G> regions_of_planes(const Cloud& cloud, const G& graph,
-                                                        std::size_t min_points,
-                                                        angle max_angle, const X& run) {
+template <neighborhood_graph G, normal_range S, execution X>
+[[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
+                                                 const S& surface, std::size_t min_points,
+                                                 angle max_angle, const X& run) {
     constexpr angle wider = degrees(35);  // chosen: where the noise blends normals
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
-    regions.grow(min_cosine(max_angle), run);
+    regions.grow(surface, min_cosine(max_angle), run);
     regions.settle(run);
-    regions.grow(min_cosine(std::max(max_angle, wider)), run);
+    regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);
     regions.settle(run);
     return regions;
 }
@@ -99,8 +99,9 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
         for (const point_index j : graph[i])
             detail::require(j < index.size(),
                             "segment_planes: the graph has an index out of range");
-    const detail::planar_cloud cloud(index, surface, options.noise, team);
-    auto labels = detail::regions_of_planes(cloud, graph, options.min_points, options.max_angle, team)
+    const detail::planar_cloud cloud(index, options.noise, team);
+    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
+                                            options.max_angle, team)
                       .labels();
     detail::number_by_size(labels);
     segments result;

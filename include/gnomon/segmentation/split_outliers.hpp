@@ -15,6 +15,7 @@
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -40,8 +41,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& index = detail::index_of(points, team, projection);
     detail::require(parts.labels().size() == index.size(),
                     "split_outliers: the numbers of points and of labels differ");
-    const detail::no_normals normals;
-    const detail::planar_cloud cloud(index, normals, noise, team);
+    const detail::planar_cloud cloud(index, noise, team);
     const auto regions = detail::regions_of(cloud, parts, team);
     detail::scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
     for (std::size_t i = 0; i < labels.size(); ++i) {

@@ -23,6 +23,7 @@
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
@@ -39,13 +40,12 @@ struct examined_gap {
 };
 
 /// One run of the algorithm.
-/// @tparam Cloud    a planar_cloud
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <class Cloud, merge_policy M, class Options>
+template <merge_policy M, class Options>
 class occlusion_merger {
   public:
     template <execution X>
-    occlusion_merger(const spatial_index& points, const Cloud& cloud, const segments& parts,
+    occlusion_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
                      const visibility& visible, const M& policy, const Options& options,
                      const X& run)
         : points_(points),

@@ -80,9 +80,9 @@ class cell_surfaces {
     template <execution X>
     void find(const segment_planes_options& planes,
               const std::optional<segment_surfaces_options>& remainder, const X& run) {
-        cloud_.emplace(index_, surface_, noise_, run);
-        regions_.emplace(
-            regions_of_planes(*cloud_, *graph_, planes.min_points, planes.max_angle, run));
+        cloud_.emplace(index_, noise_, run);
+        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
+                                           planes.max_angle, run));
         if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
     }
 
@@ -97,10 +97,12 @@ class cell_surfaces {
                 const point_index c = cells_.of_point[i];
                 if (c == cells::no_cell) continue;
                 competition.begin((*graph_)[c], of_cells, of_cells[c]);
-                const point_noise noise = noise_of_point(points_, noise_, i, !index_.viewpoints.empty());
+                const point_noise noise =
+                    noise_of_point(points_, noise_, i, !index_.viewpoints.empty());
                 const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
                 labels[i] = competition.winner([&](std::int32_t label) {
-                    return misfit_of(offset, noise, regions_->regions()[static_cast<std::size_t>(label)]);
+                    return misfit_of(offset, noise,
+                                     regions_->regions()[static_cast<std::size_t>(label)]);
                 });
             }
         });
@@ -121,8 +123,6 @@ class cell_surfaces {
     }
 
   private:
-    using cloud_type = planar_cloud<surface_type>;
-
     [[nodiscard]] viewpoint_table known_viewpoints() const {
         if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
         return cells_.viewpoints;
@@ -145,8 +145,8 @@ class cell_surfaces {
     surface_type& surface_;
     cells cells_;
     std::optional<scratch_graph> graph_;
-    std::optional<cloud_type> cloud_;
-    std::optional<plane_regions<cloud_type, scratch_graph>> regions_;
+    std::optional<planar_cloud> cloud_;
+    std::optional<plane_regions<scratch_graph>> regions_;
 };
 
 }  // namespace gnomon::detail

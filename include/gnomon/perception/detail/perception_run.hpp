@@ -171,9 +171,8 @@ class perception_run {
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
         });
-        step("planes", [&] {
-            found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_);
-        });
+        step("planes",
+             [&] { found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_); });
         scratch<std::int32_t> labels;
         step("assignment", [&] {
             labels = found->labels_of_points(run_);
@@ -184,8 +183,8 @@ class perception_run {
             segments parts;
             parts.assign(found->labels());
             union_find sets = merged_sets(
-                found->index(), found->surface(), parts, visible, chain_.merge,
-                at_noise(chain_.merging, noise), run_, [&](const examined_gap& gap) {
+                found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise), run_,
+                [&](const examined_gap& gap) {
                     note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
                 });
             for (std::int32_t& label : labels)
@@ -223,7 +222,7 @@ class perception_run {
         });
         merging([&](const visibility& visible) {
             segments merged;
-            merge_occluded_into(merged, *given_, surface, parts, visible, chain_.merge,
+            merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
                                 at_noise(chain_.merging, result_.noise.of_planes), run_,
                                 [&](const examined_gap& gap) {
                                     note(gap, [&](point_index i) { return result_.kept[i]; });
@@ -236,8 +235,7 @@ class perception_run {
     /// Makes segments of all points from labels of the kept ones.
     void set_segments(segments& all, const scratch<std::int32_t>& of_kept) const {
         scratch<std::int32_t> labels(size(), unlabeled);
-        for (std::size_t i = 0; i < result_.kept.size(); ++i)
-            labels[result_.kept[i]] = of_kept[i];
+        for (std::size_t i = 0; i < result_.kept.size(); ++i) labels[result_.kept[i]] = of_kept[i];
         number_by_size(labels);
         all.assign(labels);
     }
@@ -254,14 +252,14 @@ class perception_run {
     }
 
     void estimate_planes_of_all() {
-        const no_normals normals;
-        const planar_cloud cloud(*given_, normals, result_.noise.of_planes, run_);
+        const planar_cloud cloud(*given_, result_.noise.of_planes, run_);
         scratch<std::int32_t> labels;
         labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
         const label_groups parts(labels);
         result_.planes.assign(result_.surfaces.size(), {});
-        run_(parts.size(), [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s]); });
+        run_(parts.size(),
+             [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s]); });
     }
 
     const Chain& chain_;

@@ -27,10 +27,10 @@ namespace gnomon::detail {
 
 /// The cells of the finite points of an index, in the order of their first points.
 struct cells {
-    scratch<Eigen::Vector3d> means;       ///< [m]
-    viewpoint_table viewpoints;           ///< the means of those of the points
-    scratch<point_index> first;           ///< the first point of each
-    scratch<point_index> of_point;        ///< the cell of each finite point; else no_cell
+    scratch<Eigen::Vector3d> means;  ///< [m]
+    viewpoint_table viewpoints;      ///< the means of those of the points
+    scratch<point_index> first;      ///< the first point of each
+    scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
 
     /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
     ///               of the root of 2, so that cells of many widths share a grid
@@ -63,9 +63,10 @@ struct cells {
             if (has_many)
                 seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
         }
-        viewpoints = has_many ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(),
-                                                                             seen_from.end()))
-                              : index.viewpoints;
+        viewpoints =
+            has_many
+                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
+                : index.viewpoints;
     }
 
     static constexpr point_index no_cell = std::numeric_limits<point_index>::max();

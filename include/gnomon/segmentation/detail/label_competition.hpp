@@ -15,7 +15,7 @@
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/segmentation/detail/plane_growth.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -50,8 +50,7 @@ class label_competition {
         for (auto first = around_.begin(); first != around_.end();) {
             const auto last = std::upper_bound(first, around_.end(), *first);
             const std::int32_t label = *first;
-            const double agree =
-                static_cast<double>(last - first) - (label == own_ ? 1.0 : 0.0);
+            const double agree = static_cast<double>(last - first) - (label == own_ ? 1.0 : 0.0);
             first = last;
             const double squared = misfit(label);
             if (squared < 0.0) continue;
@@ -81,14 +80,15 @@ class label_competition {
     const double squared = deviations * deviations / to.fit.excess();
     return squared <= most_deviations * most_deviations ? squared : -1.0;
 }
-template <class Cloud>
-[[nodiscard]] double misfit_of(const Cloud& cloud, std::size_t i, const planar_region& to) {
+[[nodiscard]] inline double misfit_of(const planar_cloud& cloud, std::size_t i,
+                                      const planar_region& to) {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
 /// The labels of the points of a cloud after one round.
-template <class Cloud, neighborhood_graph G, execution X>
-[[nodiscard]] scratch<std::int32_t> labels_after_competition(const Cloud& cloud, const G& graph,
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
+                                                             const G& graph,
                                                              const scratch<planar_region>& regions,
                                                              const auto& labels, const X& run) {
     scratch<std::int32_t> next(labels.size(), unlabeled);

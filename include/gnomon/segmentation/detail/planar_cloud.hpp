@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What all steps of a segmentation into planes read of points: positions, normals and noise.
+/// What all steps of a segmentation into planes read of points: positions and noise.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,6 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -20,25 +19,13 @@
 
 namespace gnomon::detail {
 
-/// In place of normals, where none are known.
-struct no_normals {
-    struct element {
-        Eigen::Vector3d normal{0.0, 0.0, 0.0};
-    };
-    [[nodiscard]] element operator[](std::size_t) const { return {}; }
-};
-
 /// Positions are relative to the first finite point, so that planes keep their digits far from the
 /// origin of the coordinates.
-/// @tparam S  a normal_range
-template <class S>
 class planar_cloud {
   public:
     template <execution X>
-    planar_cloud(const spatial_index& index, const S& surface, const noise_curve& noise,
-                 const X& run)
-        : surface(surface),
-          noise(noise_of_points(index, noise, run)),
+    planar_cloud(const spatial_index& index, const noise_curve& noise, const X& run)
+        : noise(noise_of_points(index, noise, run)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
         std::size_t first = 0;
@@ -48,17 +35,13 @@ class planar_cloud {
             offsets[i] = difference(index[i], origin);
     }
 
-    const S& surface;
     scratch<point_noise> noise;
     scratch<Eigen::Vector3d> offsets;  ///< of the points, from the origin [m]
     Eigen::Vector3d origin{0.0, 0.0, 0.0};
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
     [[nodiscard]] std::size_t size() const { return offsets.size(); }
-    [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface[i].normal; }
-    void add(std::size_t i, plane_sums& to) const {
-        to.add(offsets[i], noise[i]);
-    }
+    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i]); }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
         return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);

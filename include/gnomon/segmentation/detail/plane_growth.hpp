@@ -16,6 +16,7 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
@@ -24,19 +25,16 @@
 
 namespace gnomon::detail {
 
-/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
-/// normal distribution.
-inline constexpr double most_deviations = 3.0;
-
 /// Grows planes in a cloud.
-template <class Cloud, neighborhood_graph G>
+template <neighborhood_graph G, normal_range S>
 class plane_growth {
   public:
     /// @param labels  those of the regions; grown ones are added
-    plane_growth(const Cloud& cloud, const G& graph, std::size_t min_points,
-                 scratch<std::int32_t>& labels)
+    plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
+                 std::size_t min_points, scratch<std::int32_t>& labels)
         : cloud_(cloud),
           graph_(graph),
+          surface_(surface),
           min_points_(min_points),
           labels_(labels),
           visit_(cloud.size(), 0) {}
@@ -62,8 +60,10 @@ class plane_growth {
 
   private:
     [[nodiscard]] bool is_free(std::size_t i) const {
-        return labels_[i] == unlabeled && !is_missing(cloud_.normal(i));
+        return labels_[i] == unlabeled && !is_missing(normal(i));
     }
+
+    [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
 
     /// The free points by the mean squared distance of their neighbors from the plane of their
     /// normal, in variances of the noise.
@@ -84,7 +84,7 @@ class plane_growth {
     }
 
     [[nodiscard]] double roughness_at(std::size_t i) const {
-        const Eigen::Vector3d n = cloud_.normal(i);
+        const Eigen::Vector3d n = normal(i);
         double sum = 0.0, count = 1.0, mean = 0.0;
         for (const point_index j : graph_[i]) {
             const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
@@ -107,8 +107,7 @@ class plane_growth {
         if (!fits(seed, to)) return sums;
         members_.push_back(seed);
         for (int pass = 0; pass < passes; ++pass) {
-            if (pass > 0)
-                std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
+            if (pass > 0) std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
             sums = spread(to, pass == 0);
             const region_plane next = sums.fit();
             if (!next.is_determined) return sums;
@@ -142,17 +141,17 @@ class plane_growth {
     }
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
-        return is_free(i) && std::abs(dot(to.plane.normal, cloud_.normal(i))) >= min_cosine_ &&
+        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
                cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.
     [[nodiscard]] region_plane start_at(point_index seed) const {
-        const Eigen::Vector3d n = cloud_.normal(seed);
+        const Eigen::Vector3d n = normal(seed);
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
         for (const point_index j : graph_[seed]) {
-            if (!is_free(j) || std::abs(dot(n, cloud_.normal(j))) < min_cosine_) continue;
+            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }
@@ -161,8 +160,9 @@ class plane_growth {
         return start;
     }
 
-    const Cloud& cloud_;
+    const planar_cloud& cloud_;
     const G& graph_;
+    const S& surface_;
     std::size_t min_points_;
     scratch<std::int32_t>& labels_;
     double min_cosine_ = 1.0;

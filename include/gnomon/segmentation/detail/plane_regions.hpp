@@ -14,6 +14,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
@@ -27,10 +28,10 @@
 namespace gnomon::detail {
 
 /// The regions of a cloud.
-template <class Cloud, neighborhood_graph G>
+template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const Cloud& cloud, const G& graph, std::size_t min_points,
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
                   scratch<std::int32_t> labels)
         : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
         refit();
@@ -52,9 +53,9 @@ class plane_regions {
     }
 
     /// Grows new regions in what is unlabeled.
-    template <execution X>
-    void grow(double min_cosine, const X& run) {
-        plane_growth grow(cloud_, graph_, min_points_, labels_);
+    template <normal_range S, execution X>
+    void grow(const S& surface, double min_cosine, const X& run) {
+        plane_growth grow(cloud_, graph_, surface, min_points_, labels_);
         grow(min_cosine, static_cast<std::int32_t>(regions_.size()), run);
         refit();
     }
@@ -135,7 +136,7 @@ class plane_regions {
         return pairs;
     }
 
-    const Cloud& cloud_;
+    const planar_cloud& cloud_;
     const G& graph_;
     std::size_t min_points_;
     scratch<std::int32_t> labels_;

@@ -35,9 +35,9 @@ struct region_plane {
 
 /// The sums, with positions relative to an origin [m] that is the same for all regions.
 struct plane_sums {
-    weighted_moments positions;                                ///< weight: 1 / sigma^2 [1 / m^2]
-    Eigen::Matrix3d rays = diagonal(0.0, 0.0, 0.0);            ///< weighted; lower triangle only
-    std::size_t count = 0;                                     ///< of the points
+    weighted_moments positions;                      ///< weight: 1 / sigma^2 [1 / m^2]
+    Eigen::Matrix3d rays = diagonal(0.0, 0.0, 0.0);  ///< weighted; lower triangle only
+    std::size_t count = 0;                           ///< of the points
 
     void add(const Eigen::Vector3d& offset, const point_noise& noise) {
         const double w = 1.0 / (noise.sigma * noise.sigma);

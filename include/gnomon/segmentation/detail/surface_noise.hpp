@@ -24,6 +24,10 @@
 
 namespace gnomon::detail {
 
+/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
+/// normal distribution.
+inline constexpr double most_deviations = 3.0;
+
 inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
 inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
 /// The cosine of the angle between a ray and the normal of a surface, below which the surface was
@@ -80,7 +84,8 @@ template <execution X>
     scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
     for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, !index.viewpoints.empty());
+            if (index.is_finite(i))
+                all[i] = noise_of_point(index, noise, i, !index.viewpoints.empty());
     });
     return all;
 }
