@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <optional>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,9 +33,8 @@ int main() {
                                             gnomon::threads{});
     gnomon::orient_normals(cloud, surface);
 
-    const auto guess = gnomon::guess_floor(points);
-    const auto floor = guess ? gnomon::find_floor(points, *guess) : guess;
-    if (!floor) return 1;
+    const std::optional<gnomon::plane> floor = gnomon::find_floor(cloud, Eigen::Vector3d::UnitZ());
+    if (!floor) return 1;  // furniture alone, say
     const auto kept = gnomon::crop_height(points, *floor, gnomon::find_ceiling(points, *floor));
     const auto groups = gnomon::euclidean_clusters(gnomon::subset_view(points, kept),
                                                    {.radius = 0.1, .min_points = 100});

@@ -42,7 +42,7 @@ json measure(const effort& much) {
     for (unsigned seed = 1; seed <= much.seeds(); ++seed) {
         const sim::true_scan truth = scanned(seed, world);
         const gnomon::scan& scan = truth.scan;
-        const auto floor = gnomon::find_floor(scan, gnomon::guess_floor(scan).value()).value();
+        const auto floor = gnomon::find_floor(scan).value();
         const auto kept = gnomon::crop_height(scan, floor, std::nullopt);
         const gnomon::subset_view rest(scan, kept);
         gnomon::segments groups;

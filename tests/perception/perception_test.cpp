@@ -37,7 +37,7 @@ TEST(perception, is_its_steps) {
     const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
     const auto result = chain(scan, gnomon::threads{2});
 
-    const auto floor = gnomon::find_floor(scan, gnomon::guess_floor(scan).value());
+    const auto floor = gnomon::find_floor(scan);
     const auto ceiling = gnomon::find_ceiling(scan, floor.value());
     const auto kept = gnomon::crop_height(scan, *floor, ceiling);
     ASSERT_EQ(result.kept, kept);

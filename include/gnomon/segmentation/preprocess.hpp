@@ -3,7 +3,7 @@
 /// Finds floor and ceiling, levels the scan, and removes both: they are often more than half of an
 /// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
 /// of the bands open; the floor is refitted to its band until it converges, so that tilts are
-/// found.
+/// found. A level plane that is no floor, such as a table top, is not taken for one.
 #pragma once
 
 #include <algorithm>
@@ -16,21 +16,21 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
-#include <gnomon/core/moments.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/segmentation/detail/floor_search.hpp>
 #include <gnomon/segmentation/detail/height_histogram.hpp>
 
 namespace gnomon {
 
 /// What counts as the floor.
 struct find_floor_options {
-    double band = 0.1;  ///< half the height [m] of the band about the plane
+    double band = 0.1;       ///< half the height of the band about a first guess [m]
+    double min_width = 1.4;  ///< in both directions [m]; chosen: table tops are up to 1.2 m wide
 };
 
 /// Where to look for the ceiling, in heights above the floor.
@@ -71,7 +71,8 @@ inline void require_hesse(const plane& p) {
 }
 
 inline void require_valid(const find_floor_options& search) {
-    require(search.band > 0.0, "find_floor: the band must be positive");
+    require(search.band > 0.0 && search.min_width > 0.0,
+            "find_floor: band and width must be positive");
 }
 
 inline void require_valid(const find_ceiling_options& search) {
@@ -81,85 +82,31 @@ inline void require_valid(const find_ceiling_options& search) {
 
 }  // namespace detail
 
-/// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
-/// the points lies (a quarter of those at the most frequent height, in bins of 10 cm).
+/// The floor: the lowest plane that is level, has hardly a point below it and the sensor, where
+/// its view points are known, above it, and is clear of other things over a width that furniture
+/// does not have. It is fitted where nothing stands on it.
 ///
-/// @param up  unit vector against gravity
-/// @return nothing without finite points
-/// @throws std::invalid_argument  unless `up` is of unit length
-/// Complexity: O(n log n).
+/// @param up  unit vector against gravity; the floor is tilted by 3 degrees at most, perhaps twice
+///            that where it is wide
+/// @return the plane, its normal on the side of `up`; nothing if no plane is a floor
+/// @throws std::invalid_argument  unless band and width are positive and `up` is of unit length,
+///                                or if the view points are for another number of points
+/// Complexity: O(n log n), and for each height at which many points lie, O(n) per refit, a handful
+/// of them, at most 50. Most scans of a floor have one such height to examine.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] std::optional<plane> guess_floor(const R& points,
-                                               const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
-                                               Proj projection = {}) {
-    detail::require_hesse({up, 0.0});
-    const position_view<R, Proj> p(points, std::move(projection));
-    const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
-    if (histogram.bins().empty()) return std::nullopt;
-    const std::size_t most = detail::fullest(histogram).count;
-    const auto lowest = std::find_if(histogram.bins().begin(), histogram.bins().end(),
-                                     [most](const auto& bin) { return 4 * bin.count >= most; });
-    return plane{up, lowest->height};
-}
-
-/// The floor: the plane through the points in a band about itself.
-///
-/// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
-/// @return the plane, its normal on the side of the guess's; nothing where the points of the
-///         band do not determine one
-/// @throws std::invalid_argument  unless the band is positive and the guess's normal of unit length
-/// Complexity: O(n) per refit, a handful of them, at most 50.
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] std::optional<plane> find_floor(const R& points, const plane& guess = {},
+[[nodiscard]] std::optional<plane> find_floor(const R& points,
+                                              const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                               const find_floor_options& search = {},
                                               Proj projection = {}) {
     detail::require_valid(search);
-    detail::require_hesse(guess);
+    detail::require_hesse({up, 0.0});
     const position_view<R, Proj> p(points, std::move(projection));
-    plane floor = guess;
-    double band = search.band;
-    detail::scratch<double> distances;
-    for (int refit = 0; refit < 50; ++refit) {
-        // Moments about a point of the band, so that nothing is lost far from the origin.
-        std::optional<Eigen::Vector3d> origin;
-        moments m;
-        distances.clear();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_finite(p[i])) continue;
-            const double d = std::abs(floor.signed_distance(p[i]));
-            if (!(d <= band)) continue;
-            if (!origin) origin = p[i];
-            m.add(p[i] - *origin);
-            distances.push_back(d);
-        }
-        if (m.count < 3) return std::nullopt;
-        const detail::eigen_decomposition e = detail::symmetric_eigen(m.covariance_of_neighbors());
-        if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
-
-        plane next{detail::column(e.vectors, 2), 0.0};
-        if (detail::dot(next.normal, floor.normal) < 0.0)
-            next.normal = detail::scaled(-1.0, next.normal);
-        Eigen::Vector3d centroid = *origin;
-        for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
-        next.offset = detail::dot(next.normal, centroid);
-
-        // Feet of furniture and walls stand in the band: narrow it to three robust standard
-        // deviations of the points of the floor (1.4826 times the median for a normal
-        // distribution).
-        const auto median = distances.begin() + static_cast<std::ptrdiff_t>(m.count / 2);
-        std::nth_element(distances.begin(), median, distances.end());
-        const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
-
-        const bool rests = detail::length(detail::difference(next.normal, floor.normal)) < 1e-9 &&
-                           std::abs(floor.signed_distance(centroid)) < 1e-8 &&
-                           std::abs(narrower - band) < 1e-9;
-        floor = next;
-        band = narrower;
-        if (rests) break;
-    }
-    return floor;
+    const detail::height_histogram heights(p, plane{up, 0.0}, search.band);
+    return detail::with_table_of(points, [&](const viewpoint_table& seen_from) {
+        detail::floor_search floors(p, seen_from, search.band, search.min_width);
+        return floors.lowest(up, heights);
+    });
 }
 
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.

@@ -100,8 +100,7 @@ class perception_run {
         result_.ceiling.reset();
         if (chain_.leave_out) {
             const auto& out = *chain_.leave_out;
-            if (const auto guess = guess_floor(points_, out.up, projection_))
-                result_.floor = find_floor(points_, *guess, out.floor, projection_);
+            result_.floor = find_floor(points_, out.up, out.floor, projection_);
             if (result_.floor) {
                 result_.ceiling = find_ceiling(points_, *result_.floor, out.ceiling, projection_);
                 crop_height_into(result_.kept, position_view<R, Proj>(points_, projection_),

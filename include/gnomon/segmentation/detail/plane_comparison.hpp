@@ -5,11 +5,12 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <limits>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
@@ -34,18 +35,17 @@ namespace gnomon::detail {
     return worst / (tolerated * std::max(a.fit.excess(), b.fit.excess()));
 }
 
-/// The same of two regions apart, by Chow's test of the equality of two regressions (Chow 1960). As
-/// neighboring errors are correlated, and no surface is an exact plane, a region has no more than
-/// 50 independent points. A region that is hardly wider than its noise would be of any plane: its
+/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
+/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
 /// own must be nearly parallel to that of both.
 [[nodiscard]] inline double unlikeness_of_apart(const planar_region& a, const planar_region& b) {
-    constexpr double chi2_of_3 = 13.9;                  // 99.7 %, of three degrees of freedom
-    constexpr double least_cosine = 0.906307787036650;  // of 25 degrees; chosen
-    constexpr std::size_t most = 50;                    // chosen
+    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
+    // rho_a of the thesis, Sec. 4.4.1
+    const double least_cosine = min_cosine(degrees(15));
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const planar_region& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
-        return static_cast<double>(std::min(r.sums.count, most)) * worse / r.fit.excess();
+        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
     };
     const auto is_parallel = [&](const planar_region& r) {
         return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= least_cosine;
