@@ -35,7 +35,7 @@ struct noise_knn {
     noise_curve noise = constant_noise{};  ///< along the rays
     std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
     std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
-    double deviations = 6.0;               ///< within so many standard deviations of the point
+    double deviations = 6.0;               ///< within this number of standard deviations
 
     /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN

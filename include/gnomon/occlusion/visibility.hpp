@@ -163,7 +163,7 @@ class visibility {
         for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
     }
 
-    /// The standard deviation of a range of the cloud [m], in the mean.
+    /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;
         double sum = 0.0, count = 0.0;

@@ -31,7 +31,7 @@
 
 namespace gnomon {
 
-/// A plane and what is known of it.
+/// A plane with its covariance.
 struct plane_estimate {
     /// In Hesse normal form, towards the view point where one is known; without a normal if the
     /// points do not determine one.
@@ -115,7 +115,7 @@ template <execution X>
     return regions;
 }
 
-/// What is known of the plane of some points of a cloud.
+/// The plane of some points of a cloud, with its covariance.
 [[nodiscard]] inline plane_estimate estimate_of(const planar_cloud& cloud,
                                                 std::span<const point_index> members) {
     const plane_of_members found(cloud, members);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
-/// scatter, so that a plane that is wide deviates more than a small neighborhood tells. It is
+/// scatter, so that a wide plane deviates more than a small neighborhood. That is
 /// measured as the noise is, on a few of the points, whose neighborhoods are wide.
 #pragma once
 

@@ -68,8 +68,8 @@ class occlusion_merger {
 
     /// Merges the segments; their sets.
     [[nodiscard]] union_find operator()() {
-        union_find sets = agglomerated(
-            regions_, pairs(),
+        union_find sets = agglomeration(regions_)(
+            pairs(),
             [this](const planar_region& a, const planar_region& b) {
                 return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
             },
@@ -97,14 +97,12 @@ class occlusion_merger {
             [this](std::size_t r) { return regions_[r].fit; });
     }
 
-    /// Whether the centroid of the segment that knows less of its plane is near that of the other:
-    /// farther away, directions are less certain.
+    /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
+    /// (4.6).
     [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
-        constexpr double slope = 0.1;  // chosen
         const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
         const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
-        return std::abs(dot(wide.fit.plane.normal, between)) <=
-               options_.max_offset + slope * length(between);
+        return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
     }
 
     /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow, whether

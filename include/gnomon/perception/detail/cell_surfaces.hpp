@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which tell
-/// as much as the points, and are fewer; the last one gives the points their segments.
+/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which
+/// determine a surface as well as the points do, and are fewer. The last step gives the points their
+/// segments.
 #pragma once
 
 #include <algorithm>

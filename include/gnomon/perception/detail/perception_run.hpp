@@ -22,10 +22,7 @@
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/core/supervised.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/normals/detail/wide_noise.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
-#include <gnomon/normals/measure_noise.hpp>
-#include <gnomon/normals/noise_level.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
 #include <gnomon/normals/surfel.hpp>
@@ -33,6 +30,7 @@
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/cell_surfaces.hpp>
+#include <gnomon/perception/detail/known_noise.hpp>
 #include <gnomon/perception/perception_result.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
@@ -40,13 +38,6 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
-
-/// The same policy for this noise, if it depends on any.
-template <class Policy>
-[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
-    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
-    return policy;
-}
 
 /// One call of the chain. All its steps take scratch memory from the pools of the result, and write
 /// their results over those of the last call.
@@ -69,7 +60,7 @@ class perception_run {
         result_.gaps.clear();
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
-        step("noise", [&] { know_noise(); });
+        step("noise", [&] { know_noise(result_.noise, *given_, chain_.noise, run_); });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
         else
@@ -123,25 +114,6 @@ class perception_run {
             result_.index.rebuild(points_, run_, projection_);
         }
         given_ = &result_.index;
-    }
-
-    /// The noise that is given, or measured; or else that across the surfaces.
-    void know_noise() {
-        auto& noise = result_.noise;
-        noise = {};
-        if (chain_.noise) {
-            noise.curve = noise.of_planes = *chain_.noise;
-            return;
-        }
-        const measured_noise found = measure_noise(*given_, run_);
-        if (found.curve) {
-            noise.curve = *found.curve;
-            noise.of_planes = noise_of_wide_planes(*given_, noise.curve, run_);
-            return;
-        }
-        noise.curve = noise.of_planes = constant_noise{noise_level(*given_, run_)};
-        noise.is_across_surface = true;
-        noise.reason = found.reason;
     }
 
     /// Calls work(visibility) if segments are merged, and may be.
@@ -240,7 +212,7 @@ class perception_run {
     }
 
     /// Writes a gap to the result.
-    /// @param point_of  the number in the cloud of what the gap is between
+    /// @param point_of  the number in the cloud of the things the gap is between
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
         for (auto& line : to.lines) {

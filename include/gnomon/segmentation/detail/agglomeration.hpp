@@ -23,17 +23,44 @@ inline void make_unique(scratch<region_pair>& pairs) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if they
-/// still are as what they have become.
-/// @param regions  their sums and planes; those of the root of a set stand for it afterwards
-/// @param pairs    that may be one, each once
-/// @param unlike   unlike(region, region): at most 1 if they may be one
-/// @param accepts  accepts(a, b): whether else these two may be one, as they were at the beginning
-///                 of the round; called when all else is in favor
-/// @param gather   gather(into, from), after each round, for all that have become part of another
-/// @return the sets of regions that are one
-[[nodiscard]] union_find agglomerated(scratch<planar_region>& regions, scratch<region_pair> pairs,
-                                      auto&& unlike, auto&& accepts, auto&& gather) {
+/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
+/// they have become is still alike.
+class agglomeration {
+  public:
+    /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
+    explicit agglomeration(scratch<planar_region>& regions)
+        : regions_(regions),
+          sets_(regions.size()),
+          is_new_(regions.size(), true),
+          is_root_(regions.size(), true) {}
+
+    /// @param pairs    that may be one, each once
+    /// @param unlike   unlike(region, region): at most 1 if they may be one
+    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
+    ///                 beginning of the round; called when all else is in favor
+    /// @param gather   gather(into, from), after each round, for all that have become part of
+    ///                 another
+    /// @return the sets of regions that are one
+    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
+                                        auto&& gather) {
+        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
+            for (std::size_t r = 0; r < sets_.size(); ++r) {
+                const auto region = static_cast<point_index>(r), root = sets_.find(region);
+                if (root != region && is_root_[r] != 0) gather(root, region);
+                is_root_[r] = root == region;
+            }
+            for (auto& [a, b] : pairs) {
+                const auto roots = std::minmax(sets_.find(a), sets_.find(b));
+                a = roots.first;
+                b = roots.second;
+            }
+            std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
+            make_unique(pairs);
+        }
+        return std::move(sets_);
+    }
+
+  private:
     struct candidate {
         double unlikeness;
         region_pair pair;
@@ -41,48 +68,38 @@ inline void make_unique(scratch<region_pair>& pairs) {
             return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
         }
     };
-    union_find sets(regions.size());
-    scratch<candidate> candidates;
-    scratch<char> is_new(regions.size(), true), changed(regions.size(), false),
-        is_root(regions.size(), true);
-    while (!pairs.empty()) {
-        candidates.clear();
+
+    /// One round.
+    /// @return whether it merged any
+    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
+        scratch<candidate> candidates;
         for (const auto& pair : pairs) {
-            if (is_new[pair.first] == 0 && is_new[pair.second] == 0) continue;
-            const double u = unlike(regions[pair.first], regions[pair.second]);
+            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+            const double u = unlike(regions_[pair.first], regions_[pair.second]);
             if (u <= 1.0) candidates.push_back({u, pair});
         }
         std::sort(candidates.begin(), candidates.end());
-        std::fill(changed.begin(), changed.end(), false);
+        std::fill(is_new_.begin(), is_new_.end(), false);
         bool any = false;
         for (const candidate& c : candidates) {
-            const point_index a = sets.find(c.pair.first), b = sets.find(c.pair.second);
+            const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
             if (a == b) continue;
-            if ((changed[a] != 0 || changed[b] != 0) && !(unlike(regions[a], regions[b]) <= 1.0))
-                continue;
+            const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
+            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
             if (!accepts(c.pair.first, c.pair.second)) continue;
-            plane_sums sums = regions[a].sums;
-            sums.add(regions[b].sums);
-            planar_region& whole = regions[sets.unite(a, b)];
-            whole = {sums, sums.fit()};
-            changed[sets.find(a)] = any = true;
+            plane_sums sums = regions_[a].sums;
+            sums.add(regions_[b].sums);
+            const point_index whole = sets_.unite(a, b);
+            regions_[whole] = {sums, sums.fit()};
+            is_new_[whole] = any = true;
         }
-        if (!any) break;
-        for (std::size_t r = 0; r < sets.size(); ++r) {
-            const auto region = static_cast<point_index>(r), root = sets.find(region);
-            if (root != region && is_root[r] != 0) gather(root, region);
-            is_root[r] = root == region;
-        }
-        is_new.swap(changed);
-        for (auto& [a, b] : pairs) {
-            const auto roots = std::minmax(sets.find(a), sets.find(b));
-            a = roots.first;
-            b = roots.second;
-        }
-        std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
-        make_unique(pairs);
+        return any;
     }
-    return sets;
-}
+
+    scratch<planar_region>& regions_;
+    union_find sets_;
+    scratch<char> is_new_;   // since the round before
+    scratch<char> is_root_;  // at the beginning of the round
+};
 
 }  // namespace gnomon::detail

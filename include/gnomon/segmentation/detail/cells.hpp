@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A cloud thinned to what its noise lets one tell apart: the points of each cube, one standard
-/// deviation wide, become their mean.
+/// A cloud thinned to its noise: the points of each cube, one standard deviation wide, become their
+/// mean.
 #pragma once
 
 #include <algorithm>

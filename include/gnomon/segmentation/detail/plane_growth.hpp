@@ -134,7 +134,7 @@ class plane_growth {
             if (sums.count < refit_at) continue;
             const double excess = to.chi2;
             if (const region_plane f = sums.fit(); f.is_determined) to = f;
-            to.chi2 = excess;  // that of a part tells little
+            to.chi2 = excess;  // that of a part is of little precision
             refit_at *= 2;
         }
         return sums;

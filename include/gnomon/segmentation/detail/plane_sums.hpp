@@ -107,7 +107,7 @@ struct plane_sums {
 struct planar_region {
     plane_sums sums;
     region_plane fit;
-    bool is_planar = true;  ///< else the plane says nothing of its points
+    bool is_planar = true;  ///< else its points are not of the plane
 };
 
 }  // namespace gnomon::detail

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The noise that all steps of `perception` share: that which is given, or measured, or else that
+/// across the surfaces, with the reason.
+#pragma once
+
+#include <optional>
+
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/range_noise.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/wide_noise.hpp>
+#include <gnomon/normals/measure_noise.hpp>
+#include <gnomon/normals/noise_level.hpp>
+
+namespace gnomon::detail {
+
+/// @param noise  becomes that of the points: perception_result::known_noise
+/// @param given  by the user, if any
+template <class X>
+void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
+                const X& run) {
+    noise = {};
+    if (given) {
+        noise.curve = noise.of_planes = *given;
+        return;
+    }
+    const measured_noise found = measure_noise(points, run);
+    if (found.curve) {
+        noise.curve = *found.curve;
+        noise.of_planes = noise_of_wide_planes(points, noise.curve, run);
+        return;
+    }
+    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+    noise.is_across_surface = true;
+    noise.reason = found.reason;
+}
+
+/// The same policy for this noise, if it depends on any.
+template <class Policy>
+[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
+    return policy;
+}
+
+}  // namespace gnomon::detail
