@@ -52,11 +52,12 @@ namespace detail {
 
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
 /// left out again and again, unless they are more than half.
+template <class Cloud>
 struct plane_of_members {
     planar_region region;
     bool is_flat = false;
 
-    plane_of_members(const planar_cloud& cloud, std::span<const point_index> members) {
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members) {
         region = sums_of(cloud, members, [](point_index) { return true; });
         const std::size_t all = region.sums.count;
         constexpr int most_passes = 5;
@@ -74,15 +75,14 @@ struct plane_of_members {
     }
 
     /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const planar_cloud& cloud, point_index i,
-                                    const region_plane& to) {
+    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
         return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
     }
 
   private:
     static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
 
-    [[nodiscard]] static planar_region sums_of(const planar_cloud& cloud,
+    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
                                                std::span<const point_index> members, auto&& of) {
         planar_region some;
         for (const point_index i : members)
@@ -92,7 +92,7 @@ struct plane_of_members {
     }
 
     /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const planar_cloud& cloud,
+    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
                                      std::span<const point_index> members) const {
         constexpr double certainly = 5.0;  // standard deviations, as the thesis
         std::size_t off = 0;
@@ -116,8 +116,8 @@ template <execution X>
 }
 
 /// The plane of some points of a cloud, with its covariance.
-[[nodiscard]] inline plane_estimate estimate_of(const planar_cloud& cloud,
-                                                std::span<const point_index> members) {
+template <class Cloud>
+[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members) {
     const plane_of_members found(cloud, members);
     const plane_sums& sums = found.region.sums;
     const region_plane& fit = found.region.fit;

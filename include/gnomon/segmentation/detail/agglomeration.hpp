@@ -18,7 +18,7 @@ namespace gnomon::detail {
 using region_pair = std::pair<point_index, point_index>;
 
 /// Sorts pairs, and leaves each once.
-inline void make_unique(scratch<region_pair>& pairs) {
+void make_unique(auto& pairs) {
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }

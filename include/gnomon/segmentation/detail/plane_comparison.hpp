@@ -17,7 +17,7 @@
 namespace gnomon::detail {
 
 /// The plane of two regions.
-[[nodiscard]] inline region_plane plane_of_both(const planar_region& a, const planar_region& b) {
+[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
     plane_sums both = a.sums;
     both.add(b.sums);
     return both.fit();
@@ -26,8 +26,7 @@ namespace gnomon::detail {
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
 /// if they may be one: the deviations of either from the common plane are at most half as large
 /// again as those from their own.
-[[nodiscard]] inline double unlikeness_of_neighbors(const planar_region& a,
-                                                    const planar_region& b) {
+[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
     constexpr double tolerated = 1.5 * 1.5;  // chosen
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
@@ -38,16 +37,16 @@ namespace gnomon::detail {
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
 /// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
 /// own must be nearly parallel to that of both.
-[[nodiscard]] inline double unlikeness_of_apart(const planar_region& a, const planar_region& b) {
+[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
     // rho_a of the thesis, Sec. 4.4.1
     const double least_cosine = min_cosine(degrees(15));
     const region_plane both = plane_of_both(a, b);
-    const auto statistic = [&](const planar_region& r) {
+    const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
         return static_cast<double>(r.sums.count) * worse / r.fit.excess();
     };
-    const auto is_parallel = [&](const planar_region& r) {
+    const auto is_parallel = [&](const auto& r) {
         return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= least_cosine;
     };
     if (!both.is_determined || !is_parallel(a) || !is_parallel(b))

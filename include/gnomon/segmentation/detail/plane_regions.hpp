@@ -63,8 +63,11 @@ class plane_regions {
     /// Merges regions next to each other that one plane explains.
     void merge_neighbors() {
         union_find sets = agglomeration(regions_)(
-            touching(), unlikeness_of_neighbors, [](point_index, point_index) { return true; },
-            [](point_index, point_index) {});
+            touching(),
+            [](const planar_region& a, const planar_region& b) {
+                return unlikeness_of_neighbors(a, b);
+            },
+            [](point_index, point_index) { return true; }, [](point_index, point_index) {});
         for (std::int32_t& label : labels_)
             if (label != unlabeled)
                 label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
