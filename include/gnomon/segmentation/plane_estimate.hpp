@@ -57,7 +57,11 @@ struct plane_of_members {
     planar_region region;
     bool is_flat = false;
 
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members) {
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members)
+        : plane_of_members(cloud, members, cloud) {}
+
+    /// @param exact  the same points, with the noise of each for itself
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
         region = sums_of(cloud, members, [](point_index) { return true; });
         const std::size_t all = region.sums.count;
         constexpr int most_passes = 5;
@@ -71,7 +75,7 @@ struct plane_of_members {
         }
         is_flat = region.fit.is_determined && region.fit.is_seen &&
                   region.fit.chi2 <= region_plane::most_excess &&
-                  4 * region.sums.count >= 3 * all && off_it(cloud, members) < fewest_off;
+                  4 * region.sums.count >= 3 * all && off_it(exact, members) < fewest_off;
     }
 
     /// Whether point i is on the plane of a region.
@@ -94,10 +98,10 @@ struct plane_of_members {
     /// How many points are certainly not on the plane.
     [[nodiscard]] std::size_t off_it(const Cloud& cloud,
                                      std::span<const point_index> members) const {
-        constexpr double certainly = 5.0;  // standard deviations, as the thesis
         std::size_t off = 0;
         for (const point_index i : members)
-            if (cloud.is_finite(i) && cloud.deviations(i, region.fit.plane) > certainly) ++off;
+            if (cloud.is_finite(i) && cloud.deviations(i, region.fit.plane) > certain_deviations)
+                ++off;
         return off;
     }
 };
@@ -116,9 +120,11 @@ template <execution X>
 }
 
 /// The plane of some points of a cloud, with its covariance.
+/// @param exact  the same points, with the noise of each for itself
 template <class Cloud>
-[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members) {
-    const plane_of_members found(cloud, members);
+[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
+                                         const Cloud& exact) {
+    const plane_of_members found(cloud, members, exact);
     const plane_sums& sums = found.region.sums;
     const region_plane& fit = found.region.fit;
     plane_estimate e;
@@ -170,7 +176,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const detail::planar_cloud cloud(index, noise, team);
     std::vector<plane_estimate> planes(parts.size());
     team(parts.size(), [&](std::size_t s) {
-        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s]);
+        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s], cloud);
     });
     return planes;
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which
-/// determine a surface as well as the points do, and are fewer. The last step gives the points their
-/// segments.
+/// determine a surface as well as the points do, and are fewer. The last step gives the points
+/// their segments.
 #pragma once
 
 #include <algorithm>
@@ -46,24 +46,24 @@ class cell_surfaces {
     using surface_type = std::vector<surfel<Estimate>>;
 
     /// @param points   of which the cells are
-    /// @param noise    of wide planes
-    /// @param is_seen  whether the view points are known
+    /// @param noise    of the points: perception_result::known_noise
     /// @param index    memory for the index of the cells
     /// @param surface  memory for their surface elements
     template <execution X>
-    cell_surfaces(const spatial_index& points, const noise_curve& noise, bool is_seen,
-                  spatial_index& index, surface_type& surface, const X& run)
+    cell_surfaces(const spatial_index& points, const auto& noise, spatial_index& index,
+                  surface_type& surface, const X& run)
         : points_(points),
-          noise_(noise),
+          noise_(noise.of_planes),
+          exact_noise_(noise.curve),
           index_(index),
           surface_(surface),
           cells_(points, [&](std::size_t i) {
               constexpr double least = 1e-6;  // [m]: at no noise, a cell is a point
               const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
-              return std::max(noise.along(ray), least);
+              return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (is_seen) index.viewpoints = known_viewpoints();
+        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
     }
 
     /// The normals of the cells, and which are neighbors.
@@ -98,12 +98,14 @@ class cell_surfaces {
                 const point_index c = cells_.of_point[i];
                 if (c == cells::no_cell) continue;
                 competition.begin((*graph_)[c], of_cells, of_cells[c]);
-                const point_noise noise =
-                    noise_of_point(points_, noise_, i, !index_.viewpoints.empty());
+                const bool is_seen = !index_.viewpoints.empty();
+                const point_noise noise = noise_of_point(points_, noise_, i, is_seen);
+                const point_noise exact = noise_of_point(points_, exact_noise_, i, is_seen);
                 const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
                 labels[i] = competition.winner([&](std::int32_t label) {
-                    return misfit_of(offset, noise,
-                                     regions_->regions()[static_cast<std::size_t>(label)]);
+                    const planar_region& to = regions_->regions()[static_cast<std::size_t>(label)];
+                    return is_certainly_off(offset, exact, to) ? -1.0
+                                                               : misfit_of(offset, noise, to);
                 });
             }
         });
@@ -141,7 +143,8 @@ class cell_surfaces {
     }
 
     const spatial_index& points_;
-    const noise_curve& noise_;
+    const noise_curve& noise_;        // of wide planes
+    const noise_curve& exact_noise_;  // of each point for itself
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;

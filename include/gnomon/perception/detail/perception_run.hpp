@@ -132,8 +132,8 @@ class perception_run {
         const noise_curve& noise = result_.noise.of_planes;
         std::optional<cell_surfaces<Estimate>> found;
         step("cells", [&] {
-            found.emplace(*given_, noise, !result_.noise.is_across_surface, result_.memory.cells,
-                          result_.memory.surface, run_);
+            found.emplace(*given_, result_.noise, result_.memory.cells, result_.memory.surface,
+                          run_);
         });
         step("normals", [&] {
             found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
@@ -224,13 +224,14 @@ class perception_run {
 
     void estimate_planes_of_all() {
         const planar_cloud cloud(*given_, result_.noise.of_planes, run_);
+        const planar_cloud exact(*given_, result_.noise.curve, run_);
         scratch<std::int32_t> labels;
         labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
         const label_groups parts(labels);
         result_.planes.assign(result_.surfaces.size(), {});
         run_(parts.size(),
-             [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s]); });
+             [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s], exact); });
     }
 
     const Chain& chain_;

@@ -10,6 +10,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
@@ -83,6 +84,14 @@ class label_competition {
 [[nodiscard]] inline double misfit_of(const planar_cloud& cloud, std::size_t i,
                                       const planar_region& to) {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
+}
+
+/// Whether a point is certainly not of the plane of a region, whatever its other points.
+[[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
+                                           const planar_region& region) {
+    const plane& p = region.fit.plane;
+    return region.is_planar &&
+           std::abs(p.signed_distance(offset)) > certain_deviations * noise.across(p.normal);
 }
 
 /// The labels of the points of a cloud after one round.

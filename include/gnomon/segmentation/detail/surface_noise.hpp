@@ -28,6 +28,9 @@ namespace gnomon::detail {
 /// normal distribution.
 inline constexpr double most_deviations = 3.0;
 
+/// A point that is farther than this is certainly not of it.
+inline constexpr double certain_deviations = 5.0;
+
 inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
 inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
 /// The cosine of the angle between a ray and the normal of a surface, below which the surface was
