@@ -39,16 +39,16 @@ namespace gnomon::detail {
 /// 50 independent points. A region that is hardly wider than its noise would be of any plane: its
 /// own must be nearly parallel to that of both.
 [[nodiscard]] inline double unlikeness_of_apart(const planar_region& a, const planar_region& b) {
-    constexpr double chi2_of_3 = 13.9;                  // 99.7 %, of three degrees of freedom
-    constexpr double least_cosine = 0.906307787036650;  // of 25 degrees; chosen
-    constexpr std::size_t most = 50;                    // chosen
+    constexpr double chi2_of_3 = 13.9;            // 99.7 %, of three degrees of freedom
+    constexpr double nearly = 0.906307787036650;  // of 25 degrees; chosen
+    constexpr std::size_t most = 50;              // chosen
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const planar_region& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
         return static_cast<double>(std::min(r.sums.count, most)) * worse / r.fit.excess();
     };
     const auto is_parallel = [&](const planar_region& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= least_cosine;
+        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
     };
     if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
         return std::numeric_limits<double>::infinity();
