@@ -75,9 +75,9 @@ inline void make_unique(scratch<region_pair>& pairs) {
         }
         is_new.swap(changed);
         for (auto& [a, b] : pairs) {
-            const auto roots = std::minmax(sets.find(a), sets.find(b));
-            a = roots.first;
-            b = roots.second;
+            const point_index root_of_a = sets.find(a), root_of_b = sets.find(b);
+            a = std::min(root_of_a, root_of_b);
+            b = std::max(root_of_a, root_of_b);
         }
         std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
         make_unique(pairs);
