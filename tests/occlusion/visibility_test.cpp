@@ -191,7 +191,8 @@ TEST(visibility, share_images_of_near_view_points) {
     const auto visible = [&](double noise, const Eigen::Vector3d& by) {
         clouds::cloud p = points, v = way;
         for (std::size_t i = 0; i < p.size(); ++i) p[i] += by, v[i] += by;
-        return visibility(gnomon::with_viewpoints(p, gnomon::viewpoint_table(v)), {.noise = constant_noise{noise}});
+        return visibility(gnomon::with_viewpoints(p, gnomon::viewpoint_table(v)),
+                          {.noise = constant_noise{noise}});
     };
     const visibility here = visible(0.015, origin);
     ASSERT_EQ(here.images().size(), 11u) << "the first and the last of half a cube";
