@@ -71,7 +71,7 @@ TEST(noise_curve, adds_an_independent_error) {
         for (const double sigma : {0.0, 0.002, 0.5}) {
             const noise_curve sum = curve.plus(sigma);
             for (const double x : {0.05, 0.4, 3.0, 9.0, 100.0})
-                EXPECT_NEAR(sum(x), std::hypot(curve(x), sigma), 1e-4 * sum(x)) << x;
+                EXPECT_NEAR(sum(x), std::hypot(curve(x), sigma), 1e-12 * sum(x)) << x;
             EXPECT_EQ(sum.is_zero(), curve.is_zero() && sigma == 0.0);
             EXPECT_EQ(sum.is_of_depth(), curve.is_of_depth());
             EXPECT_EQ(sum.axis(), curve.axis());
