@@ -62,6 +62,37 @@ TEST(noise_curve, is_at_least_the_error_of_rounding_to_a_step) {
     EXPECT_EQ(noise_curve(constant_noise{}).step(1.0), 0.0);
 }
 
+/// Independent errors add by their squares, for each kind of curve.
+TEST(noise_curve, adds_an_independent_error) {
+    const noise_curve of_depth{quadratic_noise{0.0, 0.0, 0.001}, {0.0, 0.0, 2.0}};
+    for (const noise_curve& curve :
+         {noise_curve(constant_noise{0.02}), noise_curve(quadratic_noise{0.0015, -0.0005, 0.0003}),
+          noise_curve(of_a_data_sheet), noise_curve(constant_noise{0.0}), of_depth}) {
+        for (const double sigma : {0.0, 0.002, 0.5}) {
+            const noise_curve sum = curve.plus(sigma);
+            for (const double x : {0.05, 0.4, 3.0, 9.0, 100.0})
+                EXPECT_NEAR(sum(x), std::hypot(curve(x), sigma), 1e-12 * sum(x)) << x;
+            EXPECT_EQ(sum.is_zero(), curve.is_zero() && sigma == 0.0);
+            EXPECT_EQ(sum.is_of_depth(), curve.is_of_depth());
+            EXPECT_EQ(sum.axis(), curve.axis());
+        }
+    }
+    EXPECT_NEAR(noise_curve(constant_noise{0.003}).plus(0.004).along({2.0, 0.0, 0.0}), 0.005,
+                1e-15);
+    for (const double sigma : {-0.001, nan, inf})
+        EXPECT_THROW((void)of_depth.plus(sigma), std::invalid_argument) << sigma;
+}
+
+/// The step of the readings stays, and what is added is no part of it.
+TEST(noise_curve, adds_an_error_to_quantized_readings) {
+    const double step = 0.01;
+    const noise_curve quantized({1e-8, 0.0, 0.0, 0.0, 0.0},
+                                {step * step / 12.0, 0.0, 0.0, 0.0, 0.0});
+    const noise_curve sum = quantized.plus(0.002);
+    EXPECT_NEAR(sum.step(1.0), step, 1e-15);
+    EXPECT_NEAR(sum(1.0), std::hypot(quantized(1.0), 0.002), 1e-15);
+}
+
 TEST(noise_curve, refuses_what_is_no_standard_deviation) {
     EXPECT_THROW((void)noise_curve(constant_noise{-0.01}), std::invalid_argument);
     EXPECT_THROW((void)noise_curve(constant_noise{nan}), std::invalid_argument);

@@ -12,11 +12,6 @@
 
 namespace looks {
 
-/// A surface element with a normal only.
-struct element {
-    Eigen::Vector3d normal;
-};
-
 /// Points by hand, with their labels.
 struct drawn {
     clouds::cloud points;

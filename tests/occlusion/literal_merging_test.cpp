@@ -19,7 +19,7 @@ using gnomon::conservative, gnomon::liberal, gnomon::visibility, gnomon::merge_o
 
 /// How many segments the two halves of a wall make.
 std::size_t remaining_literally(const looks::look& seen, const auto& policy,
-                                const gnomon::merge_occluded_options& options = {}) {
+                                const gnomon::literal_merging_options& options = {}) {
     return merge_occluded_literally(seen.scan, looks::halves(seen), visibility(seen.scan), policy,
                                     options)
         .size();
@@ -80,14 +80,24 @@ TEST(merge_occluded_literally, passes_over_empty_segments) {
 
 TEST(merge_occluded_literally, refuses_thresholds_of_no_sense) {
     const auto seen = looks::look_at(looks::hidden(), {.spacing = 4.0});
-    const auto refused = [&](const gnomon::merge_occluded_options& options) {
+    const auto refused = [&](const gnomon::literal_merging_options& options) {
         EXPECT_THROW((void)remaining_literally(seen, conservative{}, options),
                      std::invalid_argument);
     };
     refused({.max_variation = -1.0});
+    refused({.max_angle = gnomon::degrees(-1)});
     refused({.max_offset = clouds::nan});
     refused({.max_gap = -1.0});
     refused({.boundary_pairs = 3});
+}
+
+TEST(merge_occluded_literally, has_the_defaults_of_the_thesis) {
+    const gnomon::literal_merging_options options;
+    EXPECT_DOUBLE_EQ(options.max_variation, 0.15);
+    EXPECT_DOUBLE_EQ(options.max_angle.degrees(), 15.0);
+    EXPECT_DOUBLE_EQ(options.max_offset, 0.05);
+    EXPECT_DOUBLE_EQ(options.max_gap, 0.20);
+    EXPECT_EQ(options.boundary_pairs, 6u);
 }
 
 TEST(merge_occluded_literally, keeps_segments_that_are_not_coplanar) {

@@ -22,12 +22,10 @@ namespace {
 using gnomon::conservative, gnomon::liberal, gnomon::visibility, gnomon::merge_occluded,
     gnomon::merge_occluded_options, gnomon::segments, gnomon::unlabeled;
 
-using looks::drawn, looks::element, looks::origin;
+using looks::drawn, looks::origin;
 
 TEST(merge_occluded, has_the_defaults_of_the_thesis) {
     const merge_occluded_options options;
-    EXPECT_DOUBLE_EQ(options.max_variation, 0.15);
-    EXPECT_DOUBLE_EQ(options.max_angle.degrees(), 15.0);
     EXPECT_DOUBLE_EQ(options.max_offset, 0.05);
     EXPECT_DOUBLE_EQ(options.max_gap, 0.20);
     EXPECT_EQ(options.boundary_pairs, 6u);
@@ -130,13 +128,16 @@ TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
     EXPECT_EQ(after_merging(seen, looks::halves(seen)), (remaining{2, 2}));
 }
 
+/// How small depends on the noise: a tile that is 30 cm wide and turned by 10 degrees is 15 mm off
+/// in the mean, which is one standard deviation.
 TEST(merge_occluded, requires_planes_at_a_small_angle) {
-    for (const auto& [turned, rest] : {std::pair(0.0, 1u), {10.0, 1u}, {25.0, 2u}, {80.0, 2u}}) {
+    for (const auto& [turned, rest] : {std::pair(0.0, 1u), {4.0, 1u}, {10.0, 2u}, {80.0, 2u}}) {
         drawn wall;
         wall.add({3, -0.5, 0}, 50, 50);
         wall.add({3, 0.25, 0}, 15, 30, 1, turned);
         EXPECT_EQ(wall.merged().segments.size(), rest) << turned;
-        EXPECT_EQ(wall.merged({.max_angle = gnomon::degrees(90)}).gaps.size(), 1u);
+        const gnomon::noise_curve more = gnomon::constant_noise{0.06};
+        EXPECT_EQ(wall.merged({.noise = more}).segments.size(), turned > 20.0 ? 2u : 1u) << turned;
     }
 }
 
@@ -150,7 +151,6 @@ TEST(merge_occluded, does_not_join_two_planes_by_a_strip_coplanar_with_both) {
         corner.add({3 - 0.5 * sin(turned), 0.04 + 0.5 * cos(turned), 0}, 50, 50, 1, 20);
         corner.add({x, 0.02, 0}, 2, 15, 1, 10);
         const auto merged = corner.merged();
-        EXPECT_EQ(merged.gaps.size(), 2u);
         EXPECT_EQ(merged.segments.size(), 2u);
         const auto& labels = merged.segments.labels();
         EXPECT_EQ(labels.back(), labels[closer * 2500]) << x;
@@ -169,7 +169,6 @@ TEST(merge_occluded, joins_no_two_planes_by_a_chain) {
     corner.add({3.0, 0.02, -0.15}, 2, 15, 1, 10);
     corner.add({3.007, 0.02, 0.15}, 2, 15, 1, 10);
     const auto merged = corner.merged();
-    EXPECT_EQ(merged.gaps.size(), 5u);
     EXPECT_EQ(merged.segments.size(), 2u);
     EXPECT_NE(merged.segments.labels()[0], merged.segments.labels()[2500]);
     const auto again = merge_occluded(corner.points, merged.segments, visibility(corner.points));
@@ -322,6 +321,32 @@ TEST(merge_occluded, depends_on_no_order_of_points_or_segments) {
     }
 }
 
+TEST(merge_occluded, is_the_same_for_every_execution) {
+    const auto seen = two_columns();
+    const auto parts = five_parts(seen);
+    const visibility visible(seen.scan);
+    const auto expected = merge_occluded(seen.scan, parts, visible);
+    for (const unsigned t : {1u, 2u, 3u}) {
+        const auto merged =
+            merge_occluded(seen.scan, parts, visible, conservative{}, {}, gnomon::threads{t});
+        EXPECT_EQ(merged.segments, expected.segments);
+        ASSERT_EQ(merged.gaps.size(), expected.gaps.size());
+        for (std::size_t g = 0; g < merged.gaps.size(); ++g)
+            EXPECT_EQ(merged.gaps[g].width(), expected.gaps[g].width());
+    }
+}
+
+/// What has no plane is not compared: the layers of a block are thicker than the noise.
+TEST(merge_occluded, passes_over_segments_that_are_not_flat) {
+    for (const auto& [layers, rest] : {std::pair(1, 1u), {10, 3u}}) {
+        drawn row;
+        for (const double y : {-0.6, 0.0, 0.6}) row.add({3, y, 0}, 25, 25, layers);
+        const auto merged = row.merged();
+        EXPECT_EQ(merged.segments.size(), rest);
+        EXPECT_EQ(merged.gaps.empty(), layers > 1);
+    }
+}
+
 TEST(merge_occluded, stays_under_rigid_motion) {
     const auto hidden = two_columns();
     const auto bench = seats(true);
@@ -393,25 +418,16 @@ TEST(merge_occluded, rejects_invalid_input) {
         return merge_occluded(seen.scan, parts, visible, conservative{}, options);
     };
     const double nan = clouds::nan;
-    EXPECT_THROW(merge({.max_variation = nan}), std::invalid_argument);
-    EXPECT_THROW(merge({.max_angle = gnomon::radians(nan)}), std::invalid_argument);
     EXPECT_THROW(merge({.max_offset = nan}), std::invalid_argument);
     EXPECT_THROW(merge({.max_gap = nan}), std::invalid_argument);
-    EXPECT_THROW(merge({.sigma = nan}), std::invalid_argument);
-    EXPECT_THROW(merge({.max_variation = -0.1}), std::invalid_argument);
-    EXPECT_THROW(merge({.max_angle = gnomon::degrees(-1)}), std::invalid_argument);
     EXPECT_THROW(merge({.max_offset = -0.1}), std::invalid_argument);
     EXPECT_THROW(merge({.max_gap = -0.1}), std::invalid_argument);
-    EXPECT_THROW(merge({.sigma = 0.0}), std::invalid_argument);
-    EXPECT_THROW(merge({.sigma = clouds::infinity}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 0}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
     EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));
     const segments of_others(std::vector<std::int32_t>(seen.scan.size() + 1, 0));
     EXPECT_THROW((void)merge_occluded(seen.scan, of_others, visible), std::invalid_argument);
     EXPECT_THROW((void)merge_occluded(seen.scan, segments(), visible), std::invalid_argument);
-    const std::vector<element> of_fewer(seen.scan.size() - 1);
-    EXPECT_THROW((void)merge_occluded(seen.scan, of_fewer, parts, visible), std::invalid_argument);
 }
 
 TEST(merge_occluded, merges_none_of_no_segments) {
@@ -483,17 +499,14 @@ TEST(merge_occluded, considers_few_gaps_of_thousands_of_segments) {
     const auto never = [](gnomon::observation) { return false; };
     // With little noise a tile determines its plane well enough to be compared with all near tiles.
     const auto apart = merge_occluded(points, segments(labels), visibility(points), never,
-                                      {.max_gap = 0.0, .sigma = 0.001});
+                                      {.noise = gnomon::constant_noise{0.001}, .max_gap = 0.0});
     EXPECT_EQ(apart.segments.size(), 5000u);
     EXPECT_GE(apart.gaps.size(), 5000u * 10);
     EXPECT_LE(apart.gaps.size(), 5000u * 20);
-    // With more noise, it is compared with adjacent tiles only. The sensor is far away: the noise
-    // across the wall is less at oblique incidence, which would let a tile reach farther.
-    const auto from_afar = gnomon::with_viewpoint(points, {-30.0, 0.0, 0.0});
-    EXPECT_EQ(merge_occluded(from_afar, segments(labels), visibility(from_afar), never).gaps.size(),
-              100u * 49 + 99 * 50);
     const auto merged = merge_occluded(points, segments(labels), visibility(points));
     EXPECT_EQ(merged.segments.size(), 1u) << "the gaps between them are narrow";
+    EXPECT_GE(merged.gaps.size(), 4999u);
+    EXPECT_LE(merged.gaps.size(), 2u * 4999u) << "few are looked at that are not closed";
 }
 
 /// docs/thesis-notes.md, A16: from 20 candidates on the result hardly changes.

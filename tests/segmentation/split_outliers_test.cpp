@@ -11,40 +11,31 @@
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
-#include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/viewpoints.hpp>
-#include <gnomon/segmentation/assign_unlabeled.hpp>
 #include <gnomon/segmentation/split_outliers.hpp>
 
 namespace {
 
 using gnomon::split_outliers, gnomon::segments, gnomon::unlabeled;
 
-constexpr double noise_of_ranges = 0.015;
+constexpr double sigma = 0.005;
+const gnomon::noise_curve noise = gnomon::constant_noise{sigma};
 const Eigen::Vector3d eye_before_seat(-1.6, 0.2, 0.8);
 
-struct element_of_surface {
-    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< none: what follows is of places alone, if not said
-};
-
-segments released_from(const auto& points, const segments& parts,
-                       const gnomon::split_outliers_options& options = {}, const auto&... run) {
-    const std::vector<element_of_surface> none(parts.labels().size());
-    return split_outliers(points, none, parts, options, run...);
-}
+std::vector<std::int32_t> one_segment(std::size_t n) { return std::vector<std::int32_t>(n, 0); }
 
 /// A seat, 40 cm wide, and the front of its board, 4 cm high, as a sensor in front of it sees them:
-/// rays half a degree apart, with noise along them. All in one segment.
+/// rays a degree apart, with noise along them. All in one segment, which is flat: fewer than 30
+/// points are certainly off it.
 struct seat {
-    std::vector<Eigen::Vector3d> points;
-    std::vector<std::int32_t> labels;
+    clouds::cloud points;
     std::vector<bool> is_of_front;
 
-    explicit seat(std::uint64_t seed) {
+    explicit seat(std::uint64_t seed, double height = 0.04) {
         gnomon::random_stream random(seed);
-        constexpr double spacing = 0.01;  // of rays [rad]
+        constexpr double spacing = 0.0175;  // of rays [rad]
         for (double elevation = -0.6; elevation < 0.0; elevation += spacing) {
             for (double azimuth = -0.3; azimuth < 0.3; azimuth += spacing) {
                 const Eigen::Vector3d ray(std::cos(elevation) * std::cos(azimuth),
@@ -54,25 +45,25 @@ struct seat {
                              to_seat = -eye_before_seat.z() / ray.z();
                 const Eigen::Vector3d front = eye_before_seat + to_front * ray,
                                       top = eye_before_seat + to_seat * ray;
-                const bool hits_front = front.z() <= 0.0 && front.z() > -0.04;
+                const bool hits_front = front.z() <= 0.0 && front.z() > -height;
                 const Eigen::Vector3d& hit = hits_front ? front : top;
                 if (hit.x() < -1e-9 || hit.x() > 0.4 || hit.y() < 0.0 || hit.y() > 0.4) continue;
-                points.emplace_back(hit + noise_of_ranges * random.gaussian() * ray);
-                labels.push_back(0);
+                points.emplace_back(hit + sigma * random.gaussian() * ray);
                 is_of_front.push_back(hits_front);
             }
         }
     }
     /// Of the points of the front, or else the seat, how many are no longer in the segment.
-    [[nodiscard]] double released(bool front, const segments& left) const {
-        double all = 0.0, released = 0.0;
+    [[nodiscard]] double split(bool front, const segments& left) const {
+        double all = 0.0, off = 0.0;
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (is_of_front[i] != front) continue;
             all += 1.0;
-            released += left.labels()[i] != 0 ? 1.0 : 0.0;
+            off += left.labels()[i] != 0 ? 1.0 : 0.0;
         }
-        return released / all;
+        return off / all;
     }
+    [[nodiscard]] segments parts() const { return segments(one_segment(points.size())); }
     [[nodiscard]] auto seen() const { return gnomon::with_viewpoint(points, eye_before_seat); }
 };
 
@@ -81,31 +72,18 @@ TEST(split_outliers, splits_off_the_rim_and_keeps_the_plane) {
     constexpr int seeds = 10;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const seat s(seed);
-        const segments left = released_from(s.seen(), segments(s.labels));
-        of_rim += s.released(true, left) / seeds;
-        EXPECT_LE(s.released(false, left), 0.05) << seed;
+        const segments left = split_outliers(s.seen(), s.parts(), noise);
+        of_rim += s.split(true, left) / seeds;
+        EXPECT_LE(s.split(false, left), 0.05) << seed;
     }
-    EXPECT_GE(of_rim, 0.75);
-}
-
-/// Most of the rim is not far enough off, each point for itself.
-TEST(split_outliers, means_of_residuals_detect_more_than_single_residuals) {
-    double by_mean = 0.0, by_itself = 0.0;
-    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
-        const seat s(seed);
-        by_mean += s.released(true, released_from(s.seen(), segments(s.labels)));
-        by_itself +=
-            s.released(true, released_from(s.seen(), segments(s.labels), {.max_distance = 0.0}));
-    }
-    EXPECT_GE(by_mean, by_itself + 1.0);
+    EXPECT_GE(of_rim, 0.9);
 }
 
 /// Without view points noise is the same in all directions: what is off by less may be noise.
 TEST(split_outliers, splits_off_fewer_points_without_view_points) {
     const seat s(1);
-    const segments parts(s.labels);
-    EXPECT_LT(s.released(true, released_from(s.points, parts)),
-              s.released(true, released_from(s.seen(), parts)) - 0.2);
+    EXPECT_LT(s.split(true, split_outliers(s.points, s.parts(), noise)),
+              s.split(true, split_outliers(s.seen(), s.parts(), noise)) - 0.2);
 }
 
 /// Law: a plane, seen from anywhere, keeps 99 % of its points; the points of an object next to it
@@ -115,183 +93,114 @@ TEST(split_outliers, keeps_planes) {
     for (int round = 0; round < 20; ++round) {
         const Eigen::Vector3d from(3.0 * random.gaussian(), 3.0 * random.gaussian(),
                                    0.1 + std::abs(random.gaussian()));
-        std::vector<Eigen::Vector3d> points;
+        clouds::cloud points;
         for (int i = 0; i < 2000; ++i) {
             const Eigen::Vector3d p(random.uniform(), random.uniform(), 0.0);
-            points.emplace_back(p + noise_of_ranges * random.gaussian() * (p - from).normalized());
+            points.emplace_back(p + sigma * random.gaussian() * (p - from).normalized());
         }
         for (int i = 0; i < 20; ++i)
             points.emplace_back(random.uniform(), -0.05, 0.1 + 0.05 * random.uniform());
-        const auto labels = released_from(gnomon::with_viewpoint(points, from),
-                                          segments(std::vector<std::int32_t>(2020, 0)))
-                                .labels();
+        const auto labels =
+            split_outliers(gnomon::with_viewpoint(points, from), segments(one_segment(2020)), noise)
+                .labels();
         EXPECT_GE(std::count(labels.begin(), labels.end() - 20, 0), 1980) << round;
         EXPECT_EQ(std::count(labels.end() - 20, labels.end(), unlabeled), 20) << round;
     }
 }
 
-/// A box on a table whose foot is round, so that a segmentation by normals climbs it.
-TEST(split_outliers, connected_outliers_are_a_segment) {
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 40; ++i)
-        for (int j = 0; j < 40; ++j) points.emplace_back(0.01 * i, 0.01 * j, 0.0);
-    for (int i = 0; i < 10; ++i)
-        for (int j = 0; j < 10; ++j) points.emplace_back(0.2, 0.15 + 0.01 * i, 0.01 * (j + 1));
-    const segments parts(std::vector<std::int32_t>(points.size(), 0));
-    const segments left = released_from(points, parts, {.sigma = 0.008});
-    ASSERT_EQ(left.size(), 2u);
-    EXPECT_LE(left[0].size(), 1620u);
-    EXPECT_GE(left[1].size(), 80u);
-    EXPECT_EQ(released_from(points, parts, {.sigma = 0.008, .min_points = 101}).size(), 1u);
-    EXPECT_EQ(released_from(points, parts, {.sigma = 0.008, .max_distance = 0.005}).size(), 1u);
-    // Of two segments, each is one for itself.
-    std::vector<std::int32_t> labels(points.size(), 0);
-    for (std::size_t i = 0; i < points.size(); ++i) labels[i] = points[i].y() < 0.195 ? 0 : 1;
-    EXPECT_EQ(released_from(points, segments(labels), {.sigma = 0.008}).size(), 4u);
-}
-
-/// Among points of the plane, one that is far off goes alone.
-TEST(split_outliers, isolated_outliers_become_unlabeled) {
-    std::vector<Eigen::Vector3d> points;
+/// Three standard deviations are the limit: the noise, and what no surface is flatter than.
+TEST(split_outliers, splits_off_what_is_beyond_three_deviations) {
+    clouds::cloud points;
     for (int i = 0; i < 400; ++i) points.emplace_back(0.01 * (i % 20), 0.01 * (i / 20), 0.0);
-    points[210].z() = 4.9 * noise_of_ranges;
-    points[215].z() = -5.1 * noise_of_ranges;
-    const segments left = released_from(points, segments(std::vector<std::int32_t>(400, 0)));
+    const double deviation = std::hypot(sigma, gnomon::detail::flatness);
+    points[210].z() = 2.9 * deviation;
+    points[215].z() = -3.1 * deviation;
+    const segments left = split_outliers(points, segments(one_segment(400)), noise);
     EXPECT_EQ(left.labels()[210], 0);
     EXPECT_EQ(left.labels()[215], unlabeled);
     EXPECT_EQ(left[0].size(), 399u);
 }
 
-/// An outlier, at any distance, does not change the mean residual of its neighbors.
-TEST(split_outliers, no_neighbor_decides_alone) {
-    std::vector<Eigen::Vector3d> points;
-    for (int i = 0; i < 400; ++i) points.emplace_back(0.2 * (i % 20), 0.2 * (i / 20), 0.0);
-    std::vector<std::int32_t> labels(400, 0);
-    points.emplace_back(2.0, 2.0, 0.19);  // unlabeled
-    labels.push_back(unlabeled);
-    EXPECT_EQ(released_from(points, segments(labels)).labels(), labels);
-}
-
-/// A floor that is warped: what is off its plane by more than noise has a normal like it.
-TEST(split_outliers, points_with_the_normal_of_the_plane_stay) {
-    std::vector<Eigen::Vector3d> points;
-    std::vector<element_of_surface> surface;
-    for (int i = 0; i < 60; ++i) {
-        for (int j = 0; j < 60; ++j) {
-            points.emplace_back(0.05 * i, 0.05 * j, 0.026 * std::cos(0.1 * i));
-            surface.push_back({Eigen::Vector3d(0.052 * std::sin(0.1 * i), 0.0, 1.0).normalized()});
-        }
-    }
-    const segments parts(std::vector<std::int32_t>(3600, 0));
-    EXPECT_EQ(split_outliers(points, surface, parts), parts);
-    EXPECT_NE(released_from(points, parts), parts) << "without normals";
-    for (element_of_surface& e : surface) e.normal *= -1.0;
-    EXPECT_EQ(split_outliers(points, surface, parts), parts);
-    // At most a right angle off are all normals, but not those that are missing.
-    EXPECT_NE(released_from(points, parts, {.max_angle = gnomon::degrees(90)}), parts);
-}
-
-TEST(split_outliers, thick_segments_and_warped_ones_are_kept) {
+TEST(split_outliers, segments_that_are_not_flat_are_kept) {
     gnomon::random_stream random(3);
-    std::vector<Eigen::Vector3d> points;
+    clouds::cloud points;
     std::vector<std::int32_t> labels;
-    for (int i = 0; i < 900; ++i) {  // 0: a ball
-        points.emplace_back(random.gaussian(), random.gaussian(), random.gaussian());
+    for (int i = 0; i < 900; ++i) {  // 0: a ball, 1: two walls, 2: two points
+        points.push_back(clouds::gaussian_vector(random));
         labels.push_back(0);
+        const double u = random.uniform(), v = random.uniform();
+        points.push_back(i % 2 == 0 ? Eigen::Vector3d(20.0 + u, v, 0.0)
+                                    : Eigen::Vector3d(20.0, v, u));
+        labels.push_back(1);
     }
-    for (int i = 0; i < 30; ++i) {  // 1: a chessboard of two heights, seen at oblique incidence
-        for (int j = 0; j < 30; ++j) {
-            const double height =
-                (i / 5 + j / 5) % 2 == 0 ? 0.7 * noise_of_ranges : -0.7 * noise_of_ranges;
-            points.emplace_back(10.0 + 0.01 * i, 0.01 * j, height);
-            labels.push_back(1);
-        }
+    for (int i = 0; i < 2; ++i) {
+        points.emplace_back(40.0, 0.0, 3.0 * i);
+        labels.push_back(2);
     }
     const segments parts(labels);
-    EXPECT_EQ(released_from(gnomon::with_viewpoint(points, Eigen::Vector3d(0, 0, 0.5)), parts),
-              parts);
+    EXPECT_EQ(split_outliers(points, parts, noise), parts);
 }
 
 /// The largest may be another after it.
 TEST(split_outliers, segments_are_largest_first) {
     const seat s(1);
-    std::vector<Eigen::Vector3d> points = s.points;
-    std::vector<std::int32_t> labels = s.labels;
+    clouds::cloud points = s.points;
+    std::vector<std::int32_t> labels = one_segment(points.size());
     const std::size_t first = points.size();
-    for (std::size_t i = 0; i + 20 < first; ++i) {  // elsewhere, flat, 20 fewer
+    for (std::size_t i = 0; i + 5 < first; ++i) {  // elsewhere, flat, 5 fewer
         points.emplace_back(0.01 * static_cast<double>(i % 40),
                             3.0 + 0.01 * static_cast<double>(i / 40), 0.0);
         labels.push_back(1);
     }
-    const segments left = released_from(gnomon::with_viewpoint(points, eye_before_seat),
-                                        segments(labels), {.min_points = 1000});
+    const segments left =
+        split_outliers(gnomon::with_viewpoint(points, eye_before_seat), segments(labels), noise);
     EXPECT_EQ(left.labels()[first], 0);
     EXPECT_EQ(*std::max_element(left.labels().begin(), left.labels().end()), 1);
 }
 
 TEST(split_outliers, depends_on_no_order_place_or_thread) {
-    seat many(1);
-    const auto of_one = static_cast<std::ptrdiff_t>(many.points.size());
-    for (std::uint64_t seed = 2; seed <= 40; ++seed) {
-        const seat s(seed);
-        many.points.insert(many.points.end(), s.points.begin(), s.points.end());
-        many.labels.insert(many.labels.end(), s.labels.size(), static_cast<std::int32_t>(seed - 1));
-    }
-    for (std::size_t i = 0; i < many.points.size(); ++i)  // side by side
-        many.points[i] += 10.0 * many.labels[i] * Eigen::Vector3d::UnitX();
-    const segments parts(many.labels);
-    const auto expected = released_from(many.points, parts).labels();
-    EXPECT_GT(std::count(expected.begin(), expected.begin() + of_one, unlabeled), 0);
-    for (const unsigned n : {2u, 4u})
-        EXPECT_EQ(released_from(many.points, parts, {}, gnomon::threads{n}).labels(), expected);
-
-    const seat s(5);
-    const auto here = released_from(s.seen(), segments(s.labels)).labels();
-    seat moved = s;
-    std::reverse(moved.points.begin(), moved.points.end());
-    const Eigen::Vector3d by(1024.0, -512.0, 256.0);
-    for (Eigen::Vector3d& p : moved.points) p += by;
-    auto labels = released_from(gnomon::with_viewpoint(moved.points, eye_before_seat + by),
-                                segments(s.labels))
-                      .labels();
-    std::reverse(labels.begin(), labels.end());
-    EXPECT_EQ(labels, here);
-}
-
-/// Strips of floor and of the adjacent wall, in two segments, seen at oblique incidence: the
-/// normals at the edge are averages of both, but points of one segment are no evidence for the
-/// other.
-TEST(split_outliers, uses_no_points_of_other_segments) {
-    std::vector<Eigen::Vector3d> points;
+    clouds::cloud all, eyes;
     std::vector<std::int32_t> labels;
-    for (int i = 0; i < 40; ++i) {
-        for (int j = 0; j < 20; ++j) {
-            points.emplace_back(0.05 * i, 0.38 - 0.05 * j, 0.0);
-            labels.push_back(0);
-        }
-        for (int j = 0; j < 10; ++j) {
-            points.emplace_back(0.05 * i, 0.4, 0.03 + 0.01 * j);
-            labels.push_back(1);
+    for (std::uint64_t seed = 1; seed <= 40; ++seed) {  // side by side
+        for (const Eigen::Vector3d& p : seat(seed).points) {
+            const Eigen::Vector3d aside(10.0 * static_cast<double>(seed), 0.0, 0.0);
+            all.push_back(p + aside);
+            eyes.push_back(eye_before_seat + aside);
+            labels.push_back(static_cast<std::int32_t>(seed - 1));
         }
     }
-    const auto seen = gnomon::with_viewpoint(points, Eigen::Vector3d(0.4, -3.0, 0.5));
+    const auto points = gnomon::with_viewpoints(all, gnomon::viewpoint_table(eyes));
     const segments parts(labels);
-    EXPECT_EQ(released_from(seen, parts), parts);
+    const auto expected = split_outliers(points, parts, noise);
+    EXPECT_GT(std::ranges::count(expected.labels(), unlabeled), 0);
+    for (const unsigned n : {1u, 2u, 3u})
+        EXPECT_EQ(split_outliers(points, parts, noise, gnomon::threads{n}), expected);
+
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const seat s(seed);
+        const auto here = split_outliers(s.seen(), s.parts(), noise).labels();
+        const Eigen::Matrix3d r = clouds::random_rotation(seed);
+        const Eigen::Vector3d by(6e5, 4.8e6, 100.0);
+        auto moved = clouds::moved(s.points, r, by);
+        std::reverse(moved.begin(), moved.end());
+        auto there =
+            split_outliers(gnomon::with_viewpoint(moved, Eigen::Vector3d(r * eye_before_seat + by)),
+                           s.parts(), noise)
+                .labels();
+        std::reverse(there.begin(), there.end());
+        EXPECT_EQ(there, here);
+    }
 }
 
-/// What was released is not claimed again, and a second time next to nothing is.
-TEST(split_outliers, agrees_with_assign_unlabeled) {
-    double back = 0.0, second = 0.0;
-    constexpr int seeds = 10;
-    for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
+/// A second time next to nothing is split off.
+TEST(split_outliers, is_nearly_idempotent) {
+    for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const seat s(seed);
-        const segments left = released_from(s.seen(), segments(s.labels), {.min_points = 1000});
-        const segments again = released_from(s.seen(), left, {.min_points = 1000});
-        back += s.released(true, left) - s.released(true, gnomon::assign_unlabeled(s.seen(), left));
-        second += s.released(false, again) - s.released(false, left);
+        const segments left = split_outliers(s.seen(), s.parts(), noise);
+        const segments again = split_outliers(s.seen(), left, noise);
+        EXPECT_LE(s.split(false, again) - s.split(false, left), 0.01);
+        EXPECT_LE(s.split(true, again) - s.split(true, left), 0.05);
     }
-    EXPECT_LE(back / seeds, 0.15);
-    EXPECT_LE(second / seeds, 0.02);
 }
 
 TEST(split_outliers, takes_a_projection) {
@@ -299,53 +208,37 @@ TEST(split_outliers, takes_a_projection) {
     std::vector<std::pair<int, Eigen::Vector3d>> named;
     for (const Eigen::Vector3d& p : s.points) named.emplace_back(7, p);
     const auto place = [](const auto& n) -> const Eigen::Vector3d& { return n.second; };
-    const std::vector<element_of_surface> none(s.labels.size());
-    EXPECT_EQ(split_outliers(named, none, segments(s.labels), {}, gnomon::sequential{}, place),
-              released_from(s.points, segments(s.labels)));
+    EXPECT_EQ(split_outliers(named, s.parts(), noise, gnomon::sequential{}, place),
+              split_outliers(s.points, s.parts(), noise));
 }
 
 TEST(split_outliers, accepts_degenerate_input) {
-    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_TRUE(released_from(std::vector<Eigen::Vector3d>{}, segments()).empty());
-    const segments one(std::vector<std::int32_t>(50, 0));
-    const std::vector<Eigen::Vector3d> holes(50, Eigen::Vector3d(nan, 0, 0));
-    EXPECT_EQ(released_from(holes, one).labels(), one.labels());
-    const std::vector<Eigen::Vector3d> one_place(50, Eigen::Vector3d(1, 2, 3));
-    EXPECT_EQ(released_from(one_place, one).labels(), one.labels());
-    EXPECT_EQ(
-        released_from(gnomon::with_viewpoint(one_place, Eigen::Vector3d(1, 2, 3)), one).labels(),
-        one.labels());
+    const clouds::cloud one_place(50, Eigen::Vector3d(1, 2, 3));
+    const segments one(one_segment(50));
+    EXPECT_EQ(split_outliers(one_place, one, noise), one);
+    EXPECT_EQ(split_outliers(gnomon::with_viewpoint(one_place, one_place[0]), one, noise), one);
     std::vector<std::int32_t> labels(50, unlabeled);
     labels[7] = 0, labels[8] = 2;  // and 1 is empty
-    EXPECT_EQ(released_from(one_place, segments(labels)).size(), 2u);
+    EXPECT_EQ(split_outliers(one_place, segments(labels), noise).size(), 2u);
     // What is nowhere stays where it is, though it is off every plane.
-    std::vector<Eigen::Vector3d> slope;
+    clouds::cloud slope;
     for (int i = 0; i < 400; ++i)
         slope.emplace_back(0.01 * (i % 20), 0.01 * (i / 20), 0.01 * (i % 20));
     slope.emplace_back(0.0, 0.0, std::numeric_limits<double>::infinity());
-    const segments of_slope(std::vector<std::int32_t>(401, 0));
-    EXPECT_EQ(released_from(slope, of_slope), of_slope);
+    const segments of_slope(one_segment(401));
+    EXPECT_EQ(split_outliers(slope, of_slope, noise), of_slope);
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
-        const segments all(std::vector<std::int32_t>(points.size(), 0));
-        EXPECT_EQ(released_from(points, all).labels().size(), points.size());
-        EXPECT_EQ(assign_unlabeled(points, all).labels(), all.labels());
+        const segments all(one_segment(points.size()));
+        EXPECT_EQ(split_outliers(points, all, noise).labels().size(), points.size());
     }
 }
 
-TEST(split_outliers, refuses_bad_parameters) {
+TEST(split_outliers, refuses_other_numbers_of_points) {
     const seat s(1);
-    const auto refused = [&](const gnomon::split_outliers_options& o) {
-        EXPECT_THROW(static_cast<void>(released_from(s.points, segments(s.labels), o)),
-                     std::invalid_argument);
-    };
-    refused({.sigma = 0.0});
-    refused({.sigma = std::numeric_limits<double>::quiet_NaN()});
-    refused({.k = 0});
-    refused({.max_distance = -1.0});
-    refused({.max_angle = gnomon::degrees(91)});
-    EXPECT_THROW(static_cast<void>(released_from(s.points, segments(std::vector<std::int32_t>{0}))),
+    EXPECT_THROW((void)split_outliers(s.points, segments(one_segment(1)), noise),
                  std::invalid_argument);
+    EXPECT_THROW((void)split_outliers(s.points, segments(), noise), std::invalid_argument);
 }
 
 }  // namespace

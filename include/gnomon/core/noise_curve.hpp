@@ -94,11 +94,7 @@ class noise_curve {
         require_deviation(sigma);
         noise_curve sum = *this;
         sum.is_zero_ = is_zero_ && sigma == 0.0;
-        sum.variance_[0] += sigma * sigma;
-        for (float& log_sigma : sum.log_sigma_) {
-            const double own = std::exp(static_cast<double>(log_sigma));
-            log_sigma = static_cast<float>(std::log(std::sqrt(own * own + sigma * sigma)));
-        }
+        sum.added_ += sigma * sigma;
         return sum;
     }
 
@@ -118,8 +114,8 @@ class noise_curve {
     static constexpr double nearest = 0.05, farthest = 500.0;  // [m]
 
     [[nodiscard]] double variance(double x) const {
-        if (is_table_) return from_table(x);
-        return std::max(value(variance_, x), value(quantization_, x));
+        if (is_table_) return from_table(x) + added_;
+        return std::max(value(variance_, x), value(quantization_, x)) + added_;
     }
 
     [[nodiscard]] static double value(const quartic& c, double x) {
@@ -186,6 +182,7 @@ class noise_curve {
     bool is_of_depth_ = false;
     quartic variance_{};            // [m^2], of x [m]
     quartic quantization_{};        // [m^2], of x [m]
+    double added_ = 0.0;            // [m^2]
     std::array<double, 3> axis_{};  // of length 1; a literal type, so that curves are constants
     std::array<float, knots> log_sigma_{};
 };

@@ -49,12 +49,14 @@ struct visibility_options {
 namespace detail {
 
 /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian
-///                                to 90 degrees
+///                                to 90 degrees, or a pole that is not finite or of no length
 inline void require_valid(const visibility_options& options) {
     constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
+    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+            "visibility: the pole must be finite and have a length");
 }
 
 }  // namespace detail

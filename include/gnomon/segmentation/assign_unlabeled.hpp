@@ -16,6 +16,7 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -36,7 +37,8 @@ namespace gnomon {
 /// @param parts   segments of these points
 /// @param noise   of the sensor
 /// @return the segments, largest first; the same bytes for every execution
-/// @throws std::invalid_argument  if points, graph, segments or view points differ in number
+/// @throws std::invalid_argument  if points, graph, segments or view points differ in number, or
+///                                the graph lists an index out of range
 /// Complexity: O(n k) for k neighbors in the graph, and an index if `points` is none.
 template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -47,6 +49,10 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
     const auto& index = detail::index_of(points, team, projection);
     detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
                     "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
+    for (std::size_t i = 0; i < index.size(); ++i)
+        for (const point_index j : graph[i])
+            detail::require(j < index.size(),
+                            "assign_unlabeled: the graph has an index out of range");
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     for (int round = 0; round < detail::most_rounds; ++round) {

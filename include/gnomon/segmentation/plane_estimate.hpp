@@ -133,9 +133,13 @@ template <class Cloud>
     e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
     if (!fit.is_determined) return e;
     const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    const Eigen::Vector3d towards = scaled(-1.0, cloud.noise[members.front()].ray);
-    const Eigen::Vector3d n =
-        scaled(dot(fit.plane.normal, towards) < 0.0 ? -1.0 : 1.0, fit.plane.normal);
+    // That of a point that is not finite is not known.
+    const auto seen = std::find_if(members.begin(), members.end(), [&](point_index i) {
+        return cloud.is_finite(i) && cloud.noise[i].has_ray();
+    });
+    const bool is_away =
+        seen != members.end() && dot(fit.plane.normal, cloud.noise[*seen].ray) > 0.0;
+    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
     const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
     for (int i = 0; i < 3; ++i) {
         e.axes(i, 0) = first[i];

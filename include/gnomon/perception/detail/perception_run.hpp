@@ -116,15 +116,13 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    /// Calls work(visibility) if segments are merged, and may be.
+    /// Calls work(visibility) if segments may be merged.
     void merging(auto&& work) {
-        if constexpr (merges) {
-            step("merging", [&] {
-                if (result_.noise.is_across_surface) return;
-                const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
-                work(visibility(points_, options, run_, projection_));
-            });
-        }
+        step("merging", [&] {
+            if (result_.noise.is_across_surface) return;
+            const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
+            work(visibility(points_, options, run_, projection_));
+        });
     }
 
     /// `planes_first`
@@ -150,19 +148,21 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        merging([&](const visibility& visible) {
-            segments parts;
-            parts.assign(found->labels());
-            union_find sets = merged_sets(
-                found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise), run_,
-                [&](const examined_gap& gap) {
-                    note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
-                });
-            for (std::int32_t& label : labels)
-                if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
-                    label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-            set_segments(result_.surfaces, labels);
-        });
+        if constexpr (merges)
+            merging([&](const visibility& visible) {
+                segments parts;
+                parts.assign(found->labels());
+                union_find sets = merged_sets(
+                    found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
+                    run_, [&](const examined_gap& gap) {
+                        note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
+                    });
+                for (std::int32_t& label : labels)
+                    if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
+                        label =
+                            static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+                set_segments(result_.surfaces, labels);
+            });
     }
 
     /// `smooth_surfaces`
@@ -191,16 +191,17 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        merging([&](const visibility& visible) {
-            segments merged;
-            merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
-                                at_noise(chain_.merging, result_.noise.of_planes), run_,
-                                [&](const examined_gap& gap) {
-                                    note(gap, [&](point_index i) { return result_.kept[i]; });
-                                });
-            scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
-            set_segments(result_.surfaces, labels);
-        });
+        if constexpr (merges)
+            merging([&](const visibility& visible) {
+                segments merged;
+                merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
+                                    at_noise(chain_.merging, result_.noise.of_planes), run_,
+                                    [&](const examined_gap& gap) {
+                                        note(gap, [&](point_index i) { return result_.kept[i]; });
+                                    });
+                scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
+                set_segments(result_.surfaces, labels);
+            });
     }
 
     /// Makes segments of all points from labels of the kept ones.

@@ -50,9 +50,9 @@ class agglomeration {
                 is_root_[r] = root == region;
             }
             for (auto& [a, b] : pairs) {
-                const auto roots = std::minmax(sets_.find(a), sets_.find(b));
-                a = roots.first;
-                b = roots.second;
+                const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
+                a = std::min(root_of_a, root_of_b);
+                b = std::max(root_of_a, root_of_b);
             }
             std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
             make_unique(pairs);

@@ -24,8 +24,8 @@ namespace gnomon::detail {
 class planar_cloud {
   public:
     template <execution X>
-    planar_cloud(const spatial_index& index, const noise_curve& noise, const X& run)
-        : noise(noise_of_points(index, noise, run)),
+    planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
+        : noise(noise_of_points(index, curve, run)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
         std::size_t first = 0;

@@ -40,14 +40,14 @@ namespace gnomon::detail {
 [[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
     // rho_a of the thesis, Sec. 4.4.1
-    const double least_cosine = min_cosine(degrees(15));
+    const double nearly = min_cosine(degrees(15));
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
         return static_cast<double>(r.sums.count) * worse / r.fit.excess();
     };
     const auto is_parallel = [&](const auto& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= least_cosine;
+        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
     };
     if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
         return std::numeric_limits<double>::infinity();

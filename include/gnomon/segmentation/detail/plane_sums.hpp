@@ -76,8 +76,9 @@ struct plane_sums {
     /// The plane of the points, relative to the origin.
     [[nodiscard]] region_plane fit() const {
         region_plane f;
-        if (count < 3) return f;
+        if (count == 0) return f;
         f.centroid = positions.mean();
+        if (count < 3) return f;
         const eigen_decomposition e = symmetric_eigen(positions.covariance());
         if (!(e.values[1] > 1e-12 * e.values[0])) return f;
         const Eigen::Vector3d n = column(e.vectors, 2);

@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/segmentation/plane_estimate.hpp>
+
+namespace {
+
+using gnomon::plane_estimate, gnomon::segments;
+
+constexpr double sigma = 0.01;
+const gnomon::noise_curve noise = gnomon::constant_noise{sigma};
+
+/// n points of a rectangle, seen from an eye, with noise along the rays.
+struct patch {
+    Eigen::Vector3d center{3.0, 0.0, 0.0}, side{0.0, 1.0, 0.0}, other_side{0.0, 0.0, 0.6};
+    Eigen::Vector3d eye{0.0, 0.0, 0.0};
+    int n = 400;
+
+    [[nodiscard]] clouds::cloud points(std::uint64_t seed) const {
+        gnomon::random_stream places(1), errors(seed);
+        clouds::cloud all;
+        for (int i = 0; i < n; ++i) {
+            const double a = places.uniform() - 0.5, b = places.uniform() - 0.5;
+            const Eigen::Vector3d p = center + a * side + b * other_side;
+            all.push_back(p + sigma * errors.gaussian() * (p - eye).normalized());
+        }
+        return all;
+    }
+};
+
+segments one_segment(std::size_t n) { return segments(std::vector<std::int32_t>(n, 0)); }
+
+plane_estimate estimate(const auto& points) {
+    return gnomon::estimate_planes(points, one_segment(points.size()), noise).at(0);
+}
+plane_estimate estimate_from(const clouds::cloud& points, const Eigen::Vector3d& eye) {
+    return estimate(gnomon::with_viewpoint(points, eye));
+}
+
+/// The plane of least squares, weighted by the noise of each range.
+TEST(plane_estimate, agrees_with_a_dense_weighted_fit) {
+    const gnomon::noise_curve growing = gnomon::quadratic_noise{0.0, 0.0, 0.01};
+    for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+        const patch p{.center = {4.0, 1.0, 0.0}, .side = {3.0, 1.0, 0.0}};
+        const auto points = p.points(seed);
+        const auto found = gnomon::estimate_planes(gnomon::with_viewpoint(points, p.eye),
+                                                   one_segment(points.size()), growing)
+                               .at(0);
+        ASSERT_EQ(found.points, points.size()) << "all are on it";
+        Eigen::VectorXd w(points.size());
+        Eigen::MatrixXd x(points.size(), 3);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const auto row = static_cast<Eigen::Index>(i);
+            const double s = growing((points[i] - p.eye).norm());
+            w[row] = 1.0 / (s * s + gnomon::detail::flatness * gnomon::detail::flatness);
+            x.row(row) = points[i];
+        }
+        const Eigen::Vector3d mean = x.transpose() * w / w.sum();
+        const Eigen::MatrixXd about = x.rowwise() - mean.transpose();
+        const Eigen::Matrix3d scatter = about.transpose() * w.asDiagonal() * about / w.sum();
+        const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solved(scatter);
+        const Eigen::Vector3d n = solved.eigenvectors().col(0);
+        EXPECT_NEAR(std::abs(n.dot(found.plane.normal)), 1.0, 1e-12);
+        EXPECT_LE((found.centroid - mean).norm(), 1e-9);
+        EXPECT_NEAR(found.plane.offset, found.plane.normal.dot(mean), 1e-9);
+        EXPECT_NEAR(std::abs(found.axes.col(0).dot(solved.eigenvectors().col(2))), 1.0, 1e-9);
+        EXPECT_EQ(found.axes.col(2), found.plane.normal);
+        EXPECT_LE((found.axes.transpose() * found.axes - Eigen::Matrix3d::Identity()).norm(), 1e-9);
+        EXPECT_NEAR(found.axes.determinant(), 1.0, 1e-9);
+        EXPECT_GT(found.plane.normal.dot(p.eye - mean), 0.0) << "towards the view point";
+    }
+}
+
+/// The covariance is that of the fits of many scans of one plane.
+TEST(plane_estimate, covariance_agrees_with_simulated_noise) {
+    for (const patch& p : {patch{}, patch{.center = {3.0, 1.0, 0.5}, .side = {0.5, 1.0, 0.0}},
+                           patch{.center = {2.0, 0.0, -1.5},
+                           .side = {1.5, 0.0, 0.0},
+                           .other_side = {0.0, 0.8, 0.0}}}) {
+        const Eigen::Vector3d n = p.side.cross(p.other_side).normalized();
+        Eigen::Vector3d squares(0.0, 0.0, 0.0), expected(0.0, 0.0, 0.0);
+        double chi2 = 0.0;
+        constexpr int scans = 600;
+        for (int scan = 1; scan <= scans; ++scan) {
+            const auto e = estimate_from(p.points(static_cast<std::uint64_t>(scan)), p.eye);
+            // The turns about axes 0 and 1 that bring the true normal to the estimated one.
+            const Eigen::Vector3d turn =
+                (n.dot(e.plane.normal) < 0.0 ? Eigen::Vector3d(-n) : n).cross(e.plane.normal);
+            const Eigen::Vector3d error(turn.dot(e.axes.col(0)), turn.dot(e.axes.col(1)),
+                                        n.dot(e.centroid - p.center));
+            chi2 += e.chi2 / scans;
+            EXPECT_TRUE(e.is_flat);
+            squares += error.cwiseAbs2() / scans;
+            expected += e.covariance.diagonal() / scans;
+            ASSERT_EQ(e.covariance, Eigen::Matrix3d(e.covariance.diagonal().asDiagonal()));
+        }
+        for (int i = 0; i < 3; ++i)
+            EXPECT_NEAR(std::sqrt(squares[i] / expected[i]), 1.0, 0.15) << "of " << i;
+        EXPECT_NEAR(chi2, 1.0, 0.1);
+    }
+}
+
+TEST(plane_estimate, planes_are_flat) {
+    gnomon::random_stream random(3);
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+        patch p{.eye = 2.0 * clouds::gaussian_vector(random)};
+        p.eye.x() = std::min(p.eye.x(), 2.5);
+        const plane_estimate e = estimate_from(p.points(seed), p.eye);
+        EXPECT_TRUE(e.is_flat) << seed;
+        EXPECT_GE(e.points, 390u);
+        EXPECT_GT(std::abs(e.plane.normal.x()), std::cos(0.01));
+    }
+}
+
+/// Points off the plane do not turn it: a tenth of them on something that stands on it.
+TEST(plane_estimate, is_of_the_points_on_the_plane) {
+    const patch p{.n = 1000};
+    auto points = p.points(4);
+    for (std::size_t i = 0; i < 20; ++i)
+        points.push_back({2.7 - 0.01 * static_cast<double>(i), 0.4, 0.2});
+    const plane_estimate e = estimate_from(points, p.eye);
+    EXPECT_TRUE(e.is_flat);
+    EXPECT_LE(e.points, 1000u);
+    EXPECT_GT(std::abs(e.plane.normal.x()), std::cos(0.005));
+    for (std::size_t i = 0; i < 20; ++i)
+        points.push_back({2.7 - 0.01 * static_cast<double>(i), 0.4, 0.1});
+    EXPECT_FALSE(estimate_from(points, p.eye).is_flat) << "40 points are certainly not of it";
+}
+
+TEST(plane_estimate, what_is_no_plane_is_not_flat) {
+    gnomon::random_stream random(5);
+    clouds::cloud cylinder, corner, step, ball;
+    for (int i = 0; i < 900; ++i) {
+        const double t = 3.0 * (random.uniform() - 0.5), h = random.uniform();
+        const double u = random.uniform(), v = random.uniform();
+        cylinder.emplace_back(3.0 - 0.3 * std::cos(t), 0.3 * std::sin(t), h);
+        corner.push_back(i % 2 == 0 ? Eigen::Vector3d(3.0, u, v)
+                                    : Eigen::Vector3d(3.0 - u, 0.0, v));
+        step.emplace_back(i % 2 == 0 ? 3.0 : 3.15, u, v);
+        ball.push_back(Eigen::Vector3d(3.0, 0.0, 0.0) + 0.5 * clouds::gaussian_vector(random));
+    }
+    for (const auto& points : {cylinder, corner, step, ball}) {
+        EXPECT_FALSE(estimate_from(points, {0.0, 0.5, 0.5}).is_flat);
+        EXPECT_FALSE(estimate(points).is_flat);
+    }
+}
+
+/// The points of a scan line are of a plane through the view point, which was not seen.
+TEST(plane_estimate, scan_lines_are_not_flat) {
+    clouds::cloud line;
+    for (int i = 0; i < 300; ++i) {
+        const double t = 0.005 * i;
+        line.emplace_back((2.0 + 0.5 * std::sin(5.0 * t)) *
+                          Eigen::Vector3d(std::cos(t), std::sin(t), 0.0));
+    }
+    EXPECT_FALSE(estimate_from(line, {0.0, 0.0, 0.0}).is_flat);
+    EXPECT_TRUE(estimate_from(line, {0.0, 0.0, 3.0}).is_flat);
+}
+
+/// Where no view point is known, noise is the same in all directions.
+TEST(plane_estimate, without_view_points_noise_is_isotropic) {
+    const patch oblique{
+        .center = {2.0, 0.0, -1.0}, .side = {1.0, 0.0, 0.0}, .other_side = {0.0, 1.0, 0.0}};
+    clouds::cloud points = oblique.points(2);
+    const double variance = sigma * sigma + gnomon::detail::flatness * gnomon::detail::flatness;
+    const Eigen::Vector3d nowhere(clouds::nan, clouds::nan, clouds::nan);
+    const plane_estimate unknown = estimate_from(points, nowhere), none = estimate(points),
+                         seen = estimate_from(points, oblique.eye);
+    EXPECT_NEAR(none.covariance(2, 2), variance / static_cast<double>(none.points),
+                1e-3 * none.covariance(2, 2));
+    EXPECT_EQ(unknown.covariance, none.covariance);
+    EXPECT_EQ(unknown.plane.normal, none.plane.normal);
+    EXPECT_LT(seen.covariance(2, 2), 0.5 * none.covariance(2, 2)) << "at oblique incidence";
+    EXPECT_LT(none.chi2, 0.5 * seen.chi2);
+}
+
+TEST(plane_estimate, of_too_few_points_has_no_normal) {
+    const clouds::cloud points{{1.0, 2.0, 3.0}, {1.0, 2.5, 3.0}};
+    const plane_estimate two = estimate(points);
+    EXPECT_EQ(two.points, 2u);
+    EXPECT_FALSE(two.is_flat);
+    EXPECT_TRUE(two.plane.normal.isZero());
+    EXPECT_LE((two.centroid - Eigen::Vector3d(1.0, 2.25, 3.0)).norm(), 1e-12);
+    for (const auto& [name, cloud] : clouds::degenerate()) {
+        SCOPED_TRACE(name);
+        if (cloud.empty()) continue;
+        const plane_estimate e = estimate(cloud);
+        EXPECT_LE(e.points, cloud.size());
+        EXPECT_NEAR(e.plane.normal.norm(), e.plane.normal.isZero() ? 0.0 : 1.0, 1e-9);
+        if (e.is_flat) {
+            EXPECT_FALSE(e.plane.normal.isZero());
+            EXPECT_TRUE(e.covariance.allFinite());
+        }
+    }
+}
+
+TEST(plane_estimate, passes_over_points_that_are_not_finite) {
+    const patch p;
+    const auto points = p.points(6);
+    clouds::cloud more;
+    for (const auto& q : points) {
+        more.push_back(q);
+        more.push_back({clouds::nan, q.y(), clouds::infinity});
+    }
+    more.insert(more.begin(), {clouds::nan, clouds::nan, clouds::nan});
+    const plane_estimate expected = estimate_from(points, p.eye),
+                         found = estimate_from(more, p.eye);
+    EXPECT_EQ(found.points, expected.points);
+    EXPECT_EQ(found.is_flat, expected.is_flat);
+    EXPECT_EQ(found.plane.normal, expected.plane.normal);
+    EXPECT_EQ(found.covariance, expected.covariance);
+}
+
+/// Law: a motion of points and view points moves planes and changes nothing else, even far from the
+/// origin of the coordinates.
+TEST(plane_estimate, moves_with_the_points) {
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        const patch p;
+        const auto points = p.points(seed);
+        const plane_estimate here = estimate_from(points, p.eye);
+        const Eigen::Matrix3d r = clouds::random_rotation(seed);
+        for (const Eigen::Vector3d& by : {Eigen::Vector3d(1, 2, 3), {6e5, 4.8e6, 100.0}}) {
+            const plane_estimate there =
+                estimate_from(clouds::moved(points, r, by), r * p.eye + by);
+            EXPECT_EQ(there.points, here.points);
+            EXPECT_EQ(there.is_flat, here.is_flat);
+            EXPECT_LE((there.plane.normal - r * here.plane.normal).norm(), 1e-7);
+            EXPECT_LE((there.centroid - r * here.centroid - by).norm(), 1e-7);
+            EXPECT_NEAR(there.chi2, here.chi2, 1e-5);
+            EXPECT_LE((there.covariance - here.covariance).norm(), 1e-5 * here.covariance.norm());
+        }
+    }
+}
+
+/// An estimate for each segment, also for one of no points; the same for every execution.
+TEST(plane_estimate, is_one_for_each_segment) {
+    clouds::cloud points;
+    std::vector<std::int32_t> labels;
+    for (std::int32_t s = 0; s < 50; ++s) {
+        const patch p{.center = {2.0 + 0.1 * s, 0.0, 0.0}, .n = 60};
+        for (const auto& q : p.points(static_cast<std::uint64_t>(s))) {
+            points.push_back(q);
+            labels.push_back(s % 7 == 3 ? gnomon::unlabeled : s);
+        }
+    }
+    const auto all = gnomon::estimate_planes(points, segments(labels), noise);
+    ASSERT_EQ(all.size(), 50u);
+    for (std::size_t s = 0; s < 50; ++s) EXPECT_EQ(all[s].is_flat, s % 7 != 3);
+    for (const unsigned t : {1u, 3u}) {
+        const auto again =
+            gnomon::estimate_planes(points, segments(labels), noise, gnomon::threads{t});
+        for (std::size_t s = 0; s < 50; ++s) {
+            EXPECT_EQ(again[s].plane.normal, all[s].plane.normal);
+            EXPECT_EQ(again[s].covariance, all[s].covariance);
+        }
+    }
+}
+
+TEST(plane_estimate, refuses_other_numbers_of_points) {
+    const auto points = clouds::in_cube(10, 1);
+    EXPECT_THROW((void)gnomon::estimate_planes(points, segments(), noise), std::invalid_argument);
+    EXPECT_THROW((void)gnomon::estimate_planes(points, one_segment(11), noise),
+                 std::invalid_argument);
+}
+
+}  // namespace
