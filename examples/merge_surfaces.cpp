@@ -29,4 +29,13 @@ int main() {
     for (const auto& step : seen.steps)
         std::printf("%-20s %.3f s\n", step.name.data(), step.seconds);
     std::printf("%-20s %.3f s\n", "all steps", seen.seconds());
+
+    // [thesis_chain]
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
+                             gnomon::smooth_surfaces>
+        of_the_thesis{.noise = gnomon::constant_noise{0.015}};
+    const auto seen_so = of_the_thesis(scan, gnomon::threads{});
+    // [thesis_chain]
+    std::printf("the chain of the thesis: %zu segments before merging, %zu surfaces\n",
+                seen_so.initial_segments.size(), seen_so.surfaces.size());
 }
