@@ -14,12 +14,10 @@ int main() {
         gnomon::simulation::simulate(kitchen, trajectory, {}, {.sigma = 0.015}).scan;
 
     // [merge_surfaces]
-    const gnomon::perception chain{gnomon::knn{.k = 50},
-                                   gnomon::plane_pca{},
-                                   gnomon::conservative{},
-                                   {.max_angle = gnomon::degrees(5)}};
+    const gnomon::perception<> chain;  // the noise is measured, all lengths are multiples of it
     const auto seen = chain(scan, gnomon::threads{});
 
+    std::printf("noise of %.1f mm at 2 m\n", 1000.0 * seen.noise.curve(2.0));
     std::printf("%zu segments before merging, %zu surfaces\n", seen.initial_segments.size(),
                 seen.surfaces.size());
     for (const gnomon::considered_gap& gap : seen.gaps) {
@@ -28,6 +26,16 @@ int main() {
                     gap.merged ? "closed" : "left open");
     }
     // [merge_surfaces]
-    std::printf("normals %.3f s, segmentation %.3f s, merging %.3f s\n", seen.seconds.normals,
-                seen.seconds.segmentation, seen.seconds.merging);
+    for (const auto& step : seen.steps)
+        std::printf("%-20s %.3f s\n", step.name.data(), step.seconds);
+    std::printf("%-20s %.3f s\n", "all steps", seen.seconds());
+
+    // [thesis_chain]
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
+                             gnomon::smooth_surfaces>
+        of_the_thesis{.noise = gnomon::constant_noise{0.015}};
+    const auto seen_so = of_the_thesis(scan, gnomon::threads{});
+    // [thesis_chain]
+    std::printf("the chain of the thesis: %zu segments before merging, %zu surfaces\n",
+                seen_so.initial_segments.size(), seen_so.surfaces.size());
 }

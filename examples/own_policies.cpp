@@ -151,8 +151,8 @@ int main() {
     gnomon::orient_normals(points, mine);
     const auto groups = gnomon::segment_oriented_points(points, mine, same_side{});
     const auto parts = gnomon::segment_surfaces(points, mine);
-    const auto merged = gnomon::merge_occluded(points, mine, parts, gnomon::visibility(points),
-                                               &hidden_or_continued);
+    const auto merged =
+        gnomon::merge_occluded(points, parts, gnomon::visibility(points), &hidden_or_continued);
     std::printf("%zu groups, %zu surfaces, %zu after merging\n", groups.size(), parts.size(),
                 merged.segments.size());
 }

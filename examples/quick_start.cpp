@@ -5,6 +5,7 @@
 #include <exception>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/perception.hpp>
 
 int main(int argc, char** argv) try {
     gnomon::scan scan;  // or any range of points of your own [m]
@@ -19,15 +20,14 @@ int main(int argc, char** argv) try {
         }
     }
 
-    auto surface = gnomon::estimate_normals(scan);  // by the plane of the 30 nearest neighbors
-    gnomon::orient_normals(scan, surface);          // towards the sensor
-
-    const gnomon::segments parts = gnomon::segment_surfaces(
-        scan, surface, {.max_angle = gnomon::degrees(5), .min_points = 200});  // smooth surfaces
-    for (std::size_t label = 0; label < parts.size(); ++label) {
-        const Eigen::Vector3d& n = surface[parts[label].front()].normal;
-        std::printf("surface %zu: %zu points, the first normal is (%.2f, %.2f, %.2f)\n", label,
-                    parts[label].size(), n.x(), n.y(), n.z());
+    // Measures the noise of the sensor, and finds planes and smooth surfaces by multiples of it.
+    const auto seen = gnomon::perception<>{}(scan);
+    for (std::size_t label = 0; label < seen.surfaces.size(); ++label) {
+        const gnomon::plane_estimate& e = seen.planes[label];
+        const Eigen::Vector3d& n = e.plane.normal;  // unit length
+        std::printf("surface %zu: %zu points, %s, normal (%.2f, %.2f, %.2f)\n", label,
+                    seen.surfaces[label].size(), e.is_flat ? "flat" : "curved", n.x(), n.y(),
+                    n.z());
     }
 } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());

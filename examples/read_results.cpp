@@ -42,23 +42,24 @@ int main() {
                 gnomon::radians(deviation).degrees());
 
     // [read_plane]
-    const gnomon::planar_segments flat = gnomon::segment_planes(scan, graph, surface);
-    for (const gnomon::plane& p : flat.planes) {
+    const gnomon::noise_curve noise = gnomon::constant_noise{0.003};  // or measure_noise(scan)
+    const gnomon::segments flat = gnomon::segment_planes(scan, graph, surface, {.noise = noise});
+    for (const gnomon::plane_estimate& e : gnomon::estimate_planes(scan, flat, noise)) {
         // normal . x = offset; in the form a x + b y + c z + d = 0 of PCL, d is -offset.
+        const gnomon::plane& p = e.plane;
         const std::array coefficients{p.normal.x(), p.normal.y(), p.normal.z(), -p.offset};
-        std::printf("%.3f x + %.3f y + %.3f z + %.3f = 0\n", coefficients[0], coefficients[1],
-                    coefficients[2], coefficients[3]);
+        const gnomon::angle tilt = gnomon::radians(std::sqrt(e.covariance(0, 0)));  // about axis 0
+        std::printf("%.3f x + %.3f y + %.3f z + %.3f = 0, tilt within %.3f degrees\n",
+                    coefficients[0], coefficients[1], coefficients[2], coefficients[3],
+                    3.0 * tilt.degrees());  // three standard deviations
     }
     // [read_plane]
 
     // [plane_of_segment]
     const gnomon::segments parts = gnomon::segment_surfaces(scan, surface);
     std::vector<gnomon::plane> planes;  // one for each segment, where it is flat
-    for (std::size_t label = 0; label < parts.size(); ++label) {
-        const auto frame = gnomon::principal_frame_of(gnomon::subset_view(scan, parts[label]));
-        if (frame.spectrum.surface_variation() > 0.15) continue;  // curved, Eq. (3.28)
-        planes.push_back({frame.normal(), frame.normal().dot(frame.centroid)});
-    }
+    for (const gnomon::plane_estimate& e : gnomon::estimate_planes(scan, parts, noise))
+        if (e.is_flat) planes.push_back(e.plane);
     // [plane_of_segment]
     std::printf("%zu of %zu smooth surfaces are flat\n", planes.size(), parts.size());
 }

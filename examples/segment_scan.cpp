@@ -43,7 +43,10 @@ gnomon::scan scan_of(const options& o) {
     gnomon::scan scan = o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan);
     if (std::ranges::none_of(scan, gnomon::is_finite))
         throw gnomon::error(o.scan, "", "has no finite point");
-    if (o.viewpoint) scan.viewpoints = *o.viewpoint;
+    if (o.viewpoint)
+        scan.viewpoints = *o.viewpoint;
+    else if (scan.viewpoints.empty())
+        scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
     return scan;
 }
 
@@ -73,22 +76,46 @@ void warn_of_unit(const gnomon::scan& scan, const options& o) {
     }
 }
 
+/// The mean direction of the rays, which for a camera is about its optical axis.
+/// @throws gnomon::error  if there is none, as for a scan all around
+Eigen::Vector3d optical_axis_of(const gnomon::scan& scan) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double rays = 0.0;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3d ray = scan.points[i] - scan.viewpoints[i];
+        if (!ray.allFinite() || ray.isZero()) continue;
+        sum += ray.stableNormalized();
+        rays += 1.0;
+    }
+    constexpr double shortest_mean = 0.5;  // of the rays of a field of view of 180 degrees
+    if (!(sum.norm() >= shortest_mean * rays && rays > 0.0))
+        throw gnomon::error("the scan", "", "has no optical axis, so that it is not of a camera");
+    return sum;
+}
+
+/// The noise that the user named; nothing if it is to be measured.
+std::optional<gnomon::noise_curve> noise_of(const gnomon::scan& scan, const options& o) {
+    if (const auto* constant = std::get_if<gnomon::constant_noise>(&o.noise.model))
+        return *constant;
+    if (const auto* camera = std::get_if<gnomon::quadratic_noise>(&o.noise.model))
+        return gnomon::noise_curve(*camera, optical_axis_of(scan));
+    return std::nullopt;
+}
+
 /// The surfaces of a scan; floor and ceiling, if they are left out, have no normals and no labels.
-result surfaces_of(const gnomon::scan& scan, const options& o) {
+result surfaces_of(const gnomon::scan& scan, const std::optional<gnomon::noise_curve>& noise,
+                   const options& o) {
     std::optional<gnomon::floor_and_ceiling> leave_out;
     if (o.remove_floor) leave_out = {.up = o.up.value_or(Eigen::Vector3d::UnitZ())};
     return std::visit(
         [&]<class Merge>(const Merge& merge) {
-            const gnomon::perception<gnomon::knn, gnomon::plane_pca, Merge> chain{
+            const gnomon::perception<gnomon::noise_knn, gnomon::plane_pca, Merge> chain{
                 .neighborhood = o.neighborhood,
                 .merge = merge,
                 .segmentation = o.segmentation,
-                .leave_out = leave_out,
-                .splitting =
-                    gnomon::split_outliers_options{.min_points = o.segmentation.min_points},
-                .revolution = gnomon::join_surfaces_of_revolution_options{
-                    .min_points = o.segmentation.min_points}};
-            return chain.with_sigma(o.sigma)(scan, o.threads);
+                .noise = noise,
+                .leave_out = leave_out};
+            return chain(scan, o.threads);
         },
         o.merge);
 }
@@ -104,21 +131,56 @@ void report_floor(const result& r) {
 
 json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
+json array_of(const Eigen::Matrix3d& m) {
+    return json::array({array_of(Eigen::Vector3d(m.row(0))), array_of(Eigen::Vector3d(m.row(1))),
+                        array_of(Eigen::Vector3d(m.row(2)))});
+}
+
+/// The noise that all steps went by.
+json description_of(const result::known_noise& noise, const options& o) {
+    json description{{"model", noise.is_across_surface ? "across_surface" : o.noise.name},
+                     {"at_1m", noise.curve(1.0)},
+                     {"at_3m", noise.curve(3.0)}};
+    if (noise.is_across_surface) description["reason"] = noise.reason;
+    return description;
+}
+
+/// The plane of a flat segment, else null.
+json description_of(const gnomon::plane_estimate& e) {
+    if (!e.is_flat) return nullptr;
+    return {{"normal", array_of(e.plane.normal)},
+            {"offset", e.plane.offset},
+            {"centroid", array_of(e.centroid)},
+            {"axes", array_of(Eigen::Matrix3d(e.axes.transpose()))},
+            {"covariance", array_of(e.covariance)}};
+}
+
+/// The normal of a segment: of its plane, if it is flat, else of its principal frame.
+Eigen::Vector3d normal_of(const gnomon::plane_estimate& e, const gnomon::principal_frame& frame,
+                          const Eigen::Vector3d& viewpoint) {
+    if (e.is_flat) return e.plane.normal;
+    const bool away = frame.normal().dot(frame.centroid - viewpoint) > 0.0;
+    return away ? -frame.normal() : frame.normal();
+}
+
 /// One object per segment, largest first.
-json description_of(const gnomon::scan& scan, const gnomon::segments& segments) {
+json description_of(const gnomon::scan& scan, const result& r) {
     json list = json::array();
-    for (std::size_t label = 0; label < segments.size(); ++label) {
-        const auto members = segments[label];
+    for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
+        const auto members = r.surfaces[label];
+        const gnomon::plane_estimate& plane = r.planes[label];
         const auto frame = gnomon::principal_frame_of(gnomon::subset_view(scan, members));
-        const Eigen::Vector3d seen_along = frame.centroid - scan.viewpoints[members.front()];
-        const bool away = frame.normal().dot(seen_along) > 0.0;
+        const Eigen::Vector3d viewpoint = scan.viewpoints[members.front()];
         list.push_back({{"label", label},
                         {"points", members.size()},
                         {"centroid", array_of(frame.centroid)},
-                        {"normal", array_of(away ? -frame.normal() : frame.normal())},
+                        {"normal", array_of(normal_of(plane, frame, viewpoint))},
+                        {"flat", plane.is_flat},
                         {"surface_variation", frame.spectrum.surface_variation()},
                         {"aspect_ratio", frame.spectrum.aspect_ratio()},
-                        {"box_size", array_of(frame.box_size)}});
+                        {"box_size", array_of(frame.box_size)},
+                        {"plane", description_of(plane)},
+                        {"viewpoint", array_of(viewpoint)}});
     }
     return list;
 }
@@ -127,9 +189,9 @@ std::string picture_of(const gnomon::scan& scan, const result& r, const options&
     const Eigen::Vector3d viewpoint = scan.viewpoints.positions().empty()
                                           ? Eigen::Vector3d::Zero()
                                           : scan.viewpoints.positions().front();
-    return picture::picture_of(picture::splats_of(scan, r), picture::sizes_of(r.surfaces),
-                               "segment", viewpoint, o.up, picture::color_of,
-                               picture::gaps_of(scan, r))
+    return picture::picture_of(picture::splats_of(scan, r, o.threads),
+                               picture::sizes_of(r.surfaces), "segment", viewpoint, o.up,
+                               picture::color_of, picture::gaps_of(scan, r))
         .png();
 }
 
@@ -147,24 +209,31 @@ void write_points(const output_directory& out, const gnomon::scan& scan, const r
 
 void print_table(const json& report, unsigned threads) {
     const json& segments = report["segments"];
-    std::printf("%s (%s finite), %s\n\n", picture::counted(report["points"], "point").c_str(),
+    std::printf("%s (%s finite), %s\n", picture::counted(report["points"], "point").c_str(),
                 picture::with_commas(report["valid"]).c_str(),
                 picture::counted(segments.size(), "segment").c_str());
-    if (!segments.empty()) std::puts("label    points   size [m]              normal");
+    const json& noise = report["noise"];
+    std::printf("noise: %s, %.2g m at 1 m, %.2g m at 3 m\n",
+                noise["model"].get<std::string>().c_str(), noise["at_1m"].get<double>(),
+                noise["at_3m"].get<double>());
+    if (noise.contains("reason"))
+        std::printf("across the surfaces, because of the scan: %s; nothing was merged\n",
+                    noise["reason"].get<std::string>().c_str());
+    if (!segments.empty()) std::puts("\nlabel    points   size [m]              normal");
     for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), 10); ++i) {
         const json& s = segments[i];
         const auto size = s["box_size"].get<std::vector<double>>();
         const auto normal = s["normal"].get<std::vector<double>>();
-        std::printf("%5zu %9zu   %5.2f x %5.2f x %5.2f   %5.2f %5.2f %5.2f\n", i,
+        std::printf("%5zu %9zu   %5.2f x %5.2f x %5.2f   %5.2f %5.2f %5.2f%s\n", i,
                     s["points"].get<std::size_t>(), size[0], size[1], size[2], normal[0], normal[1],
-                    normal[2]);
+                    normal[2], s["flat"] ? "" : "   not flat");
     }
     if (segments.size() > 10) std::puts("  ...");
     std::puts("");
     for (const auto& [step, seconds] : report["seconds"].items()) {
-        std::printf("%-13s %8.3f s\n", step.c_str(), seconds.get<double>());
+        std::printf("%-18s %8.3f s\n", step.c_str(), seconds.get<double>());
     }
-    std::printf("%-13s %8u\n", "threads used", threads);
+    std::printf("%-18s %8u\n", "threads used", threads);
 }
 
 /// A step of the program while it lives: shows its progress, and writes its duration [s] under its
@@ -183,16 +252,6 @@ class timed_step {
     stopwatch watch_;
 };
 
-/// Adds the steps of `perception`.
-void add_steps(json& seconds, const auto& steps) {
-    seconds.update({{"preprocessing", steps.preprocessing},
-                    {"index", steps.index},
-                    {"normals", steps.normals},
-                    {"segmentation", steps.segmentation},
-                    {"merging", steps.merging},
-                    {"assignment", steps.assignment}});
-}
-
 double sum_of(const json& seconds) {
     double sum = 0.0;
     for (const auto& [step, duration] : seconds.items()) sum += duration.get<double>();
@@ -205,18 +264,19 @@ void segment_scan(const options& o) {
         const timed_step step(seconds, name);
         return work();
     };
-    const gnomon::scan scan = timed("read", [&] { return scan_of(o); });
+    const gnomon::scan scan = timed("reading", [&] { return scan_of(o); });
+    const std::optional<gnomon::noise_curve> noise = noise_of(scan, o);
     const output_directory out(o.out,
                                {"normals.ply", "segments.ply", "segments.png", "segments.json"});
     timed("spacing", [&] { warn_of_unit(scan, o); });
 
     const result r = [&] {
         const progress step("perception");
-        return surfaces_of(scan, o);
+        return surfaces_of(scan, noise, o);
     }();
-    add_steps(seconds, r.seconds);
+    for (const auto& step : r.steps) seconds[std::string(step.name)] = step.seconds;
     if (o.remove_floor) report_floor(r);
-    const json segments = timed("description", [&] { return description_of(scan, r.surfaces); });
+    const json segments = timed("description", [&] { return description_of(scan, r); });
     const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
     timed("writing", [&] {
         write_points(out, scan, r);
@@ -225,6 +285,7 @@ void segment_scan(const options& o) {
     seconds["total"] = sum_of(seconds);
     const json report{{"points", scan.size()},
                       {"valid", std::ranges::count_if(scan, gnomon::is_finite)},
+                      {"noise", description_of(r.noise, o)},
                       {"seconds", seconds},
                       {"segments_before_merging", r.initial_segments.size()},
                       {"segments", segments}};

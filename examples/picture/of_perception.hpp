@@ -13,25 +13,36 @@
 #include <Eigen/Core>
 
 #include "picture.hpp"
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/scan.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/perception.hpp>
 
 namespace picture {
 
 /// The points as they are drawn: those that are finite and were not left out.
-template <class Estimate>
+/// @param seen  of points, not of an index of them
+template <class Estimate, gnomon::execution X = gnomon::sequential>
 [[nodiscard]] std::vector<splat> splats_of(const gnomon::scan& scan,
-                                           const gnomon::perception_result<Estimate>& seen) {
+                                           const gnomon::perception_result<Estimate>& seen,
+                                           const X& run = {}) {
+    // The surface elements of the result may be those of cells, whose distances are larger.
+    const auto of_kept =
+        gnomon::estimate_normals(seen.index, gnomon::knn{}, gnomon::plane_pca{}, run);
     std::vector<splat> splats;
-    for (const gnomon::point_index i : seen.kept) {
-        if (!gnomon::is_finite(scan.points[i])) continue;
-        const auto& s = seen.surface[i];
+    for (std::size_t i = 0; i < seen.kept.size(); ++i) {
+        const gnomon::point_index p = seen.kept[i];
+        if (!gnomon::is_finite(scan.points[p])) continue;
         // k points that fill a disc at the distance rho_bar on average are 1.5 rho_bar sqrt(pi / k)
         // apart; a little more than that closes the surface, for points that lie in rows too.
+        const auto& s = of_kept[i];
         const double neighbors = std::max<double>(1.0, s.neighbors);
         const double spacing = 1.5 * s.mean_distance * std::sqrt(std::numbers::pi / neighbors);
-        splats.push_back({scan.points[i], s.normal, 1.35 * spacing, seen.surfaces.labels()[i]});
+        splats.push_back(
+            {scan.points[p], seen.surface[p].normal, 1.35 * spacing, seen.surfaces.labels()[p]});
     }
     return splats;
 }

@@ -3,6 +3,7 @@
 /// What can one ask segment_scan for?
 #pragma once
 
+#include <cctype>
 #include <cstddef>
 #include <limits>
 #include <optional>
@@ -19,36 +20,77 @@
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]
 
-Segments SCAN (PLY, PCD, VTK or text; coordinates in metres) into smooth surfaces,
-and merges surfaces that something occludes in part; without SCAN, a simulated
-kitchen. Writes normals.ply, segments.ply, segments.png and segments.json into DIR.
+Segments SCAN (PLY, PCD, VTK or text; coordinates in metres) into planes and smooth
+surfaces, and merges planes that something occludes in part; without SCAN, a
+simulated kitchen. Writes normals.ply, segments.ply, segments.png and segments.json
+into DIR.
 
-  --k N               neighbors per point (50)
-  --max-angle DEG     largest angle between normals of neighbors (5)
-  --max-distance M    largest distance between adjacent points (0.30)
+  --noise NOISE       standard deviation of ranges: measured on SCAN (default), or a
+                      number of metres, or the model of a depth camera:
+                      structured_light, time_of_flight or stereo
+  --sigma M           the same as --noise M
+  --k N               neighbors per normal, at most (30)
+  --max-angle DEG     largest angle between a normal and its plane's, where planes
+                      grow (15)
+  --max-distance M    largest distance between adjacent points of smooth surfaces,
+                      in what is not planar (0.30)
   --min-points N      smaller segments are discarded (30)
   --merge POLICY      conservative: where the gap is occluded (default);
                       liberal: unless the gap is free space; or none
-  --sigma M           standard deviation of ranges, for merging and unlabeled points (0.015)
   --viewpoint X,Y,Z   position of the sensor (from SCAN, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
   --threads N         0 for all there are (0)
   --help              this text
+
+segments.json: points, valid (finite ones), noise (model, and standard deviation at
+1 m and 3 m), seconds of each step, segments_before_merging, and segments, largest
+first. The plane of a segment (normal . x = offset) is null where it is not flat; its
+covariance is of turns about the first two of its axes [rad], and of a shift along the
+third, its normal [m], at its centroid.
+
+Exit status: 0; 1 if a file cannot be read or written, or SCAN cannot be processed; 2
+for a wrong command line.
 )";
+
+/// The noise of the sensor, as the user names it.
+struct named_noise {
+    std::string name = "measured";
+    std::variant<std::monostate, gnomon::constant_noise, gnomon::quadratic_noise> model;
+};
 
 struct options {
     std::string scan;  ///< path, or empty for the simulated kitchen
     std::string out;
-    gnomon::knn neighborhood{.ties = gnomon::tie_rule::all};
-    gnomon::segment_surfaces_options segmentation;
+    gnomon::noise_knn neighborhood;
+    gnomon::planes_first segmentation;
+    named_noise noise;
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<Eigen::Vector3d> up;  ///< unit length
     std::variant<gnomon::conservative, gnomon::liberal, gnomon::no_merging> merge;
-    double sigma = 0.015;  ///< [m]
     bool remove_floor = false;
     gnomon::threads threads;
 };
+
+/// A standard deviation in metres.
+inline named_noise constant_noise_of(const std::string& name, const std::string& value) {
+    const double sigma = number_within(name, value, 1e-9, 1e9, "from 1e-9 to 1e9");
+    return {"constant", gnomon::constant_noise{sigma}};
+}
+
+/// `measured`, the name of a model, or a standard deviation in metres.
+inline named_noise noise_of(const std::string& name, const std::string& value) {
+    if (value == "measured") return {};
+    if (value == "structured_light") return {value, gnomon::noises::structured_light()};
+    if (value == "time_of_flight") return {value, gnomon::noises::time_of_flight()};
+    if (value == "stereo") return {value, gnomon::noises::stereo()};
+    const bool is_word = value.empty() || std::isalpha(static_cast<unsigned char>(value.front()));
+    if (is_word)
+        throw usage_error(name + ": '" + value +
+                          "' is not measured, structured_light, time_of_flight, stereo or a number "
+                          "of metres");
+    return constant_noise_of(name, value);
+}
 
 inline constexpr option<options> known_options[] = {
     common::out<options>,
@@ -59,17 +101,18 @@ inline constexpr option<options> known_options[] = {
      }},
     {"--max-angle", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.segmentation.max_angle =
+         o.segmentation.planes.max_angle =
              gnomon::degrees(number_within(name, value, 0.0, 90.0, "from 0 to 90"));
      }},
     {"--max-distance", true,
      [](options& o, const std::string& name, const std::string& value) {
          constexpr double infinity = std::numeric_limits<double>::infinity();
-         o.segmentation.max_distance = number_within(name, value, 0.0, infinity, "0 or more");
+         o.segmentation.remainder->max_distance =
+             number_within(name, value, 0.0, infinity, "0 or more");
      }},
     {"--min-points", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.segmentation.min_points =
+         o.segmentation.planes.min_points = o.segmentation.remainder->min_points =
              number_within<std::size_t>(name, value, 1, 1'000'000'000, "from 1 to 1,000,000,000");
      }},
     {"--merge", true,
@@ -83,9 +126,13 @@ inline constexpr option<options> known_options[] = {
          else
              throw usage_error(name + ": '" + value + "' is not conservative, liberal or none");
      }},
+    {"--noise", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.noise = noise_of(name, value);
+     }},
     {"--sigma", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.sigma = number_within(name, value, 1e-9, 1e9, "from 1e-9 to 1e9");
+         o.noise = constant_noise_of(name, value);
      }},
     {"--viewpoint", true,
      [](options& o, const std::string& name, const std::string& value) {
