@@ -145,7 +145,7 @@ class perception_run {
         noise.reason = found.reason;
     }
 
-    /// Calls work(visibility) if segments are merged, and may be.
+    /// Calls work(visibility), which is compiled only then, if segments are merged, and may be.
     void merging(auto&& work) {
         if constexpr (merges) {
             step("merging", [&] {
@@ -179,7 +179,7 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        merging([&](const visibility& visible) {
+        merging([&](const auto& visible) {
             segments parts;
             parts.assign(found->labels());
             union_find sets = merged_sets(
@@ -220,7 +220,7 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        merging([&](const visibility& visible) {
+        merging([&](const auto& visible) {
             segments merged;
             merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
                                 at_noise(chain_.merging, result_.noise.of_planes), run_,
