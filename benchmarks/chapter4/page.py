@@ -48,8 +48,7 @@ SECTIONS = [
     ("fig_4_10", "Fig. 4.10: the living room",
      "The thesis shows the same for the living room, where the vase is one segment; here the walls, the "
      "platform, the table and the arms are, by the default chain. The vase has about 350 points here, 3 cm "
-     "apart, and neighborhoods extend around its neck of 7 cm: the normals of adjacent points differ by "
-     "more than the 5 degrees of Alg. 4.2 (last table)."),
+     "apart; strips of its mantle are planes within the noise (last table)."),
     ("fig_4_12", "Fig. 4.12: three trajectories",
      "The thesis shows that horizontal, vertical and rotational scans of one room have the same major "
      "surfaces, with the wall behind the column merged; here a surrogate has them as well, by the default "
