@@ -399,6 +399,6 @@ relation("plane_segmentation", "4.h.1", "with defaults, one of the two methods o
          "as many correct regions as the best of the others, in every scan", "(not measured)",
          "see the table")(against_others("defaults"))
 relation("plane_segmentation", "4.h.2", "so it does with the best setting of the grid", "(not measured)",
-         "on small simulated blocks CGAL's region growing finds one face more of 19 with a distance "
-         "from planes that is tuned to this cloud; on such clouds segment_planes gains nothing over its "
-         "defaults, since it competes for the points that region growing leaves")(against_others("best"))
+         "on small clouds of planes CGAL finds one region more, and on furniture PCL, each with a setting that "
+         "is tuned to the cloud; on clouds of planes segment_planes gains nothing over its defaults, since it "
+         "competes for the points that region growing leaves")(against_others("best"))
