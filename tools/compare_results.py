@@ -56,7 +56,9 @@ TIMES = {
     "chapter3/*.json": ["real_time", "cpu_time", "us", "us_*", "pi_01us", "pi_1us"],
     "chapter4/fig_4_1.json": ["ms for all points"],
     # t_s is how long the scanner takes: a parameter
-    "chapter4/table_4_1.json": ["t_pp", "t_nve", "t_seg", "t_m", "assignment"],
+    "chapter4/table_4_1.json": ["t_pp", "t_nve", "t_seg", "t_m", "floor", "index", "noise", "cells",
+                                 "normals", "planes", "assignment", "merging",
+                                 "planes of surfaces", "all"],
 }
 
 # Relations whose measured numbers are times or ratios of times; their verdicts are compared.

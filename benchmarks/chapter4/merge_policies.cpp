@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 // Alg. 4.3 in random furnished rooms: precision and recall of merging segments of surfaces that an
-// occluder interrupts, by policy and by trajectory. The literal algorithm uses one range image with
-// an upright pole, as in the thesis; for a moving sensor, one for each view point.
+// occluder interrupts, by policy and by trajectory. The segments are those of Alg. 4.2. The literal
+// algorithm uses one range image with an upright pole, as in the thesis; for a moving sensor, one
+// for each view point.
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -29,7 +29,7 @@ sim::true_scan scan_of(const sim::scene& world, const sim::bvh_caster& caster,
                        const std::string& trajectory, std::uint64_t seed) {
     const sim::pose mount = world.sensor;
     const auto along = [&](const auto& way) {
-        return sim::simulate(world, caster, way, {}, {.sigma = 0.015, .seed = seed});
+        return sim::simulate(world, caster, way, {}, {.sigma = noise_of_rooms, .seed = seed});
     };
     if (trajectory == "horizontal") return along(sim::horizontal{.mount = mount});
     if (trajectory == "vertical") return along(sim::vertical{.mount = mount});
@@ -67,12 +67,7 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
         {.pieces = static_cast<int>(4 + 2 * (number % 5)), .seed = number});
     const sim::bvh_caster caster(world);
     const sim::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
-    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::no_merging> chain{
-        .leave_out = gnomon::floor_and_ceiling{},
-        .assignment = std::nullopt,
-        .splitting = std::nullopt,
-        .revolution = std::nullopt};
-    const auto seen = chain(truth.scan);
+    const perceived seen = segment_as_thesis(truth);
     const gnomon::segments& parts = seen.initial_segments;
     const initial_segments known(caster, truth, parts);
     const initial_segments known_planes(caster, truth, parts, unit::plane);
@@ -81,13 +76,16 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
     result.initial = parts.size();
     for (std::size_t s = 0; s < parts.size(); ++s)
         result.mixed += known.surface(s) == sim::nothing ? 1 : 0;
-    const gnomon::visibility visible(truth.scan);
-    const gnomon::visibility upright(truth.scan, {.pole = Eigen::Vector3d::UnitZ()});
+    const gnomon::constant_noise noise{noise_of_rooms};
+    const gnomon::visibility visible(truth.scan, {.noise = noise});
+    const gnomon::visibility upright(truth.scan,
+                                     {.pole = Eigen::Vector3d::UnitZ(), .noise = noise});
     const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
         result.tallies[policy] = {known.tally(merged), known_planes.tally(merged).pairs};
     };
     const auto merge = [&](const auto& policy) {
-        return gnomon::merge_occluded(truth.scan, seen.surface, parts, visible, policy).segments;
+        return gnomon::merge_occluded(truth.scan, parts, visible, policy, {.noise = noise})
+            .segments;
     };
     const auto merge_literally = [&](const auto& policy) {
         return gnomon::merge_occluded_literally(truth.scan, parts, upright, policy);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
-// Ours: planes, and smooth surfaces with what they lost at their borders.
+// Ours: planes, and the smooth surfaces of Alg. 4.2.
+#include <array>
 #include <cstddef>
-#include <limits>
 #include <vector>
 
 #include "plane_methods.hpp"
@@ -19,15 +19,18 @@ using gnomon::degrees;
 using gnomon::knn;
 using gnomon::threads;
 
-constexpr std::size_t few = 12;  // neighbors to grow to, as in CGAL
+constexpr std::size_t few = 20;                           // neighbors, as segment_planes recommends
+constexpr std::array<double, 2> flat_angles{15.0, 30.0};  // between a normal and its plane's
 
-labels flat(const cloud& scene, std::size_t k, gnomon::segment_planes_options options) {
+/// @param noise  of points [m]; they are on a plane within three times as much
+labels flat(const cloud& scene, std::size_t k, double noise,
+            gnomon::segment_planes_options options) {
     const auto graph = knn{k}(scene.points, threads{});
     const auto surface =
         gnomon::estimate_normals(scene.points, graph, gnomon::plane_pca{}, threads{});
-    options.noise = scene.noise;
-    return gnomon::segment_planes(scene.points, graph, surface, options, threads{})
-        .segments.labels();
+    options.noise = gnomon::constant_noise{noise};
+    const auto found = gnomon::segment_planes(scene.points, graph, surface, options, threads{});
+    return {found.labels().begin(), found.labels().end()};
 }
 
 labels smooth(const cloud& scene, const knn& policy,
@@ -35,8 +38,7 @@ labels smooth(const cloud& scene, const knn& policy,
     const auto surface =
         gnomon::estimate_normals(scene.points, policy, gnomon::plane_pca{}, threads{});
     const auto found = gnomon::segment_surfaces(scene.points, surface, options, threads{});
-    const auto graph = knn{few}(scene.points, threads{});
-    return gnomon::extend_segments(scene.points, graph, surface, found, {}, threads{}).labels();
+    return {found.labels().begin(), found.labels().end()};
 }
 
 }  // namespace
@@ -44,20 +46,18 @@ labels smooth(const cloud& scene, const knn& policy,
 std::vector<method> gnomon_methods() {
     method planes{"gnomon segment_planes", {}};
     planes.settings.push_back(
-        {"defaults", [](const cloud& scene) { return flat(scene, few, {}); }});
+        {"defaults", [](const cloud& scene) { return flat(scene, few, scene.noise, {}); }});
     for (const std::size_t k : ks) {
-        for (const double angle : {25.0, 45.0}) {
+        for (const double angle : flat_angles) {
             for (const double deviations : deviations_of_noise) {
                 for (const std::size_t least : least_points) {
-                    planes.settings.push_back({assigned("k", k) + " " + assigned("angle", angle) +
-                                                   " " + assigned("distance/noise", deviations) +
-                                                   " " + assigned("min", least),
-                                               [=](const cloud& scene) {
-                                                   return flat(scene, k,
-                                                               {.max_deviations = deviations,
-                                                                .max_angle = degrees(angle),
-                                                                .min_points = least});
-                                               }});
+                    planes.settings.push_back(
+                        {assigned("k", k) + " " + assigned("angle", angle) + " " +
+                             assigned("distance/noise", deviations) + " " + assigned("min", least),
+                         [=](const cloud& scene) {
+                             return flat(scene, k, deviations / 3.0 * scene.noise,
+                                         {.max_angle = degrees(angle), .min_points = least});
+                         }});
                 }
             }
         }

@@ -16,8 +16,15 @@ namespace {
 constexpr double forearm = 0.25;  // from the elbow to the sensor [m]
 
 sim::true_scan simulated(const dataset& d, const auto& trajectory, std::uint64_t seed) {
-    return sim::simulate(d.world, trajectory, sim::scanner{}, {.sigma = 0.015, .seed = seed},
-                         gnomon::threads{});
+    return sim::simulate(d.world, trajectory, sim::scanner{},
+                         {.sigma = noise_of_rooms, .seed = seed}, gnomon::threads{});
+}
+
+template <class Merge>
+perceived perceived_as_thesis(const sim::true_scan& truth) {
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, Merge, gnomon::smooth_surfaces> chain{
+        .noise = gnomon::constant_noise{noise_of_rooms}, .leave_out = gnomon::floor_and_ceiling{}};
+    return chain(truth.scan);
 }
 
 }  // namespace
@@ -58,6 +65,20 @@ dataset dataset_of(const std::string& name) {
 perceived perceive(const sim::true_scan& truth) {
     const gnomon::perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
     return chain(truth.scan);
+}
+
+perceived perceive_as_thesis(const sim::true_scan& truth) {
+    return perceived_as_thesis<gnomon::conservative>(truth);
+}
+
+perceived segment_as_thesis(const sim::true_scan& truth) {
+    return perceived_as_thesis<gnomon::no_merging>(truth);
+}
+
+double seconds_of(const perceived& seen, std::string_view step) {
+    for (const auto& s : seen.steps)
+        if (s.name == step) return s.seconds;
+    return 0.0;
 }
 
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The eight scans of Table 4.1, their segments with the parameters of Sec. 4.4.1, and the part of
-/// each true surface that is one segment.
+/// The eight scans of Table 4.1, their segments by the chain of the thesis and by the default one,
+/// and the part of each true surface that is one segment.
 ///
 /// Two Chairs and SAT are surrogates of rooms that the thesis shows in photographs only. Their
 /// horizontal scan is by an arm that turns about its elbow, so that every scan line has a view
@@ -11,12 +11,15 @@
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "record.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
+
+inline constexpr double noise_of_rooms = 0.015;  ///< of all scans [m], that of a UTM-30LX
 
 /// A scan of the table.
 struct dataset {
@@ -26,7 +29,6 @@ struct dataset {
     std::size_t lines;  ///< n / 720 (docs/thesis-notes.md, A5)
 
     [[nodiscard]] double seconds() const { return static_cast<double>(lines) / 40.0; }
-    /// With 15 mm of noise, as a UTM-30LX has it.
     [[nodiscard]] gnomon::simulation::true_scan scan(std::uint64_t seed) const;
 };
 
@@ -37,8 +39,17 @@ dataset dataset_of(const std::string& name);
 
 using perceived = gnomon::perception_result<gnomon::plane_fit>;
 
-/// Floor and ceiling left out, k = 50, and the defaults, which are the thesis's parameters.
+/// By the default chain, floor and ceiling left out.
 perceived perceive(const gnomon::simulation::true_scan& truth);
+
+/// The chain of the thesis (Fig. 4.2) with its parameters (Sec. 4.4.1), floor and ceiling left out;
+/// the noise is given, as a sensor's data sheet gives it.
+perceived perceive_as_thesis(const gnomon::simulation::true_scan& truth);
+/// The same without merging: the segments of Alg. 4.2.
+perceived segment_as_thesis(const gnomon::simulation::true_scan& truth);
+
+/// How long a step of a chain took [s]; 0 for a step that it does not have.
+double seconds_of(const perceived& seen, std::string_view step);
 
 /// The recovery of a true surface as one segment: shares of its points.
 struct recovery {
