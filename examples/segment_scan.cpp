@@ -78,7 +78,7 @@ void warn_of_unit(const gnomon::scan& scan, const options& o) {
 
 /// The mean direction of the rays, which for a camera is about its optical axis.
 /// @throws gnomon::error  if there is none, as for a scan all around
-Eigen::Vector3d optical_axis_of(const gnomon::scan& scan) {
+Eigen::Vector3d optical_axis_of(const gnomon::scan& scan, const options& o) {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double rays = 0.0;
     for (std::size_t i = 0; i < scan.size(); ++i) {
@@ -89,7 +89,7 @@ Eigen::Vector3d optical_axis_of(const gnomon::scan& scan) {
     }
     constexpr double shortest_mean = 0.5;  // of the rays of a field of view of 180 degrees
     if (!(sum.norm() >= shortest_mean * rays && rays > 0.0))
-        throw gnomon::error("the scan", "", "has no optical axis, so that it is not of a camera");
+        throw gnomon::error(o.scan, "", "has no optical axis, so that it is not of a camera");
     return sum;
 }
 
@@ -98,7 +98,7 @@ std::optional<gnomon::noise_curve> noise_of(const gnomon::scan& scan, const opti
     if (const auto* constant = std::get_if<gnomon::constant_noise>(&o.noise.model))
         return *constant;
     if (const auto* camera = std::get_if<gnomon::quadratic_noise>(&o.noise.model))
-        return gnomon::noise_curve(*camera, optical_axis_of(scan));
+        return gnomon::noise_curve(*camera, optical_axis_of(scan, o));
     return std::nullopt;
 }
 

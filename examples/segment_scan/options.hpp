@@ -34,7 +34,8 @@ into DIR.
                       grow (15)
   --max-distance M    largest distance between adjacent points of smooth surfaces,
                       in what is not planar (0.30)
-  --min-points N      smaller segments are discarded (30)
+  --min-points N      smaller segments are discarded, counted in cells as wide as
+                      the noise (30)
   --merge POLICY      conservative: where the gap is occluded (default);
                       liberal: unless the gap is free space; or none
   --viewpoint X,Y,Z   position of the sensor (from SCAN, else 0,0,0)
