@@ -29,29 +29,45 @@ std::size_t trees_built_by(auto&& work) {
     return gnomon::detail::trees_built - before;
 }
 
+const gnomon::noise_curve noise = gnomon::constant_noise{0.015};
+
+/// One of the points, and one of their cells.
 TEST(one_tree, serves_all_steps_of_perception) {
-    const gnomon::perception<> chain;
-    EXPECT_EQ(trees_built_by([&] { EXPECT_GT(chain(kitchen()).surfaces.size(), 5u); }), 1u);
-    EXPECT_EQ(trees_built_by([&] { (void)chain(kitchen(), gnomon::threads{2}); }), 1u);
-    const gnomon::perception<> above_floor{.leave_out = gnomon::floor_and_ceiling{}};
+    const gnomon::perception<> chain{.noise = noise};
+    EXPECT_EQ(trees_built_by([&] { EXPECT_GT(chain(kitchen()).surfaces.size(), 5u); }), 2u);
+    EXPECT_EQ(trees_built_by([&] { (void)chain(kitchen(), gnomon::threads{2}); }), 2u);
+    const gnomon::perception<> above_floor{.noise = noise,
+                                           .leave_out = gnomon::floor_and_ceiling{}};
     EXPECT_EQ(
         trees_built_by([&] { EXPECT_LT(above_floor(kitchen()).kept.size(), kitchen().size()); }),
-        1u);
+        2u);
+    const gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
+                             gnomon::smooth_surfaces>
+        on_points{.noise = noise};
+    EXPECT_EQ(trees_built_by([&] { (void)on_points(kitchen()); }), 1u);
+}
+
+/// One more, of some thousand points, on which the noise of wide planes is measured.
+TEST(one_tree, is_joined_by_a_small_one_if_the_noise_is_measured) {
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::perception<>{}(kitchen()); }), 3u);
 }
 
 TEST(one_tree, is_not_built_where_an_index_is_given) {
     const gnomon::spatial_index index(kitchen());
-    const gnomon::perception<> chain;
-    EXPECT_EQ(trees_built_by([&] { (void)chain(index); }), 0u);
+    const gnomon::perception<> chain{.noise = noise};
+    EXPECT_EQ(trees_built_by([&] { (void)chain(index); }), 1u) << "of the cells";
     EXPECT_EQ(trees_built_by([&] {
                   auto surface = gnomon::estimate_normals(index);
                   gnomon::repair_anisotropic(index, gnomon::knn{.k = 30}, surface,
                                              gnomon::plane_pca{});
                   const auto parts = gnomon::segment_surfaces(index, surface);
                   (void)gnomon::euclidean_clusters(index);
-                  (void)gnomon::split_outliers(index, surface, parts);
-                  (void)gnomon::assign_unlabeled(index, parts);
-                  (void)gnomon::join_surfaces_of_revolution(index, surface, parts);
+                  const auto graph = gnomon::noise_knn{}(index);
+                  (void)gnomon::segment_planes(index, graph, surface);
+                  (void)gnomon::split_outliers(index, parts, noise);
+                  (void)gnomon::assign_unlabeled(index, graph, parts, noise);
+                  (void)gnomon::estimate_planes(index, parts, noise);
+                  (void)gnomon::merge_occluded(index, parts, gnomon::visibility(index));
                   (void)gnomon::noise_level(index);
                   (void)gnomon::knn{.k = 10}(index);
                   (void)gnomon::radius{.r = 0.05}(index);

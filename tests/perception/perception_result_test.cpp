@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cstddef>
-#include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -10,7 +10,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/core/supervised.hpp>
-#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/plane_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
@@ -33,7 +33,10 @@ TEST(perception_result, begins_empty) {
     EXPECT_TRUE(none.kept.empty() && none.surface.empty() && none.gaps.empty());
     EXPECT_TRUE(none.initial_segments.empty() && none.surfaces.empty());
     EXPECT_EQ(none.index.size(), 0u);
-    EXPECT_EQ(none.seconds.normals, 0.0);
+    EXPECT_TRUE(none.planes.empty() && none.steps.empty());
+    EXPECT_EQ(none.seconds(), 0.0);
+    EXPECT_FALSE(none.noise.is_across_surface);
+    EXPECT_TRUE(none.noise.curve.is_zero() && none.noise.of_planes.is_zero());
 }
 
 /// Copies and moved results are values like any other, and can be used for the next call.
@@ -76,26 +79,36 @@ TEST(perception_result, gives_its_index_to_the_next_call) {
     EXPECT_EQ(result.surfaces, surfaces);
 }
 
-/// A caller who follows the progress hears of as many steps as were announced.
+/// A caller who follows the progress hears of as many steps as were announced, which are those of
+/// the result.
 TEST(perception_result, comes_after_as_many_steps_as_announced) {
     const gnomon::scan scan = wall();
     const auto expect_all = [&](const auto& chain, std::size_t expected) {
-        std::size_t last = 0, all = 0;
-        const auto on_step = [&](const char*, std::size_t step, std::size_t steps) {
-            EXPECT_EQ(step, last + 1);
-            last = step;
+        std::vector<std::string> names;
+        std::size_t all = 0;
+        const auto on_step = [&](const char* name, std::size_t step, std::size_t steps) {
+            names.emplace_back(name);
+            EXPECT_EQ(step, names.size());
             all = steps;
         };
-        (void)chain(scan, gnomon::supervised(gnomon::sequential{}, {}, on_step));
-        EXPECT_EQ(last, expected);
+        const auto result = chain(scan, gnomon::supervised(gnomon::sequential{}, {}, on_step));
+        EXPECT_EQ(names.size(), expected);
         EXPECT_EQ(all, expected);
+        ASSERT_EQ(result.steps.size(), expected);
+        double sum = 0.0;
+        for (std::size_t s = 0; s < expected; ++s) {
+            EXPECT_EQ(result.steps[s].name, names[s]);
+            EXPECT_GE(result.steps[s].seconds, 0.0);
+            sum += result.steps[s].seconds;
+        }
+        EXPECT_DOUBLE_EQ(result.seconds(), sum);
     };
-    expect_all(gnomon::perception<>{}, 8);
-    expect_all(gnomon::perception<>{.splitting = std::nullopt}, 7);
-    expect_all(gnomon::perception{.neighborhood = gnomon::knn{.k = 30},
-                                  .estimate = gnomon::plane_pca{},
-                                  .merge = gnomon::no_merging{}},
-               6);
+    using gnomon::conservative, gnomon::no_merging, gnomon::noise_knn, gnomon::plane_pca,
+        gnomon::planes_first, gnomon::smooth_surfaces;
+    expect_all(gnomon::perception<>{}, 9);
+    expect_all(gnomon::perception{noise_knn{}, plane_pca{}, no_merging{}}, 8);
+    expect_all(gnomon::perception{noise_knn{}, plane_pca{}, conservative{}, smooth_surfaces{}}, 7);
+    expect_all(gnomon::perception{noise_knn{}, plane_pca{}, no_merging{}, smooth_surfaces{}}, 6);
 }
 
 }  // namespace

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <iterator>
 #include <limits>
 #include <stdexcept>
 #include <vector>
@@ -12,6 +10,8 @@
 #include "laws/clouds.hpp"
 #include "laws/partitions.hpp"
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/supervised.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/perception.hpp>
@@ -32,9 +32,14 @@ const gnomon::scan& scan_of_kitchen() {
     return scan;
 }
 
+using thesis_chain =
+    perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative, gnomon::smooth_surfaces>;
+
+const gnomon::noise_curve noise_of_kitchen = gnomon::constant_noise{0.015};
+
 TEST(perception, is_its_steps) {
     const gnomon::scan& scan = scan_of_kitchen();
-    const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
+    const thesis_chain chain{.noise = noise_of_kitchen, .leave_out = gnomon::floor_and_ceiling{}};
     const auto result = chain(scan, gnomon::threads{2});
 
     const auto floor = gnomon::find_floor(scan);
@@ -47,13 +52,9 @@ TEST(perception, is_its_steps) {
     gnomon::repair_anisotropic(rest, gnomon::knn{}, surface, gnomon::plane_pca{});
     gnomon::orient_normals(rest, surface);
     const gnomon::segments parts = gnomon::segment_surfaces(rest, surface);
-    const gnomon::visibility visible(scan);
-    const auto merged = gnomon::merge_occluded(rest, surface, parts, visible);
-    const auto released = gnomon::split_outliers(rest, surface, merged.segments);
-    const auto again = gnomon::merge_occluded(rest, surface, released, visible);
-    const gnomon::segments whole = gnomon::join_surfaces_of_revolution(
-        rest, surface, gnomon::assign_unlabeled(rest, again.segments));
-    EXPECT_LT(again.segments.size(), released.size());
+    const auto merged = gnomon::merge_occluded(rest, parts, gnomon::visibility(scan));
+    const gnomon::segments& whole = merged.segments;
+    const auto planes = gnomon::estimate_planes(rest, whole, noise_of_kitchen);
 
     std::vector<bool> left_out(scan.size(), true);
     for (std::size_t i = 0; i < kept.size(); ++i) {
@@ -68,58 +69,122 @@ TEST(perception, is_its_steps) {
         ASSERT_EQ(result.initial_segments.labels()[i], gnomon::unlabeled);
         ASSERT_EQ(result.surfaces.labels()[i], gnomon::unlabeled);
     }
-    std::vector<gnomon::considered_gap> gaps = merged.gaps;
-    std::ranges::copy_if(again.gaps, std::back_inserter(gaps), &gnomon::considered_gap::merged);
-    ASSERT_EQ(result.gaps.size(), gaps.size());
-    for (std::size_t g = 0; g < gaps.size(); ++g) {
-        ASSERT_EQ(result.gaps[g].merged, gaps[g].merged);
-        for (std::size_t l = 0; l < gaps[g].lines.size(); ++l)
-            ASSERT_EQ(result.gaps[g].lines[l].first, kept[gaps[g].lines[l].first]);
+    ASSERT_EQ(result.gaps.size(), merged.gaps.size());
+    for (std::size_t g = 0; g < merged.gaps.size(); ++g) {
+        ASSERT_EQ(result.gaps[g].merged, merged.gaps[g].merged);
+        for (std::size_t l = 0; l < merged.gaps[g].lines.size(); ++l)
+            ASSERT_EQ(result.gaps[g].lines[l].first, kept[merged.gaps[g].lines[l].first]);
+    }
+    ASSERT_EQ(result.planes.size(), planes.size());
+    for (std::size_t s = 0; s < planes.size(); ++s) {
+        ASSERT_EQ(result.planes[s].plane.normal, planes[s].plane.normal);
+        ASSERT_EQ(result.planes[s].is_flat, planes[s].is_flat);
     }
     EXPECT_LT(result.surfaces.size(), result.initial_segments.size());
-    EXPECT_GT(result.seconds.normals, 0.0);
-    EXPECT_GT(result.seconds.merging, 0.0);
-    EXPECT_GT(result.seconds.assignment, 0.0);
+    EXPECT_GT(result.seconds(), 0.0);
+}
+
+/// Planes first: the planes of the surfaces are those of their points, most of which are flat.
+TEST(perception, finds_planes_first) {
+    const gnomon::scan& scan = scan_of_kitchen();
+    const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
+    const auto result = chain(scan, gnomon::threads{2});
+    EXPECT_FALSE(result.noise.is_across_surface) << result.noise.reason;
+    EXPECT_NEAR(result.noise.curve(2.0), 0.015, 0.0015);
+    EXPECT_LT(result.surfaces.size(), result.initial_segments.size());
+    const auto planes =
+        gnomon::estimate_planes(scan, result.surfaces, result.noise.of_planes, gnomon::threads{2});
+    ASSERT_EQ(result.planes.size(), result.surfaces.size());
+    std::size_t flat = 0;
+    for (std::size_t s = 0; s < planes.size(); ++s) {
+        EXPECT_NEAR(result.planes[s].chi2, planes[s].chi2, 1e-6 * planes[s].chi2);
+        EXPECT_EQ(result.planes[s].is_flat, planes[s].is_flat);
+        flat += planes[s].is_flat ? result.surfaces[s].size() : 0;
+    }
+    EXPECT_GT(static_cast<double>(flat), 0.7 * static_cast<double>(result.kept.size()));
+    for (const auto& gap : result.gaps)
+        for (const auto& line : gap.lines) {
+            EXPECT_LT(line.first, scan.size());
+            const auto labels = [&](const gnomon::segments& of) {
+                return of.labels()[line.first] == of.labels()[line.second];
+            };
+            EXPECT_TRUE(!gap.merged || labels(result.surfaces));
+        }
+}
+
+TEST(perception, is_the_same_for_every_execution) {
+    const gnomon::scan& scan = scan_of_kitchen();
+    const perception<> chain;
+    const auto expected = chain(scan);
+    for (const unsigned t : {1u, 3u}) {
+        const auto result = chain(scan, gnomon::threads{t});
+        EXPECT_EQ(result.surfaces, expected.surfaces);
+        EXPECT_EQ(result.noise.curve(3.0), expected.noise.curve(3.0));
+        for (std::size_t s = 0; s < expected.planes.size(); ++s)
+            EXPECT_EQ(result.planes[s].plane.normal, expected.planes[s].plane.normal);
+    }
+}
+
+/// The scan with its points in another order, and where each was.
+gnomon::scan shuffled(const gnomon::scan& scan, std::uint64_t seed,
+                      std::vector<std::size_t>& order) {
+    gnomon::scan result;
+    result.points = clouds::permuted(scan.points, seed, order);
+    std::vector<Eigen::Vector3d> viewpoints;
+    for (const std::size_t i : order) viewpoints.push_back(scan.viewpoints[i]);
+    result.viewpoints = gnomon::viewpoint_table(viewpoints);
+    return result;
 }
 
 /// No step draws points by where they are stored, or lets those that come first win.
 TEST(perception, depends_on_no_order_of_points) {
     const gnomon::scan& scan = scan_of_kitchen();
-    const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
-    const auto expected = chain(scan);
-    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
-        std::vector<std::size_t> order;
-        gnomon::scan shuffled;
-        shuffled.points = clouds::permuted(scan.points, seed, order);
-        std::vector<Eigen::Vector3d> viewpoints;
-        std::vector<std::int32_t> labels;
-        for (const std::size_t i : order) {
-            viewpoints.push_back(scan.viewpoints[i]);
-            labels.push_back(expected.surfaces.labels()[i]);
+    const auto expect_same = [&](const auto& chain, double likeness) {
+        const auto expected = chain(scan);
+        for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+            std::vector<std::size_t> order;
+            const auto result = chain(shuffled(scan, seed, order));
+            std::vector<std::int32_t> labels;
+            for (const std::size_t i : order) labels.push_back(expected.surfaces.labels()[i]);
+            EXPECT_GE(laws::rand_index(result.surfaces.labels(), labels), likeness);
         }
-        shuffled.viewpoints = gnomon::viewpoint_table(viewpoints);
-        const auto result = chain(shuffled);
-        EXPECT_EQ(result.surfaces.size(), expected.surfaces.size());
-        EXPECT_EQ(laws::rand_index(result.surfaces.labels(), labels), 1.0);
-    }
+    };
+    expect_same(thesis_chain{.noise = noise_of_kitchen, .leave_out = gnomon::floor_and_ceiling{}},
+                1.0);
+    expect_same(perception<>{.noise = noise_of_kitchen}, 0.999);
 }
 
 TEST(perception, does_not_merge_if_merging_is_disabled) {
-    perception chain{gnomon::knn{.k = 30},
-                     gnomon::plane_pca{},
-                     gnomon::no_merging{},
-                     {.max_angle = gnomon::degrees(4)}};
-    chain.splitting.reset();   // which may make new segments,
-    chain.revolution.reset();  // and this fewer
-    EXPECT_EQ(chain(scan_of_kitchen()).surfaces.size(),
-              chain(scan_of_kitchen()).initial_segments.size());
-    chain.assignment.reset();
+    const perception chain{gnomon::noise_knn{}, gnomon::plane_pca{}, gnomon::no_merging{},
+                           gnomon::planes_first{{.max_angle = gnomon::degrees(10)}}};
     const auto result = chain(scan_of_kitchen(), gnomon::threads{2});
     EXPECT_EQ(result.surfaces.labels(), result.initial_segments.labels());
     EXPECT_TRUE(result.gaps.empty());
-    EXPECT_EQ(result.seconds.merging, 0.0);
+    for (const auto& step : result.steps) EXPECT_NE(step.name, "merging");
     EXPECT_EQ(result.kept.size(), scan_of_kitchen().size());
     EXPECT_FALSE(result.floor || result.ceiling);
+}
+
+/// Scans from two places, moved into one frame, as if seen from its origin: rays are not known, so
+/// that nothing is behind anything.
+TEST(perception, merges_nothing_without_rays) {
+    namespace sim = gnomon::simulation;
+    const sim::scene kitchen = sim::scenes::kitchen();
+    gnomon::scan fused;
+    for (const double y : {-0.6, 0.6}) {
+        sim::pose mount = kitchen.sensor;
+        mount.position.y() += y;
+        const auto seen = sim::simulate(kitchen, sim::rotational{.mount = mount},
+                                        sim::densities::medium(), {.sigma = 0.015, .seed = 4});
+        for (const Eigen::Vector3d& p : seen.scan.points)
+            fused.points.push_back(p - Eigen::Vector3d(20.0, 20.0, 0.0));
+    }
+    const auto result = perception<>{}(fused, gnomon::threads{2});
+    EXPECT_TRUE(result.noise.is_across_surface);
+    EXPECT_FALSE(result.noise.reason.empty());
+    EXPECT_TRUE(result.gaps.empty());
+    EXPECT_EQ(result.surfaces, result.initial_segments);
+    EXPECT_GT(result.surfaces.size(), 5u);
 }
 
 struct hit {
@@ -142,7 +207,8 @@ TEST(perception, takes_any_policies_and_points) {
     const perception chain{
         gnomon::radius{.r = 0.025},
         [](const Eigen::Vector3d&, const auto&) { return Eigen::Vector3d(1, 0, 0); },
-        [](gnomon::observation s) { return s == gnomon::observation::unobserved; }};
+        [](gnomon::observation s) { return s == gnomon::observation::unobserved; },
+        gnomon::smooth_surfaces{}, gnomon::constant_noise{0.005}};
     const auto result = chain(hits, gnomon::sequential{}, &hit::at);
     EXPECT_EQ(result.initial_segments.size(), 2u);
     EXPECT_EQ(result.surfaces.size(), 1u);
@@ -154,44 +220,70 @@ TEST(perception, takes_any_policies_and_points) {
 
 TEST(perception, survives_clouds_of_nothing) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
+    const perception<> above_floor{.leave_out = gnomon::floor_and_ceiling{}}, all{};
     for (const std::size_t n : {0u, 1u, 3u, 100u}) {
         const std::vector<Eigen::Vector3d> nothing(n, Eigen::Vector3d(nan, 0, 0));
         const std::vector<Eigen::Vector3d> one_place(n, Eigen::Vector3d(1, 2, 3));
-        for (const auto& points : {nothing, one_place}) {
-            const auto result = chain(points);
-            EXPECT_EQ(result.surface.size(), n);
-            EXPECT_EQ(result.surfaces.labels().size(), n);
-            EXPECT_EQ(result.surfaces.size(), 0u);
+        for (const auto& points : {nothing, one_place, clouds::in_cube(n, 1)}) {
+            for (const auto* chain : {&above_floor, &all}) {
+                const auto result = (*chain)(points);
+                EXPECT_EQ(result.surface.size(), n);
+                EXPECT_EQ(result.surfaces.labels().size(), n);
+                EXPECT_EQ(result.surfaces.size(), 0u);
+                EXPECT_TRUE(result.noise.is_across_surface);
+                EXPECT_FALSE(result.noise.reason.empty());
+            }
         }
+    }
+    for (const auto& [name, points] : clouds::degenerate()) {
+        SCOPED_TRACE(name);
+        EXPECT_EQ(all(points).surfaces.labels().size(), points.size());
+        EXPECT_EQ(thesis_chain{}(points).surfaces.labels().size(), points.size());
     }
 }
 
-TEST(perception, passes_the_noise_to_all_steps) {
-    perception<> chain = perception<>{}.with_sigma(0.002);
-    for (const double sigma : {chain.merging.sigma, chain.visibility.sigma, chain.assignment->sigma,
-                               chain.splitting->sigma, chain.revolution->sigma})
-        EXPECT_EQ(sigma, 0.002);
-    chain.assignment.reset();
-    chain.splitting.reset();
-    chain.revolution.reset();
-    chain = chain.with_sigma(0.003);
-    EXPECT_EQ(chain.merging.sigma, 0.003);
-    EXPECT_FALSE(chain.assignment || chain.splitting || chain.revolution);
+/// As many view points as points, and a segment for every three.
+TEST(perception, finishes_with_a_view_point_for_each_point) {
+    gnomon::random_stream random(1);
+    std::vector<Eigen::Vector3d> points, eyes;
+    std::vector<std::int32_t> labels;
+    for (std::int32_t i = 0; i < 500; ++i) {
+        points.emplace_back(3.0, random.uniform(), random.uniform());
+        eyes.push_back(clouds::gaussian_vector(random));
+        labels.push_back(i % 150);
+    }
+    const auto seen = gnomon::with_viewpoints(points, gnomon::viewpoint_table(eyes));
+    const gnomon::visibility visible(seen);
+    EXPECT_GT(visible.images().size(), 400u);
+    const auto merged = gnomon::merge_occluded(seen, gnomon::segments(labels), visible);
+    EXPECT_LE(merged.segments.size(), 150u);
+    EXPECT_EQ(perception<>{}(seen).surfaces.labels().size(), 500u);
 }
 
-TEST(perception, rejects_what_its_steps_reject) {
+/// Before the first step: who follows the progress hears of none.
+TEST(perception, refuses_bad_parameters_before_the_first_step) {
     const std::vector<Eigen::Vector3d> points(100, Eigen::Vector3d(1, 2, 3));
     const auto refused = [&](const auto& chain) {
-        EXPECT_THROW(static_cast<void>(chain(points)), std::invalid_argument);
+        std::size_t steps = 0;
+        const auto on_step = [&](const char*, std::size_t, std::size_t) { ++steps; };
+        EXPECT_THROW((void)chain(points, gnomon::supervised(gnomon::sequential{}, {}, on_step)),
+                     std::invalid_argument);
+        EXPECT_EQ(steps, 0u);
     };
-    refused(perception{gnomon::knn{.k = 0}, gnomon::plane_pca{}, gnomon::conservative{}});
-    refused(perception<>{.segmentation = {.max_distance = -1.0}});
+    refused(perception<>{.neighborhood = {.k = 0}});
+    refused(perception<>{.neighborhood = {.deviations = -1.0}});
+    refused(perception{gnomon::knn{.k = 0}, gnomon::plane_pca{}});
+    refused(perception{gnomon::radius{.r = -1.0}, gnomon::plane_pca{}});
+    refused(perception<>{.merging = {.max_gap = -0.1}});
+    refused(perception<>{.merging = {.max_offset = clouds::nan}});
     refused(perception<>{.merging = {.boundary_pairs = 3}});
-    refused(perception<>{.splitting = gnomon::split_outliers_options{.sigma = 0.0}});
-    refused(perception<>{.assignment = gnomon::assign_unlabeled_options{.sigma = 0.0}});
-    refused(perception<>{.revolution = gnomon::join_surfaces_of_revolution_options{.sigma = -1.0}});
-    refused(perception<>{.visibility = {.sigma = -1.0}});
+    refused(perception<>{.merging = {.boundary_pairs = 0}});
+    refused(perception<>{.visibility = {.pixel = gnomon::degrees(100)}});
+    refused(perception<>{.visibility = {.pole = Eigen::Vector3d(0, 0, 0)}});
+    refused(perception<>{.segmentation = {.planes = {.max_angle = gnomon::degrees(120)}}});
+    refused(perception<>{
+        .segmentation = {.remainder = gnomon::segment_surfaces_options{.max_distance = -1.0}}});
+    refused(thesis_chain{.segmentation = {.surfaces = {.max_distance = -1.0}}});
     refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.up = Eigen::Vector3d(0, 0, 2)}});
 }
 
