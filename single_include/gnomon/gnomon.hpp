@@ -822,6 +822,15 @@ class noise_curve {
         return variance(range * cosine) / (cosine * cosine);
     }
 
+    /// The curve of this noise and an independent error of the same deviation [m] everywhere.
+    [[nodiscard]] noise_curve plus(double sigma) const {
+        require_deviation(sigma);
+        noise_curve sum = *this;
+        sum.is_zero_ = is_zero_ && sigma == 0.0;
+        sum.added_ += sigma * sigma;
+        return sum;
+    }
+
     /// Whether there is no noise at any range from 5 cm to 500 m.
     [[nodiscard]] bool is_zero() const { return is_zero_; }
     /// Whether x is the depth along axis(), not the range.
@@ -838,8 +847,8 @@ class noise_curve {
     static constexpr double nearest = 0.05, farthest = 500.0;  // [m]
 
     [[nodiscard]] double variance(double x) const {
-        if (is_table_) return from_table(x);
-        return std::max(value(variance_, x), value(quantization_, x));
+        if (is_table_) return from_table(x) + added_;
+        return std::max(value(variance_, x), value(quantization_, x)) + added_;
     }
 
     [[nodiscard]] static double value(const quartic& c, double x) {
@@ -906,6 +915,7 @@ class noise_curve {
     bool is_of_depth_ = false;
     quartic variance_{};            // [m^2], of x [m]
     quartic quantization_{};        // [m^2], of x [m]
+    double added_ = 0.0;            // [m^2]
     std::array<double, 3> axis_{};  // of length 1; a literal type, so that curves are constants
     std::array<float, knots> log_sigma_{};
 };
@@ -6087,6 +6097,111 @@ void neighborhoods_into(adjacency& graph, const R& points, const N& policy, cons
                         Proj projection = {}) {
     graph = detail::graph_of(policy, points, run, projection, graph.release());
 }
+
+}  // namespace gnomon
+
+// -------- gnomon/neighborhoods/noise_knn.hpp -----------------------------------------------------
+
+/// @file
+/// The k nearest neighbors within a few standard deviations of the noise: as wide as a normal
+/// requires, and no wider, so that edges stay sharp where the sensor is precise. Where fewer points
+/// are that near, the nearest few, however far.
+
+namespace gnomon {
+
+/// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest first.
+struct noise_knn {
+    noise_curve noise = constant_noise{};  ///< along the rays
+    std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
+    std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
+    double deviations = 6.0;               ///< within this number of standard deviations
+
+    /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
+    /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return detail::graph_of(*this, points, run, projection);
+    }
+
+    /// Replaces the content of `found` by the neighbors of the finite point i. O(log n + k log k).
+    /// Errors: those of operator().
+    template <class Allocator>
+    void find(const spatial_index& index, std::size_t i,
+              std::vector<neighbor, Allocator>& found) const {
+        require_valid();
+        detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
+                            found);
+        const double within = squared_reach(index, i);
+        const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
+        const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
+        found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
+    }
+
+    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// Errors: those of operator().
+    template <execution X>
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        require_valid();
+        detail::search_all_groups(
+            index.tree(), run,
+            [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
+            [&] { return gate(*this, index, make_visitor()); });
+    }
+
+    /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
+    void require_valid() const {
+        detail::require(k > 0, "noise_knn: k must be at least 1");
+        detail::require(deviations >= 0.0, "noise_knn: deviations must not be negative or NaN");
+    }
+
+  private:
+    /// The square of the distance [m^2] within which point i has its neighbors.
+    [[nodiscard]] double squared_reach(const spatial_index& index, std::size_t i) const {
+        const Eigen::Vector3d ray = detail::difference(index[i], index.viewpoints[i]);
+        return deviations * deviations * noise.variance_along(ray);
+    }
+
+    /// Shows a visitor those of the k nearest that are near enough.
+    template <class Visit>
+    class gate {
+      public:
+        gate(const noise_knn& policy, const spatial_index& index, Visit visit)
+            : policy_(policy), index_(index), visit_(std::move(visit)) {}
+
+        void operator()(std::size_t place, std::span<const std::uint32_t> places) {
+            const detail::leaf_tree& tree = index_.tree();
+            const point_index i = tree.index()[place];
+            const double within = policy_.squared_reach(index_, i);
+            near_.assign(places.begin(), places.end());
+            const auto key = [&](std::uint32_t at) {
+                return neighbor{tree.squared_distance(place, at), tree.index()[at]};
+            };
+            auto end = std::partition(near_.begin(), near_.end(), [&](std::uint32_t at) {
+                return tree.squared_distance(place, at) <= within;
+            });
+            const std::size_t fewest = std::min(policy_.fewest, near_.size());
+            if (static_cast<std::size_t>(end - near_.begin()) < fewest) {
+                end = near_.begin() + static_cast<std::ptrdiff_t>(fewest);
+                std::partial_sort(near_.begin(), end, near_.end(),
+                                  [&](auto a, auto b) { return key(a) < key(b); });
+            }
+            const std::size_t count = static_cast<std::size_t>(end - near_.begin());
+            visit_(i, detail::found_neighbors(tree, place, std::span(near_.data(), count)));
+        }
+
+        void finish() {
+            if constexpr (requires { visit_.finish(); }) visit_.finish();
+        }
+
+      private:
+        const noise_knn& policy_;
+        const spatial_index& index_;
+        Visit visit_;
+        detail::scratch<std::uint32_t> near_;
+    };
+};
 
 }  // namespace gnomon
 
@@ -11315,6 +11430,248 @@ struct besl_jain {
 
 // -------- gnomon/features.hpp --------------------------------------------------------------------
 
+// -------- gnomon/segmentation/detail/surface_noise.hpp -------------------------------------------
+
+/// @file
+/// How far noise displaces the points of a cloud across a surface. This is the only place where
+/// noise enters segmentation and merging: all else is counted in these deviations.
+///
+/// Noise acts along the rays, so that at oblique incidence its component across the surface is
+/// small; where no view point is known, it is the same in all directions. No surface is an exact
+/// plane, and no ray exactly known: neither is a deviation smaller than a flatness of 2 mm, nor
+/// than a third of the noise along the ray, nor than the rounding of the coordinates.
+
+namespace gnomon::detail {
+
+/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
+/// normal distribution.
+inline constexpr double most_deviations = 3.0;
+
+/// A point that is farther than this is certainly not of it: one of two million by chance.
+inline constexpr double certain_deviations = 5.0;
+
+inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
+inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
+/// The cosine of the angle between a ray and the normal of a surface, below which the surface was
+/// not seen: planes of less are those of scan lines, which contain their view point.
+inline constexpr double edge_on = 0.02;  // chosen: one degree
+
+/// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
+/// which is zero where no view point is known.
+struct point_noise {
+    double sigma;
+    Eigen::Vector3d ray;
+
+    /// @param position   of the point [m]
+    /// @param viewpoint  from where it was seen, if that is known
+    /// @param rounding   of its coordinates [m]
+    point_noise(const noise_curve& noise, const Eigen::Vector3d& position,
+                const Eigen::Vector3d* viewpoint, double rounding)
+        : ray(0.0, 0.0, 0.0) {
+        double variance = flatness * flatness + rounding * rounding;
+        if (viewpoint != nullptr) {
+            const Eigen::Vector3d from = difference(position, *viewpoint);
+            variance += noise.variance_along(from);
+            if (has_length(from)) ray = direction_of(from);
+        } else {
+            variance += noise.variance_along({0.0, 0.0, 0.0});
+        }
+        sigma = std::sqrt(variance);
+    }
+
+    /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
+    /// deviations, and 1 cm for what is not flat.
+    /// @param normal  of unit length
+    [[nodiscard]] double certain_reach(const Eigen::Vector3d& normal) const {
+        const double noise = std::sqrt(std::max(0.0, sigma * sigma - flatness * flatness));
+        return certain_deviations * (noise / sigma * across(normal) + flatness);
+    }
+
+    [[nodiscard]] bool has_ray() const { return dot(ray, ray) > 0.0; }
+
+    /// The standard deviation of the point across a plane [m].
+    /// @param normal  of unit length
+    [[nodiscard]] double across(const Eigen::Vector3d& normal) const {
+        return has_ray() ? sigma * std::max(std::abs(dot(normal, ray)), least_cosine) : sigma;
+    }
+};
+
+/// The noise of a point of an index.
+/// @param is_seen  whether the view points are known; the origin where there are none
+[[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
+                                                const noise_curve& noise, std::size_t i,
+                                                bool is_seen) {
+    const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
+    const double rounding =
+        index.epsilon() * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    return {noise, p, is_seen && is_finite(v) ? &v : nullptr, rounding};
+}
+
+/// The noise of all points of an index.
+template <execution X>
+[[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
+                                                   const noise_curve& noise, const X& run,
+                                                   bool is_seen) {
+    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
+    for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, is_seen);
+    });
+    return all;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_sums.hpp ----------------------------------------------
+
+/// @file
+/// Sums over the points of a region from which its plane follows, and how well noise explains the
+/// deviations from it. Sums of two regions add up to those of their union, so that whether one
+/// plane is enough for both is known without looking at a point again.
+
+namespace gnomon::detail {
+
+/// A plane fit to a region.
+struct region_plane {
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< [m]
+    double chi2 = 1.0;  ///< mean squared deviation of the points, in variances of their noise
+    bool is_determined = false;
+    bool is_seen = false;  ///< not edge-on, as the planes of scan lines are
+
+    /// The variance of points of the region, in variances of their noise: up to four times that,
+    /// where surfaces are rough.
+    [[nodiscard]] double excess() const { return std::clamp(chi2, 1.0, most_excess); }
+
+    static constexpr double most_excess = 4.0;  // chosen
+};
+
+/// The sums, with positions relative to an origin [m] that is the same for all regions.
+struct plane_sums {
+    weighted_moments positions;                      ///< weight: 1 / sigma^2 [1 / m^2]
+    Eigen::Matrix3d rays = diagonal(0.0, 0.0, 0.0);  ///< weighted; lower triangle only
+    std::size_t count = 0;                           ///< of the points
+
+    void add(const Eigen::Vector3d& offset, const point_noise& noise) {
+        const double w = 1.0 / (noise.sigma * noise.sigma);
+        positions.add(offset, w);
+        if (noise.has_ray()) {
+            for (int j = 0; j < 3; ++j)
+                for (int i = j; i < 3; ++i) rays(i, j) += w * noise.ray[i] * noise.ray[j];
+        } else {
+            for (int j = 0; j < 3; ++j) rays(j, j) += w;
+        }
+        ++count;
+    }
+
+    void add(const plane_sums& more) {
+        positions.weight += more.positions.weight;
+        positions.sum = combined(1.0, positions.sum, 1.0, more.positions.sum);
+        for (int j = 0; j < 3; ++j) {
+            for (int i = j; i < 3; ++i) {
+                positions.outer(i, j) += more.positions.outer(i, j);
+                rays(i, j) += more.rays(i, j);
+            }
+        }
+        count += more.count;
+    }
+
+    /// The mean squared cosine of the angles of incidence on a plane.
+    [[nodiscard]] double squared_cosine(const Eigen::Vector3d& n) const {
+        return dot(n, product(scaled_whole(rays, 1.0 / positions.weight), n));
+    }
+
+    /// The variance of the mean of the points across a plane by their noise [m^2].
+    [[nodiscard]] double noise_across(const Eigen::Vector3d& n) const {
+        return std::max(squared_cosine(n), least_cosine * least_cosine) / positions.weight;
+    }
+
+    /// The plane of the points, relative to the origin.
+    [[nodiscard]] region_plane fit() const {
+        region_plane f;
+        if (count == 0) return f;
+        f.centroid = positions.mean();
+        if (count < 3) return f;
+        const eigen_decomposition e = symmetric_eigen(positions.covariance());
+        if (!(e.values[1] > 1e-12 * e.values[0])) return f;
+        const Eigen::Vector3d n = column(e.vectors, 2);
+        f.plane = {n, dot(n, f.centroid)};
+        f.is_determined = true;
+        f.chi2 = chi2_of(std::max(0.0, e.values[2]), n);
+        f.is_seen = squared_cosine(n) >= edge_on * edge_on;
+        return f;
+    }
+
+    /// The mean squared deviation of the points from a plane, in variances of their noise.
+    [[nodiscard]] double chi2_about(const gnomon::plane& to) const {
+        const Eigen::Vector3d& n = to.normal;
+        const double off = to.signed_distance(positions.mean());
+        const double variance = dot(n, product(positions.covariance(), n)) + off * off;
+        return chi2_of(variance, n);
+    }
+
+  private:
+    /// @param variance  of the points across the plane [m^2]
+    [[nodiscard]] double chi2_of(double variance, const Eigen::Vector3d& normal) const {
+        return variance / (static_cast<double>(count) * noise_across(normal));
+    }
+};
+
+/// A region with its sums and its plane.
+struct planar_region {
+    plane_sums sums;
+    region_plane fit;
+    bool is_planar = true;  ///< else its points are not of the plane
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/planar_cloud.hpp --------------------------------------------
+
+/// @file
+/// What all steps of a segmentation into planes read of points: positions and noise.
+
+namespace gnomon::detail {
+
+/// Positions are relative to the first finite point, so that planes keep their digits far from the
+/// origin of the coordinates.
+class planar_cloud {
+  public:
+    template <execution X>
+    planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
+        : planar_cloud(index, curve, run, !index.viewpoints.empty()) {}
+
+    /// @param is_seen  whether the view points are known; the origin where there are none
+    template <execution X>
+    planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
+        : noise(noise_of_points(index, curve, run, is_seen)),
+          offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
+          index_(index) {
+        std::size_t first = 0;
+        while (first < index.size() && !index.is_finite(first)) ++first;
+        if (first < index.size()) origin = index[first];
+        for (std::size_t i = first; i < index.size(); ++i)
+            offsets[i] = difference(index[i], origin);
+    }
+
+    scratch<point_noise> noise;
+    scratch<Eigen::Vector3d> offsets;  ///< of the points, from the origin [m]
+    Eigen::Vector3d origin{0.0, 0.0, 0.0};
+
+    [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
+    [[nodiscard]] std::size_t size() const { return offsets.size(); }
+    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i]); }
+    /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
+    [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
+        return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
+    }
+
+  private:
+    const spatial_index& index_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/union_find.hpp ------------------------------------------------------
 
 /// @file
@@ -11555,521 +11912,327 @@ scratch<std::int32_t> number_by_size(Labels& labels) {
 }  // namespace detail
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/noisy_plane.hpp ---------------------------------------------
+// -------- gnomon/segmentation/detail/label_competition.hpp ---------------------------------------
 
 /// @file
-/// The plane of a flat segment, and how far noise displaces points from it. Noise acts along the
-/// rays: the more oblique these are, the smaller is its component across the surface.
+/// The competition of segments for points: each point goes to the plane that explains it best, and
+/// rather to that of most of its neighbors.
 
 namespace gnomon::detail {
 
-/// From where point i was seen [m]; not finite where that is not known.
-[[nodiscard]] inline Eigen::Vector3d known_viewpoint(const viewpoint_table& viewpoints,
-                                                     std::size_t i) {
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return viewpoints.empty() ? Eigen::Vector3d(unknown, unknown, unknown) : viewpoints[i];
-}
+inline constexpr int most_rounds = 6;  // of the competition; chosen
 
-/// A point of a segment, and the ray to it.
-struct observed_point {
-    Eigen::Vector3d position;  ///< [m]
-    Eigen::Vector3d ray;       ///< from its view point [m]; not finite where that is not known
-    double range;              ///< the length of the ray [m]
-
-    // Uninitialized, as Eigen's vectors are: arrays of these are written once.
-    observed_point() {}  // NOLINT(modernize-use-equals-default)
-    observed_point(const Eigen::Vector3d& p, const Eigen::Vector3d& viewpoint)
-        : position(p), ray(difference(p, viewpoint)), range(length(ray)) {}
-};
-
-/// The plane of the points of a segment that is wide enough for the direction of least variance to
-/// be its normal; plane_sample is for narrow ones.
-class noisy_plane {
+/// Labels that compete for a point: each plane by how far the point is from it, and by how many of
+/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
+class label_competition {
   public:
-    /// A point of the plane is at most this number of standard deviations from it.
-    static constexpr double at_most = 3.0;
-
-    /// That of a segment that is not flat.
-    noisy_plane() = default;
-
-    /// A segment is flat if it is no thicker than twice `sigma`, the standard deviation of ranges
-    /// [m], but wider. It may contain points of adjacent surfaces: the weight of a point decreases
-    /// with its distance, and is zero beyond `at_most` (the biweight of Beaton and Tukey 1974).
-    /// Points that are not finite are ignored. O(n).
-    noisy_plane(std::span<const observed_point> points, double sigma) : sigma_(sigma) {
-        const principal_frame frame = principal_axes_of(moments_about_first(positions{points}));
-        is_flat_ = frame.spectrum.lambda[1] >= sigma * sigma &&
-                   frame.spectrum.lambda[2] <= 4.0 * sigma * sigma;
-        take(frame.normal(), frame.centroid);
-        constexpr int passes = 5;
-        for (int pass = 0; is_flat_ && pass < passes; ++pass) {
-            weighted_moments m;
-            for (const observed_point& p : points) {
-                const double deviation = deviation_at(p.ray, p.range);
-                const double off = distance(p.position) / (at_most * deviation);
-                if (!(std::abs(off) < 1.0)) continue;
-                const double root_of_weight = (1.0 - off * off) * (sigma / deviation);
-                m.add(difference(p.position, frame.centroid), root_of_weight * root_of_weight);
-            }
-            is_flat_ = m.weight > 0.0;
-            if (is_flat_)
-                take(column(symmetric_eigen(m.covariance()).vectors, 2),
-                     combined(1.0, frame.centroid, 1.0, m.mean()));
-        }
+    /// Begins with the labels of the neighbors of a point.
+    template <class Neighbors>
+    void begin(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
+        around_.clear();
+        for (const point_index j : neighbors)
+            if (labels[j] != unlabeled) around_.push_back(labels[j]);
+        if (own != unlabeled) around_.push_back(own);
+        std::sort(around_.begin(), around_.end());
+        own_ = own;
+        neighbors_ = static_cast<double>(std::max<std::size_t>(neighbors.size(), 1));
     }
 
-    [[nodiscard]] bool is_flat() const { return is_flat_; }
-
-    /// Of unit length, and either sign.
-    [[nodiscard]] const Eigen::Vector3d& normal() const { return plane_.normal; }
-
-    /// Of p from the plane, with a sign [m].
-    [[nodiscard]] double distance(const Eigen::Vector3d& p) const {
-        return plane_.signed_distance(p);
-    }
-
-    /// p, moved into the plane.
-    [[nodiscard]] Eigen::Vector3d foot_of(const Eigen::Vector3d& p) const {
-        return combined(1.0, p, -distance(p), plane_.normal);
-    }
-
-    /// The standard deviation [m] that noise gives a point at p across the plane; that of ranges if
-    /// the view point is not known. At least a third of that, as no surface is an exact plane.
-    [[nodiscard]] double deviation_at(const Eigen::Vector3d& p,
-                                      const Eigen::Vector3d& viewpoint) const {
-        const Eigen::Vector3d ray = difference(p, viewpoint);
-        return deviation_at(ray, length(ray));
-    }
-
-  private:
-    /// The positions of points.
-    struct positions {
-        std::span<const observed_point> points;
-
-        [[nodiscard]] std::size_t size() const { return points.size(); }
-        [[nodiscard]] const Eigen::Vector3d& operator[](std::size_t i) const {
-            return points[i].position;
-        }
-    };
-
-    [[nodiscard]] double deviation_at(const Eigen::Vector3d& ray, double range) const {
-        const double cosine = std::abs(dot(plane_.normal, ray)) / range;
-        return std::isfinite(cosine) ? sigma_ * std::max(cosine, 1.0 / 3.0) : sigma_;
-    }
-
-    void take(const Eigen::Vector3d& normal, const Eigen::Vector3d& through) {
-        plane_ = {normal, dot(normal, through)};
-    }
-
-    plane plane_;
-    double sigma_ = 0.0;
-    bool is_flat_ = false;
-};
-
-/// The plane of some points of an index. O(n).
-/// @param observed  memory for one observed_point each
-[[nodiscard]] inline noisy_plane noisy_plane_of(const spatial_index& points,
-                                                std::span<const point_index> members, double sigma,
-                                                std::span<observed_point> observed) {
-    std::transform(members.begin(), members.end(), observed.begin(), [&](point_index i) {
-        return observed_point(points[i], known_viewpoint(points.viewpoints, i));
-    });
-    return noisy_plane(observed, sigma);
-}
-
-/// The planes of all segments, in their order. O(n).
-template <execution X>
-[[nodiscard]] scratch<noisy_plane> planes_of_segments(const spatial_index& points,
-                                                      const segments& parts, double sigma,
-                                                      const X& run) {
-    scratch<noisy_plane> planes(parts.size());
-    // One array for all threads: the memory in use does not depend on which segments are fitted at
-    // the same time.
-    scratch<observed_point> observed(points.size());
-    scratch<std::size_t> begin(parts.size(), 0);
-    for (std::size_t s = 1; s < parts.size(); ++s) begin[s] = begin[s - 1] + parts[s - 1].size();
-    run(parts.size(), [&](std::size_t s) {
-        const auto own = std::span(observed).subspan(begin[s], parts[s].size());
-        planes[s] = noisy_plane_of(points, parts[s], sigma, own);
-    });
-    return planes;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/segmentation/detail/unlabeled_cubes.hpp -----------------------------------------
-
-/// @file
-/// The unlabeled points of a cloud, summed up in small cubes: the sum of the distances of many
-/// points from a plane follows from their number and their mean, so that thousands of points at one
-/// place cost hardly more than a few.
-
-namespace gnomon::detail {
-
-/// Whether the unlabeled points near a cube are on the plane of a segment.
-struct plane_judgement {
-    std::int32_t segment;
-    bool is_on_plane;
-};
-
-/// The unlabeled points of a cube.
-struct unlabeled_cube {
-    Eigen::Vector3d mean;       ///< of the points [m]
-    Eigen::Vector3d viewpoint;  ///< the mean of their view points [m]; not finite if unknown
-    double count;               ///< number of points
-    double squared_reach;       ///< largest squared distance of a neighbor from its point [m^2]
-    scratch<plane_judgement> judged = {};
-};
-
-/// An unlabeled point and the number of its cube.
-struct unlabeled_point {
-    point_index point;
-    std::size_t cube;
-};
-
-/// The cubes with unlabeled points. They are aligned with the least coordinates of these points, so
-/// that the position of the cloud has no influence.
-template <neighborhood_graph G>
-class unlabeled_cubes {
-  public:
-    /// @param graph  the neighbors of each unlabeled point, nearest first
-    /// @param sigma  standard deviation of ranges [m]
-    unlabeled_cubes(const spatial_index& points, std::span<const std::int32_t> labels,
-                    const G& graph, double sigma)
-        : tree_(points.tree()), side_(side * sigma) {
-        const scratch<placed> all = placed_points(points, labels);
-        unlabeled_.reserve(all.size());
-        scratch<point_index> first_points;
-        for (auto first = all.begin(); first != all.end();) {
-            const auto last = std::find_if(
-                first, all.end(), [&](const placed& other) { return other.cube != first->cube; });
-            first_points.push_back(first->point);
-            add_cube(points, graph, std::span(first, last));
-            first = last;
-        }
-        found_by_.assign(tree_, first_points);
-        in_tree_order_.resize(cubes_.size());
-        for (std::size_t c = 0; c < cubes_.size(); ++c)
-            in_tree_order_[found_by_.rank(tree_.place_of(first_points[c]))] = {cubes_[c].mean,
-                                                                               cubes_[c].count};
-    }
-
-    /// The unlabeled finite points, cube by cube.
-    [[nodiscard]] std::span<const unlabeled_point> points() const { return unlabeled_; }
-    [[nodiscard]] unlabeled_cube& operator[](std::size_t cube) { return cubes_[cube]; }
-
-    /// Calls visit(mean, count) for all cubes whose means are within a radius [m] of p, and for
-    /// others near them. The index finds each cube by one of its points, which is no farther from
-    /// the mean than the diagonal of the cube.
-    void for_each_near(const Eigen::Vector3d& p, double radius, auto&& visit) const {
-        const double diagonal = std::sqrt(3.0) * side_;
-        for_each_leaf_within(tree_, found_by_, p, radius + diagonal,
-                             [&](std::size_t begin, std::size_t end) {
-                                 for (std::size_t c = begin; c < end; ++c)
-                                     visit(in_tree_order_[c].mean, in_tree_order_[c].count);
-                             });
-    }
-
-  private:
-    /// In standard deviations of ranges: so narrow that the position of the grid has no influence.
-    /// Chosen here, not in the thesis.
-    static constexpr double side = 0.75;
-
-    struct placed {
-        std::array<double, 3> cube;
-        point_index point;
-        auto operator<=>(const placed&) const = default;
-    };
-
-    /// The part of a cube that others read.
-    struct summary {
-        Eigen::Vector3d mean;  // [m]
-        double count;
-    };
-
-    /// The unlabeled points, sorted by cube.
-    [[nodiscard]] scratch<placed> placed_points(const spatial_index& points,
-                                                std::span<const std::int32_t> labels) const {
-        const auto is_unlabeled = [&](std::size_t i) {
-            return labels[i] == unlabeled && points.is_finite(i);
-        };
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        Eigen::Vector3d least(infinity, infinity, infinity);
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!is_unlabeled(i)) continue;
-            ++count;
-            const Eigen::Vector3d p = points[i];
-            for (int a = 0; a < 3; ++a) least[a] = std::min(least[a], p[a]);
-        }
-        scratch<placed> all;
-        all.reserve(count);
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!is_unlabeled(i)) continue;
-            const Eigen::Vector3d p = difference(points[i], least);
-            const auto cell = [&](int a) { return std::floor(p[a] / side_); };
-            all.push_back({{cell(0), cell(1), cell(2)}, static_cast<point_index>(i)});
-        }
-        std::sort(all.begin(), all.end());
-        return all;
-    }
-
-    void add_cube(const spatial_index& points, const G& graph, std::span<const placed> members) {
-        const Eigen::Vector3d origin = points[members.front().point];
-        moments m, seen_from;
-        double squared_reach = 0.0;
-        for (const placed& member : members) {
-            const Eigen::Vector3d p = points[member.point];
-            m.add(difference(p, origin));
-            seen_from.add(known_viewpoint(points.viewpoints, member.point));
-            if (const auto neighbors = graph[member.point]; !neighbors.empty())
-                squared_reach =
-                    std::max(squared_reach, squared_distance(points[neighbors.back()], p));
-            unlabeled_.push_back({member.point, cubes_.size()});
-        }
-        const auto n = static_cast<double>(m.count);
-        cubes_.push_back({combined(1.0, origin, 1.0 / n, m.sum), scaled(1.0 / n, seen_from.sum), n,
-                          squared_reach});
-    }
-
-    const leaf_tree& tree_;
-    double side_;                         // [m]
-    scratch<unlabeled_point> unlabeled_;  // cube by cube
-    scratch<unlabeled_cube> cubes_;
-    place_set found_by_;              // a point of each cube
-    scratch<summary> in_tree_order_;  // the cubes, in the order of these points
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/segmentation/detail/unlabeled_assigner.hpp --------------------------------------
-
-/// @file
-/// The growth of planar segments into the unlabeled points next to them.
-
-namespace gnomon::detail {
-
-/// One run over a cloud.
-template <neighborhood_graph G>
-class unlabeled_assigner {
-  public:
-    /// @param graph         the neighbors of each unlabeled point, nearest first
-    /// @param labels        those of the segments
-    /// @param planes        those of the segments
-    /// @param sigma         standard deviation of ranges [m]
-    /// @param max_distance  of a point from a neighbor in the segment [m]
-    unlabeled_assigner(const spatial_index& points, const G& graph, scratch<std::int32_t> labels,
-                       std::span<const noisy_plane> planes, double sigma, double max_distance)
-        : points_(points),
-          graph_(graph),
-          sigma_(sigma),
-          max_distance_(max_distance),
-          labels_(std::move(labels)),
-          planes_(planes),
-          cubes_(points, labels_, graph, sigma) {
-        list_reverse_neighbors();
-    }
-
-    /// Segments grow by one layer of unlabeled points after the other, until none is assigned.
-    /// @return the labels
-    template <execution X>
-    [[nodiscard]] scratch<std::int32_t> operator()(const X& run) {
-        scratch<std::size_t> layer(cubes_.points().size());
-        std::iota(layer.begin(), layer.end(), std::size_t{0});
-        scratch<std::int32_t> claims;
-        scratch<std::size_t> begin, next;
-        while (!layer.empty()) {
-            begin.clear();  // where the points of each cube begin in the layer
-            for (std::size_t l = 0; l < layer.size(); ++l)
-                if (l == 0 || unlabeled_at(layer[l]).cube != unlabeled_at(layer[l - 1]).cube)
-                    begin.push_back(l);
-            begin.push_back(layer.size());
-            claims.resize(layer.size());
-            for_each_chunk(run, begin.size() - 1, [&](std::size_t first, std::size_t last) {
-                for (std::size_t l = begin[first]; l < begin[last]; ++l)
-                    claims[l] = claim_to(unlabeled_at(layer[l]));
-            });
-            next.clear();  // the points with a neighbor that has been assigned
-            for (std::size_t l = 0; l < layer.size(); ++l) {
-                if (claims[l] == unlabeled) continue;
-                const std::size_t s = layer[l];
-                labels_[unlabeled_at(s).point] = claims[l];
-                for (std::size_t f = first_reverse_[s]; f < first_reverse_[s + 1]; ++f)
-                    next.push_back(reverse_[f]);
-            }
-            std::erase_if(next, [&](auto s) { return labels_[unlabeled_at(s).point] >= 0; });
-            std::sort(next.begin(), next.end());
-            next.erase(std::unique(next.begin(), next.end()), next.end());
-            layer.swap(next);
-        }
-        return std::move(labels_);
-    }
-
-  private:
-    [[nodiscard]] const unlabeled_point& unlabeled_at(std::size_t s) const {
-        return cubes_.points()[s];
-    }
-
-    /// Reverse neighbor lists: for each unlabeled point, those that it is a neighbor of.
-    void list_reverse_neighbors() {
-        const auto all = cubes_.points();
-        constexpr point_index none = std::numeric_limits<point_index>::max();
-        scratch<point_index> number(points_.size(), none);
-        for (std::size_t s = 0; s < all.size(); ++s)
-            number[all[s].point] = static_cast<point_index>(s);
-        const auto for_each_link = [&](auto&& visit) {
-            for (std::size_t s = 0; s < all.size(); ++s)
-                for (const point_index j : graph_[all[s].point])
-                    if (number[j] != none) visit(static_cast<point_index>(s), number[j]);
-        };
-        first_reverse_.assign(all.size() + 1, 0);
-        for_each_link([&](point_index, point_index to) { ++first_reverse_[to + 1]; });
-        std::partial_sum(first_reverse_.begin(), first_reverse_.end(), first_reverse_.begin());
-        reverse_.resize(first_reverse_.back());
-        scratch<std::size_t> place(first_reverse_.begin(), first_reverse_.end() - 1);
-        for_each_link([&](point_index s, point_index to) { reverse_[place[to]++] = s; });
-    }
-
-    /// The segment to which an unlabeled point is assigned in this round: of those among its
-    /// neighbors whose plane it is on, the one with the nearest plane.
-    std::int32_t claim_to(const unlabeled_point& s) {
-        const Eigen::Vector3d p = points_[s.point];
-        const Eigen::Vector3d viewpoint = known_viewpoint(points_.viewpoints, s.point);
+    /// The best label; unlabeled if none is possible.
+    /// @param misfit  misfit(label): the square of the deviation of the point, in variances of its
+    ///                region; negative if it is impossible
+    [[nodiscard]] std::int32_t winner(auto&& misfit) const {
+        constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
         std::int32_t best = unlabeled;
-        double least = std::numeric_limits<double>::infinity();
-        for (const point_index j : graph_[s.point]) {
-            if (squared_distance(points_[j], p) > max_distance_ * max_distance_) break;
-            const std::int32_t segment = labels_[j];
-            if (segment == unlabeled || segment == best) continue;
-            const noisy_plane& of = planes_[static_cast<std::size_t>(segment)];
-            const double distance = std::abs(of.distance(p));
-            if (!of.is_flat() || distance >= least || distance > thickness(of, p, viewpoint) ||
-                !are_on_plane(segment, cubes_[s.cube]))
-                continue;
-            best = segment;
-            least = distance;
+        double least = 0.0;
+        for (auto first = around_.begin(); first != around_.end();) {
+            const auto last = std::upper_bound(first, around_.end(), *first);
+            const std::int32_t label = *first;
+            const double agree = static_cast<double>(last - first) - (label == own_ ? 1.0 : 0.0);
+            first = last;
+            const double squared = misfit(label);
+            if (squared < 0.0) continue;
+            const double cost = 0.5 * squared + potts * (1.0 - agree / neighbors_);
+            if (best == unlabeled || cost < least) {
+                best = label;
+                least = cost;
+            }
         }
         return best;
     }
 
-    /// Whether the unlabeled points in the slab about the plane of a segment, near a cube, are on
-    /// the plane: whether their mean is, within the noise of a mean.
-    bool are_on_plane(std::int32_t segment, unlabeled_cube& near) {
-        const auto known =
-            std::find_if(near.judged.begin(), near.judged.end(),
-                         [segment](const plane_judgement& j) { return j.segment == segment; });
-        if (known != near.judged.end()) return known->is_on_plane;
-        const noisy_plane& of = planes_[static_cast<std::size_t>(segment)];
-        const double thick = thickness(of, near.mean, near.viewpoint);
-        // So wide that noise does not decide which cubes are near.
-        const double wide = noisy_plane::at_most * sigma_;
-        const double width2 = std::max(wide * wide, near.squared_reach);
-        double sum = 0.0, n = 0.0;
-        const Eigen::Vector3d foot = of.foot_of(near.mean);
-        const double reach2 = width2 + thick * thick;
-        cubes_.for_each_near(
-            foot, std::sqrt(reach2), [&](const Eigen::Vector3d& mean, double count) {
-                const double squared = squared_distance(mean, foot);
-                const double off = of.distance(mean);
-                // Without branches, which are hard to predict here: performance only.
-                const bool is_in = bool(squared <= reach2) & bool(std::abs(off) <= thick) &
-                                   bool(squared - off * off <= width2);
-                const double weight = is_in ? count : 0.0;
-                sum += weight * off;
-                n += weight;
-            });
-        constexpr double no_noise = 0.1;  // in standard deviations: no surface is an exact plane
-        const bool is_on_plane =
-            n > 0.0 && std::abs(sum) <= thick * std::sqrt(n) + no_noise * sigma_ * n;
-        near.judged.push_back({segment, is_on_plane});
-        return is_on_plane;
-    }
-
-    /// Half the thickness of the slab about a plane [m].
-    static double thickness(const noisy_plane& of, const Eigen::Vector3d& p,
-                            const Eigen::Vector3d& viewpoint) {
-        return noisy_plane::at_most * of.deviation_at(p, viewpoint);
-    }
-
-    const spatial_index& points_;
-    const G& graph_;
-    double sigma_, max_distance_;  // [m]
-    scratch<std::int32_t> labels_;
-    std::span<const noisy_plane> planes_;  // of the segments
-    unlabeled_cubes<G> cubes_;
-    scratch<std::size_t> first_reverse_;
-    scratch<point_index> reverse_;  // numbers of unlabeled points
+  private:
+    scratch<std::int32_t> around_;  // sorted
+    std::int32_t own_ = unlabeled;
+    double neighbors_ = 1.0;
 };
+
+/// The square of the deviation of a point from the plane of a region, in variances of the region;
+/// negative if it is too far. A region that is not planar is as near as a plane at one standard
+/// deviation.
+[[nodiscard]] inline double misfit_of(const Eigen::Vector3d& offset, const point_noise& noise,
+                                      const planar_region& to) {
+    if (!to.is_planar) return 1.0;
+    const plane& p = to.fit.plane;
+    const double deviations = p.signed_distance(offset) / noise.across(p.normal);
+    const double squared = deviations * deviations / to.fit.excess();
+    return squared <= most_deviations * most_deviations ? squared : -1.0;
+}
+[[nodiscard]] inline double misfit_of(const planar_cloud& cloud, std::size_t i,
+                                      const planar_region& to) {
+    return misfit_of(cloud.offsets[i], cloud.noise[i], to);
+}
+
+/// Whether a point is certainly not of the plane of a region, whatever its other points.
+[[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
+                                           const planar_region& region) {
+    const plane& p = region.fit.plane;
+    return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
+}
+
+/// The labels of the points of a cloud after one round.
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
+                                                             const G& graph,
+                                                             const scratch<planar_region>& regions,
+                                                             const auto& labels, const X& run) {
+    scratch<std::int32_t> next(labels.size(), unlabeled);
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        label_competition competition;
+        for (std::size_t i = begin; i < end; ++i) {
+            if (!cloud.is_finite(i)) continue;
+            competition.begin(graph[i], labels, labels[i]);
+            next[i] = competition.winner([&](std::int32_t label) {
+                return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
+            });
+        }
+    });
+    return next;
+}
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/assign_unlabeled.hpp -----------------------------------------------
+// -------- gnomon/segmentation/plane_estimate.hpp -------------------------------------------------
 
 /// @file
-/// Assigns unlabeled points to adjacent planar segments: points near edges, where normals are
-/// blended, and points so dense that their neighborhoods are hardly wider than the noise, so that
-/// the segmentation by normals loses them.
+/// The plane of a segment: fit to those of its points that are on it, with its covariance, and
+/// whether the segment is flat.
 ///
-/// A point may be within three standard deviations of a plane by chance, as points on the rim of a
-/// thin board are. (Noise acts along the rays: at oblique incidence, its component across the
-/// plane is smaller.) Therefore the mean of all unlabeled points in that slab about it is tested:
-/// if they are on the plane, it is no farther from the plane than the noise of a mean. (Not in the
-/// thesis, whose Alg. 4.2 leaves such points unlabeled; split_outliers is the reverse.)
+///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
 
 namespace gnomon {
 
-/// Parameters of `assign_unlabeled`.
-struct assign_unlabeled_options {
-    double sigma = 0.015;        ///< standard deviation of ranges [m]
-    std::size_t k = 20;          ///< a point is assigned to the segment of one of its k neighbors
-    double max_distance = 0.30;  ///< and no farther from this neighbor [m]
+/// A plane with its covariance.
+struct plane_estimate {
+    /// In Hesse normal form, towards the view point where one is known; without a normal if the
+    /// points do not determine one.
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
+    /// Unit columns: the directions of largest and second largest variance in the plane, and its
+    /// normal.
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
+    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid
+    /// [m].
+    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
+    double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
+    std::size_t points = 0;  ///< on the plane, which is fit to them
+    bool is_flat = false;    ///< whether the segment is of this plane
 };
 
 namespace detail {
 
-/// assign_unlabeled(index, parts, options, run), in the memory of `result`, which may be `parts`.
+/// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
+/// left out again and again, unless they are more than half.
+template <class Cloud>
+struct plane_of_members {
+    planar_region region;
+    bool is_flat = false;
+
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members)
+        : plane_of_members(cloud, members, cloud) {}
+
+    /// @param exact  the same points, with the noise of each for itself
+    plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
+        region = sums_of(cloud, members, [](point_index) { return true; });
+        const std::size_t all = region.sums.count;
+        constexpr int most_passes = 5;
+        for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
+            const planar_region on =
+                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
+            if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+            const bool rests = on.sums.count == region.sums.count;
+            region = on;
+            if (rests) break;
+        }
+        is_flat = region.fit.is_determined && region.fit.is_seen &&
+                  region.fit.chi2 <= region_plane::most_excess &&
+                  4 * region.sums.count >= 3 * all && off_it(exact, members) < fewest_off;
+    }
+
+    /// Whether point i is on the plane of a region.
+    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
+        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+    }
+
+  private:
+    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
+
+    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
+                                               std::span<const point_index> members, auto&& of) {
+        planar_region some;
+        for (const point_index i : members)
+            if (cloud.is_finite(i) && of(i)) cloud.add(i, some.sums);
+        some.fit = some.sums.fit();
+        return some;
+    }
+
+    /// Whether point i is certainly not on the plane, however rough it is.
+    [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
+        const plane& p = region.fit.plane;
+        return std::abs(p.signed_distance(cloud.offsets[i])) >
+               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
+    }
+
+    /// How many points are certainly not on the plane.
+    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
+                                     std::span<const point_index> members) const {
+        std::size_t off = 0;
+        for (const point_index i : members)
+            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
+        return off;
+    }
+};
+
+/// The planes of segments, as regions.
 template <execution X>
-void assign_unlabeled_into(segments& result, const spatial_index& points, const segments& parts,
-                           const assign_unlabeled_options& options, const X& run) {
-    require(parts.labels().size() == points.size(),
-            "assign_unlabeled: the numbers of points and of labels differ");
-    require(options.sigma > 0.0, "assign_unlabeled: sigma must be greater than 0");
-    require(options.k > 0, "assign_unlabeled: k must be at least 1");
-    require(options.max_distance >= 0.0,
-            "assign_unlabeled: max_distance must not be negative or NaN");
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    const scratch_graph graph = graph_of_some(
-        options.k, [&](std::size_t i) { return labels[i] == unlabeled; }, points, run);
-    const auto planes = planes_of_segments(points, parts, options.sigma, run);
-    labels = unlabeled_assigner(points, graph, std::move(labels), planes, options.sigma,
-                                options.max_distance)(run);
-    number_by_size(labels);
-    result.assign(labels);
+[[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
+                                                const X& run) {
+    scratch<planar_region> regions(parts.size());
+    run(parts.size(), [&](std::size_t s) {
+        const plane_of_members found(cloud, parts[s]);
+        regions[s] = found.region;
+        regions[s].is_planar = found.is_flat;
+    });
+    return regions;
+}
+
+/// The plane of some points of a cloud, with its covariance.
+/// @param exact  the same points, with the noise of each for itself
+template <class Cloud>
+[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
+                                         const Cloud& exact) {
+    const plane_of_members found(cloud, members, exact);
+    const plane_sums& sums = found.region.sums;
+    const region_plane& fit = found.region.fit;
+    plane_estimate e;
+    e.points = sums.count;
+    if (e.points == 0) return e;
+    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
+    if (!fit.is_determined) return e;
+    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
+    // That of a point that is not finite is not known.
+    const auto seen = std::find_if(members.begin(), members.end(), [&](point_index i) {
+        return cloud.is_finite(i) && cloud.noise[i].has_ray();
+    });
+    const bool is_away =
+        seen != members.end() && dot(fit.plane.normal, cloud.noise[*seen].ray) > 0.0;
+    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
+    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
+    for (int i = 0; i < 3; ++i) {
+        e.axes(i, 0) = first[i];
+        e.axes(i, 1) = second[i];
+        e.axes(i, 2) = n[i];
+    }
+    e.plane = {n, dot(n, e.centroid)};
+    e.chi2 = fit.chi2;
+    e.is_flat = found.is_flat;
+    // A turn about one axis moves the points along the other one.
+    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
+    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
+    return e;
 }
 
 }  // namespace detail
 
-/// The segments with the unlabeled points that are on their planes. Segments that are thicker than
-/// twice `sigma`, or narrower than it, do not grow. No point changes from one segment to another.
+/// The planes of segments.
 ///
 /// @param points  any point range of n points [m]; where view points are known, noise lies along
 ///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
-/// @return the segments, largest first; the same bytes for every execution
-/// @throws std::invalid_argument  if points, segments or view points differ in number, or unless
-///                                sigma is greater than 0, k at least 1 and max_distance not
-///                                negative
-/// Complexity: O(n (log n + k^2)) at worst, and a slab of cubes narrower than sigma for each pair
-/// of a cube with unlabeled points and a segment adjacent to it.
+/// @param noise   of the sensor
+/// @return an estimate for each segment. It is flat if three of four of its points are on the
+///         plane, within three standard deviations, fewer than 30 are farther from it than five,
+///         and the noise explains at least a quarter of the variance
+/// @throws std::invalid_argument  if points, segments or view points differ in number
+/// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] segments assign_unlabeled(const R& points, const segments& parts,
-                                        const assign_unlabeled_options& options = {},
-                                        const X& run = {}, Proj projection = {}) {
+[[nodiscard]] std::vector<plane_estimate> estimate_planes(const R& points, const segments& parts,
+                                                          const noise_curve& noise,
+                                                          const X& run = {}, Proj projection = {}) {
     const auto& team = detail::staying(run);
-    segments result;
-    detail::assign_unlabeled_into(result, detail::index_of(points, team, projection), parts,
-                                  options, team);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(parts.labels().size() == index.size(),
+                    "estimate_planes: the numbers of points and of labels differ");
+    const detail::planar_cloud cloud(index, noise, team);
+    std::vector<plane_estimate> planes(parts.size());
+    team(parts.size(), [&](std::size_t s) {
+        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s], cloud);
+    });
+    return planes;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/assign_unlabeled.hpp -----------------------------------------------
+
+/// @file
+/// Assigns points to the segments next to them by competition: each point goes to that segment,
+/// among its own and those of its neighbors, whose plane explains it best. Points near edges, which
+/// a segmentation by normals leaves out or gives to the wrong side, come to the right one. (Not in
+/// the thesis. After variational shape approximation, Cohen-Steiner et al. 2004, with the Potts
+/// model of Isack and Boykov 2012.)
+
+namespace gnomon {
+
+/// The segments after the competition for points. A flat segment gets the points within three
+/// standard deviations of its plane, and loses those beyond to neighbors, or to none; for others a
+/// point counts as if it were one deviation away.
+///
+/// @param points  any point range of n points [m]; where view points are known, noise lies along
+///                the rays, else it is the same in all directions
+/// @param graph   the neighbors of each, as `knn{20}` finds them
+/// @param parts   segments of these points
+/// @param noise   of the sensor
+/// @return the segments, largest first; the same bytes for every execution
+/// @throws std::invalid_argument  if points, graph, segments or view points differ in number, or
+///                                the graph lists an index out of range
+/// Complexity: O(n k) for k neighbors in the graph, and an index if `points` is none.
+template <class R, neighborhood_graph G, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments assign_unlabeled(const R& points, const G& graph, const segments& parts,
+                                        const noise_curve& noise, const X& run = {},
+                                        Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
+                    "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
+    for (std::size_t i = 0; i < index.size(); ++i)
+        for (const point_index j : graph[i])
+            detail::require(j < index.size(),
+                            "assign_unlabeled: the graph has an index out of range");
+    const detail::planar_cloud cloud(index, noise, team);
+    segments result = parts;
+    for (int round = 0; round < detail::most_rounds; ++round) {
+        const auto regions = detail::regions_of(cloud, result, team);
+        auto labels =
+            detail::labels_after_competition(cloud, graph, regions, result.labels(), team);
+        if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
+        result.assign(labels);
+    }
+    detail::scratch<std::int32_t> labels(result.labels().begin(), result.labels().end());
+    detail::number_by_size(labels);
+    result.assign(labels);
     return result;
 }
 
@@ -12459,565 +12622,6 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/extend_segments.hpp ------------------------------------------------
-
-/// @file
-/// Extends smooth segments to their borders: they end a few points before an edge, where normals
-/// are blended, and have holes where normals are noisy. Such unlabeled points are assigned to the
-/// adjacent segment whose tangent planes they lie on, layer by layer. Labeled points keep their
-/// segment.
-///
-/// The last step of region growing in two thresholds (hysteresis): strict where surfaces are found,
-/// lenient where they are only extended.
-
-namespace gnomon {
-
-/// Parameters of `extend_segments`.
-struct extend_segments_options {
-    angle max_angle = degrees(20);  ///< between the normals of a point and of its new neighbors
-    int neighborhoods = 10;         ///< the largest number of layers
-};
-
-namespace detail {
-
-/// The segment, among those of the neighbors whose normals agree, with the least mean distance of
-/// point i from its tangent planes; unlabeled if there is none. Ties go to the smaller label.
-template <class Points, neighborhood_graph G, normal_range Surface>
-[[nodiscard]] std::int32_t nearest_segment(const Points& p, const G& graph, const Surface& surface,
-                                           const std::vector<std::int32_t>& labels, std::size_t i,
-                                           double min_cosine,
-                                           std::vector<std::pair<std::int32_t, double>>& votes) {
-    votes.clear();
-    for (const point_index j : graph[i]) {
-        const Eigen::Vector3d& n_j = surface[j].normal;
-        if (labels[j] == unlabeled || is_missing(n_j) || !is_finite(p[j])) continue;
-        if (std::abs(dot(surface[i].normal, n_j)) >= min_cosine)
-            votes.emplace_back(labels[j], std::abs(dot(n_j, difference(p[i], p[j]))));
-    }
-    std::sort(votes.begin(), votes.end());
-    std::int32_t best = unlabeled;
-    double least = 0.0;
-    for (auto first = votes.begin(); first != votes.end();) {
-        auto last = first;
-        double sum = 0.0;
-        for (; last != votes.end() && last->first == first->first; ++last) sum += last->second;
-        const double mean = sum / static_cast<double>(last - first);
-        if (best == unlabeled || mean < least) {
-            best = first->first;
-            least = mean;
-        }
-        first = last;
-    }
-    return best;
-}
-
-}  // namespace detail
-
-/// The segments, extended by adjacent unlabeled points.
-///
-/// @param points   any point range of n points
-/// @param graph    the neighbors of each: few, as each layer reaches one neighbor farther
-/// @param surface  a normal for each; points without one are left as they are
-/// @param found    segments of the n points
-/// @return the same segments, extended, largest first
-/// @throws std::invalid_argument  if points, graph, surface and segments differ in size, the graph
-///                                has an index out of range, or max_angle is outside [0, 90]
-///                                degrees
-/// Complexity: O(n k) for each layer. The same bytes for every execution.
-template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
-          class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments extend_segments(const R& points, const G& graph, const Surface& surface,
-                                       const segments& found,
-                                       const extend_segments_options& options = {},
-                                       const X& run = {}, Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "extend_segments: graph and points differ in size");
-    detail::require(std::ranges::size(surface) == p.size(),
-                    "extend_segments: surface and points differ in size");
-    detail::require(found.labels().size() == p.size(),
-                    "extend_segments: segments and points differ in number");
-    const double cosine = detail::min_cosine(options.max_angle);
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        for (const point_index j : graph[i])
-            detail::require(j < p.size(), "extend_segments: the graph has an index out of range");
-    }
-
-    std::vector<std::int32_t> labels = found.labels();
-    for (int neighbors = 0; neighbors < options.neighborhoods; ++neighbors) {
-        std::vector<std::int32_t> next = labels;
-        detail::for_each_chunk(run, p.size(), [&](std::size_t begin, std::size_t end) {
-            std::vector<std::pair<std::int32_t, double>> votes;
-            for (std::size_t i = begin; i < end; ++i) {
-                if (labels[i] != unlabeled || !is_finite(p[i]) || is_missing(surface[i].normal))
-                    continue;
-                next[i] = detail::nearest_segment(p, graph, surface, labels, i, cosine, votes);
-            }
-        });
-        if (next == labels) break;
-        labels = std::move(next);
-    }
-    detail::number_by_size(labels);
-    return segments(std::move(labels));
-}
-
-}  // namespace gnomon
-
-// -------- gnomon/segmentation/detail/axis_of_normals.hpp -----------------------------------------
-
-/// @file
-/// The axis of a surface of revolution: the line that its normals meet. Lines that meet one are a
-/// linear complex, so that the axis is an eigenvector (Pottmann and Randrup 1998, Rotational and
-/// helical surface approximation for reverse engineering).
-
-namespace gnomon::detail {
-
-/// The line through `place` [m] along a normal of either sign. Places are relative to some point
-/// among them.
-struct normal_line {
-    Eigen::Vector3d place, normal;
-};
-
-/// The axis that some lines meet best, in the least-squares sense.
-class axis_of_normals {
-  public:
-    /// Precondition: there are lines, and all of them are finite. O(n).
-    explicit axis_of_normals(std::span<const normal_line> lines) {
-        const double each = 1.0 / static_cast<double>(lines.size());
-        Eigen::Vector3d mean(0.0, 0.0, 0.0);
-        for (const normal_line& l : lines) mean = combined(1.0, mean, each, l.place);
-        Eigen::Matrix3d nn = diagonal(0.0, 0.0, 0.0), nx = nn, xx = nn;
-        double squared_size = 0.0;
-        for (const normal_line& l : lines) {
-            const Eigen::Vector3d p = difference(l.place, mean), x = cross(p, l.normal);
-            add_outer(nn, each, l.normal, l.normal);
-            add_outer(nx, each, l.normal, x);
-            add_outer(xx, each, x, x);
-            squared_size += each * dot(p, p);
-        }
-        // The moment of a line about the axis (a, m) is a . x + m . n: for a given a, the best m
-        // leaves a^T rest a of its square. A cylinder leaves open where along its axis m begins:
-        // by a slight pull, at the mean. A ball leaves the axis undetermined; for its visible
-        // half, the viewing direction is slightly better: normals pull the axis across them.
-        constexpr double pull = 0.01, turn = 0.1;
-        Eigen::Matrix3d pulled = nn;
-        for (int i = 0; i < 3; ++i) pulled(i, i) += pull;
-        const Eigen::Matrix3d inverse = inverse_of_symmetric(pulled);
-        Eigen::Matrix3d rest;
-        for (int j = 0; j < 3; ++j) {
-            const Eigen::Vector3d solved = product(inverse, column(nx, j));
-            for (int i = 0; i < 3; ++i)
-                rest(i, j) = xx(i, j) - dot(column(nx, i), solved) + turn * squared_size * nn(i, j);
-        }
-        direction_ = column(symmetric_eigen(rest).vectors, 2);
-        const Eigen::Vector3d moment = scaled(-1.0, product(inverse, product(nx, direction_)));
-        through_ = combined(1.0, mean, 1.0, cross(direction_, moment));
-        measure(lines);
-    }
-
-    /// By how much a line passes the axis, as seen along it, times the part of the normal across
-    /// it [m].
-    [[nodiscard]] double missed_by(const normal_line& l) const {
-        return std::abs(dot(cross(direction_, difference(l.place, through_)), l.normal));
-    }
-    /// The square of the part of a normal across the axis, 0 to 1.
-    [[nodiscard]] double across(const normal_line& l) const {
-        const double along = dot(direction_, l.normal);
-        return 1.0 - along * along;
-    }
-    /// The root mean square of what lines miss the axis by [m].
-    [[nodiscard]] double rms() const { return rms_; }
-    /// The mean distance of the places [m].
-    [[nodiscard]] double radius() const { return radius_; }
-    /// The mean square of the parts of normals across the axis, 0 to 1.
-    [[nodiscard]] double across() const { return across_; }
-    /// And of these the one way that it is less: 0 for a plane, 1/2 all round a cylinder.
-    [[nodiscard]] double turning() const { return turning_; }
-
-  private:
-    void measure(std::span<const normal_line> lines) {
-        const double each = 1.0 / static_cast<double>(lines.size());
-        Eigen::Matrix3d spread = diagonal(0.0, 0.0, 0.0);
-        double squares = 0.0;
-        for (const normal_line& l : lines) {
-            const Eigen::Vector3d across =
-                combined(1.0, l.normal, -dot(direction_, l.normal), direction_);
-            add_outer(spread, each, across, across);
-            squares += each * missed_by(l) * missed_by(l);
-            radius_ += each * length(cross(direction_, difference(l.place, through_)));
-        }
-        rms_ = std::sqrt(squares);
-        const Eigen::Vector3d values = symmetric_eigen(spread).values;
-        across_ = values[0] + values[1];
-        turning_ = values[1];
-    }
-
-    Eigen::Vector3d direction_, through_;
-    double rms_ = 0.0, radius_ = 0.0, across_ = 0.0, turning_ = 0.0;
-};
-
-/// The axis of the lines that miss it by at most 2.5 times the root mean square, or by a fifth of
-/// the radius.
-/// @param lines  a span of `normal_line`: the others are removed from it, and their content is
-/// unspecified
-[[nodiscard]] axis_of_normals robust_axis_of(auto& lines) {
-    constexpr double at_most = 2.5, near = 0.2;  // times the root mean square, times the radius
-    constexpr int passes = 5;
-    axis_of_normals axis(lines);
-    for (int pass = 0; pass < passes; ++pass) {
-        const double limit = std::max(at_most * axis.rms(), near * axis.radius());
-        const auto missing = std::remove_if(lines.begin(), lines.end(), [&](const normal_line& l) {
-            return !(axis.missed_by(l) <= limit);
-        });
-        if (missing == lines.end()) break;
-        lines = lines.first(static_cast<std::size_t>(missing - lines.begin()));
-        axis = axis_of_normals(lines);
-    }
-    return axis;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/segmentation/segment_surfaces.hpp -----------------------------------------------
-
-/// @file
-/// Smooth surfaces: neighboring points are one surface where their normals turn by at most a small
-/// angle. The search radius follows the density of the scan, so that the sparse rim of a rotational
-/// scan is treated like its dense middle.
-///
-/// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
-
-namespace gnomon {
-
-/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
-template <class S>
-concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
-    { surface[i].mean_distance } -> std::convertible_to<double>;
-};
-
-/// Parameters of Alg. 4.2, with the thesis's values.
-struct segment_surfaces_options {
-    angle max_angle = degrees(5);  ///< alpha_max between normals of neighbors
-    double max_distance = 0.30;    ///< rho_max [m], no link is longer; may be infinite
-    std::size_t min_points = 30;   ///< n_min, smaller segments are noise
-    /// Compare oriented normals, so that the two sides of a thin board, seen from two view points,
-    /// stay apart; the thesis compares |<n_i, n_j>|.
-    bool oriented = false;
-};
-
-namespace detail {
-
-/// The criterion and the search radius of Alg. 4.2.
-template <surfel_range Surface>
-class smooth_link {
-  public:
-    smooth_link(const Surface& surface, const segment_surfaces_options& options, std::size_t points)
-        : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
-        require(std::ranges::size(surface) == points,
-                "segment_surfaces: surface and points differ in size");
-        require(options.max_distance >= 0.0,
-                "segment_surfaces: max_distance must not be negative or NaN");
-    }
-
-    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
-    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
-    /// cloud changes nothing.
-    [[nodiscard]] double radius(std::size_t i) const {
-        if (is_missing(surface_[i].normal)) return no_search;
-        constexpr double margin = 1.0 + 1e-9;
-        return std::min(margin * static_cast<double>(surface_[i].mean_distance),
-                        options_.max_distance);
-    }
-
-    /// Whether the normal of the neighbor is there and agrees with that of i.
-    [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
-        const Eigen::Vector3d& n_j = surface_[q.index].normal;
-        if (is_missing(n_j)) return false;
-        const double cosine = surface_[i].normal.dot(n_j);
-        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
-    }
-
-  private:
-    const Surface& surface_;
-    segment_surfaces_options options_;
-    double min_cosine_;
-};
-
-/// segment_surfaces(index, surface, options, run), in the memory of `result`.
-template <surfel_range Surface, execution X>
-void segment_surfaces_into(segments& result, const spatial_index& index, const Surface& surface,
-                           const segment_surfaces_options& options, const X& run) {
-    const smooth_link<Surface> link(surface, options, index.size());
-    linker linker(index);
-    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
-    result.assign(linker.labels(options.min_points));
-}
-
-}  // namespace detail
-
-/// The smooth surfaces of a cloud, exact: every point within the radius is looked at.
-///
-/// @param points   any point range of n points
-/// @param surface  their n surface elements; where the normal is zero, nothing is joined
-/// @return the segments of at least `min_points` points, largest first
-/// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
-///                                max_distance or a max_angle outside [0, 90] degrees
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
-/// execution.
-template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
-                                        const segment_surfaces_options& options = {},
-                                        const X& run = {}, Proj projection = {}) {
-    const auto& team = detail::staying(run);
-    segments result;
-    detail::segment_surfaces_into(result, detail::index_of(points, team, projection), surface,
-                                  options, team);
-    return result;
-}
-
-/// The same over a stored graph: no second search, and of the points within the radius only those
-/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
-/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
-/// neighbors tie than the graph lists.
-/// @throws std::invalid_argument  also if graph and points differ in size
-template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
-          class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const G& graph, const Surface& surface,
-                                        const segment_surfaces_options& options = {},
-                                        const X& run = {}, Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "segment_surfaces: graph and points differ in size");
-    const detail::smooth_link<Surface> link(surface, options, p.size());
-    detail::linker linker(p);
-    linker.link_listed(
-        graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
-    return linker.result(options.min_points);
-}
-
-}  // namespace gnomon
-
-// -------- gnomon/segmentation/join_surfaces_of_revolution.hpp ------------------------------------
-
-/// @file
-/// Joining of surfaces of revolution (vases, cups, columns), which a segmentation by normals
-/// oversegments where they turn faster than its threshold from point to point. A few points do not
-/// distinguish them from an edge that is blended by large neighborhoods; the whole does: the
-/// normals of a surface of revolution all meet its axis, those of a box miss any axis by a good
-/// part of its width.
-///
-/// (Not in the thesis, whose Alg. 4.2 is for surfaces that turn by at most 5 degrees from point to
-/// point, as a vase does that is larger or scanned more densely.)
-
-namespace gnomon {
-
-/// Parameters of `join_surfaces_of_revolution`.
-struct join_surfaces_of_revolution_options {
-    double sigma = 0.015;  ///< standard deviation of ranges [m]: radii of 2 sigma can be told
-    /// Largest mean distance of the points of a joined segment from its axis [m]; a segment may be
-    /// joined if it is at most four times as long.
-    double max_radius = 0.25;
-    double max_distance = 0.30;   ///< between points that are connected [m]; rho_max
-    std::size_t min_points = 30;  ///< the smallest size of a joined segment
-};
-
-namespace detail {
-
-/// Whether lines are the normals of a surface of revolution: eight in ten miss a common axis by a
-/// sixth of the radius at most, and they turn about it by at least 80 degrees. The normals of a
-/// disk are excluded, which are parallel to its axis.
-template <class Line>
-[[nodiscard]] bool are_of_something_round(std::span<Line> lines,
-                                          const join_surfaces_of_revolution_options& options) {
-    constexpr double least_share = 0.8, most_missed = 1.0 / 6.0;
-    constexpr double least_across = 0.62;   // of a ball, 2/3
-    constexpr double least_turning = 0.12;  // the variance of the sine of up to 37 degrees
-    const double all = static_cast<double>(lines.size());
-    const axis_of_normals axis = robust_axis_of(lines);
-    return static_cast<double>(lines.size()) >= least_share * all &&
-           axis.rms() <= most_missed * axis.radius() && axis.radius() >= 2.0 * options.sigma &&
-           axis.radius() <= options.max_radius && axis.across() >= least_across &&
-           axis.turning() >= least_turning;
-}
-
-/// One run over a cloud.
-template <class Surface>
-class revolution_joiner {
-  public:
-    revolution_joiner(const spatial_index& points, const Surface& surface, const segments& parts,
-                      const join_surfaces_of_revolution_options& options)
-        : points_(points),
-          surface_(surface),
-          parts_(parts),
-          options_(options),
-          sets_(points_.size()) {}
-
-    /// The labels after joining.
-    template <execution X>
-    [[nodiscard]] scratch<std::int32_t> operator()(const X& run) {
-        const scratch<point_index> some = candidates();
-        join_near(some, run);
-        scratch<char> is_candidate(points_.size(), false);
-        for (const point_index i : some) is_candidate[i] = true;
-        const label_groups groups(labels_of_sets(
-            sets_, options_.min_points, [&](std::size_t i) { return is_candidate[i] != 0; }));
-        scratch<std::int32_t> labels(parts_.labels().begin(), parts_.labels().end());
-        // One array for all threads: the memory in use does not depend on which groups are tested
-        // at the same time.
-        scratch<std::size_t> begin(groups.size() + 1, 0);
-        for (std::size_t g = 0; g < groups.size(); ++g) begin[g + 1] = begin[g] + groups[g].size();
-        scratch<normal_line> lines(begin.back());
-        run(groups.size(), [&](std::size_t g) {
-            const auto own = std::span(lines).subspan(begin[g], groups[g].size());
-            if (!are_of_something_round(normal_lines(groups[g], own), options_)) return;
-            for (const point_index i : without_disks(groups[g], own))
-                labels[i] = static_cast<std::int32_t>(parts_.size() + g);
-        });
-        number_by_size(labels);
-        return labels;
-    }
-
-  private:
-    [[nodiscard]] bool has_normal(std::size_t i) const {
-        return is_finite(points_[i]) && all_finite(Eigen::Vector3d(surface_[i].normal)) &&
-               !is_missing(surface_[i].normal);
-    }
-
-    /// Points with a normal that are unlabeled, or of a segment small enough to be part of a
-    /// surface of revolution, ascending; the points of such a segment stay together.
-    [[nodiscard]] scratch<point_index> candidates() {
-        scratch<char> may_be_piece(parts_.size());
-        for (std::size_t s = 0; s < parts_.size(); ++s) {
-            may_be_piece[s] = is_small(parts_[s]);
-            if (may_be_piece[s] == 0) continue;
-            for (const point_index i : parts_[s]) sets_.unite(parts_[s].front(), i);
-        }
-        scratch<point_index> some;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            const std::int32_t label = parts_.labels()[i];
-            if ((label == unlabeled || may_be_piece[static_cast<std::size_t>(label)] != 0) &&
-                has_normal(i))
-                some.push_back(static_cast<point_index>(i));
-        }
-        return some;
-    }
-
-    /// No wider than half of a cylinder, the variance of whose width is half of its squared radius,
-    /// and no longer than four radii: excludes the step of a stair on which a vase stands and to
-    /// which a few unlabeled points connect it.
-    [[nodiscard]] bool is_small(std::span<const point_index> part) const {
-        scratch<Eigen::Vector3d> positions;
-        positions.reserve(part.size());
-        for (const point_index i : part) positions.push_back(points_[i]);
-        const auto spread = principal_axes_of(moments_about_first(positions)).spectrum.lambda;
-        const double squared_radius = options_.max_radius * options_.max_radius;
-        return spread[1] <= 0.5 * squared_radius && spread[0] <= 16.0 / 12.0 * squared_radius;
-    }
-
-    /// Unites connected points as Alg. 4.2 does, whatever the angle between their normals.
-    template <execution X>
-    void join_near(std::span<const point_index> some, const X& run) {
-        const smooth_link<Surface> link(
-            surface_, {.max_angle = degrees(90), .max_distance = options_.max_distance},
-            points_.size());
-        const place_set among(points_.tree(), some);
-        linker near(points_);
-        near.link_all([&link](std::size_t i) { return link.radius(i); }, link, run, &among);
-        for (const point_index i : some) sets_.unite(near.root_of(i), i);
-    }
-
-    /// A group but for its segments whose normals are along its axis: a piece of the table that a
-    /// vase stands on, cut off by it, meets its axis no worse than the vase.
-    /// @param memory  for as many lines as the group has points
-    [[nodiscard]] scratch<point_index> without_disks(std::span<const point_index> group,
-                                                     std::span<normal_line> memory) const {
-        constexpr double least_across = 0.25;  // 30 degrees from the axis
-        std::span<normal_line> lines = normal_lines(group, memory);
-        const axis_of_normals axis = robust_axis_of(lines);
-        scratch<std::int32_t> disks;
-        scratch<point_index> rest;
-        for (const point_index i : group) {
-            const std::int32_t label = parts_.labels()[i];
-            if (label == unlabeled) continue;
-            const auto part = parts_[static_cast<std::size_t>(label)];
-            if (part.front() != i) continue;
-            double across = 0.0;
-            lines = normal_lines(part, memory);
-            for (const normal_line& l : lines) across += axis.across(l);
-            if (across < least_across * static_cast<double>(lines.size())) disks.push_back(label);
-        }
-        for (const point_index i : group)
-            if (std::find(disks.begin(), disks.end(), parts_.labels()[i]) == disks.end())
-                rest.push_back(i);
-        return rest;
-    }
-
-    /// The lines of the points with a normal, in `memory`.
-    [[nodiscard]] std::span<normal_line> normal_lines(std::span<const point_index> group,
-                                                      std::span<normal_line> memory) const {
-        const Eigen::Vector3d origin = points_[*std::find_if(
-            group.begin(), group.end(), [this](point_index i) { return has_normal(i); })];
-        std::size_t count = 0;
-        for (const point_index i : group)
-            if (has_normal(i))
-                memory[count++] = {difference(points_[i], origin), surface_[i].normal};
-        return memory.first(count);
-    }
-
-    const spatial_index& points_;
-    const Surface& surface_;
-    const segments& parts_;
-    const join_surfaces_of_revolution_options& options_;
-    union_find sets_;
-};
-
-/// join_surfaces_of_revolution(index, surface, parts, options, run), in the memory of `result`,
-/// which may be `parts`.
-template <surfel_range Surface, execution X>
-void join_surfaces_of_revolution_into(segments& result, const spatial_index& points,
-                                      const Surface& surface, const segments& parts,
-                                      const join_surfaces_of_revolution_options& options,
-                                      const X& run) {
-    require(parts.labels().size() == points.size(),
-            "join_surfaces_of_revolution: the numbers of points and of labels differ");
-    require(std::ranges::size(surface) == points.size(),
-            "join_surfaces_of_revolution: the numbers of points and of surface elements differ");
-    require(options.sigma >= 0.0, "join_surfaces_of_revolution: sigma must not be negative or NaN");
-    require(options.max_radius >= 0.0,
-            "join_surfaces_of_revolution: max_radius must not be negative or NaN");
-    require(options.max_distance >= 0.0,
-            "join_surfaces_of_revolution: max_distance must not be negative or NaN");
-    result.assign(revolution_joiner(points, surface, parts, options)(run));
-}
-
-}  // namespace detail
-
-/// The segments, where connected points of one surface of revolution are one segment: unlabeled
-/// points and whole segments of limited width. Other points keep their segment.
-///
-/// @param points   any point range of n points [m]
-/// @param surface  their n surface elements, as estimate_normals gives them; normals of either sign
-/// @param parts    segments of these points
-/// @return the segments, largest first; the same bytes for every execution
-/// @throws std::invalid_argument  if points, surface and segments differ in number, or if sigma,
-///                                max_radius or max_distance is negative or NaN
-/// Complexity: O(n), and that of segment_surfaces for the points without a wide segment.
-template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments join_surfaces_of_revolution(
-    const R& points, const Surface& surface, const segments& parts,
-    const join_surfaces_of_revolution_options& options = {}, const X& run = {},
-    Proj projection = {}) {
-    const auto& team = detail::staying(run);
-    segments result;
-    detail::join_surfaces_of_revolution_into(result, detail::index_of(points, team, projection),
-                                             surface, parts, options, team);
-    return result;
-}
-
-}  // namespace gnomon
-
 // -------- gnomon/segmentation/detail/height_histogram.hpp ----------------------------------------
 
 /// @file
@@ -13072,19 +12676,235 @@ class height_histogram {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/floor_search.hpp --------------------------------------------
+
+/// @file
+/// Fits a plane to the floor, and examines whether it is one, by a grid in plan: which cells hold
+/// points of the plane, and above which of them something stands.
+
+namespace gnomon::detail {
+
+/// A plane through points of a floor, and their principal axes.
+struct floor_fit {
+    gnomon::plane plane;       ///< through the points
+    Eigen::Vector3d centroid;  ///< [m]
+    eigen_decomposition axes;  ///< of the covariance [m^2]; the last axis is along the normal
+    std::size_t count;         ///< of points
+    double band;               ///< half the height of the band about the plane [m]
+};
+
+/// @param m      moments about `origin`
+/// @param about  a plane whose normal is on the same side
+/// @return nothing where the points do not determine a plane
+[[nodiscard]] inline std::optional<floor_fit> floor_fit_of(const moments& m,
+                                                           const Eigen::Vector3d& origin,
+                                                           const plane& about) {
+    if (m.count < 3) return std::nullopt;
+    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
+    if (!(e.values[1] > 1e-12 * e.values[0])) return std::nullopt;
+    floor_fit fit{{column(e.vectors, 2), 0.0}, origin, e, m.count, 0.0};
+    if (dot(fit.plane.normal, about.normal) < 0.0)
+        fit.plane.normal = scaled(-1.0, fit.plane.normal);
+    for (int a = 0; a < 3; ++a) fit.centroid[a] += m.sum[a] / static_cast<double>(m.count);
+    fit.plane.offset = dot(fit.plane.normal, fit.centroid);
+    return fit;
+}
+
+/// The search for a floor among the points of a position_view.
+template <class Points>
+class floor_search {
+  public:
+    /// @param seen_from  the view points, where they are known
+    /// @param widest     half the height of the band about a guess [m]
+    /// @param min_width  of a floor, in both directions [m]
+    floor_search(const Points& points, const viewpoint_table& seen_from, double widest,
+                 double min_width)
+        : points_(points), seen_from_(seen_from), widest_(widest), min_width_(min_width) {}
+
+    /// The lowest floor, of those near heights at which many points lie: a quarter of those at the
+    /// most frequent one.
+    [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
+                                              const height_histogram& heights) {
+        if (heights.bins().empty()) return std::nullopt;
+        const std::size_t most = fullest(heights).count;
+        std::size_t lower = 0;
+        for (const auto& [height, count] : heights.bins()) {
+            if (2 * lower > heights.points()) break;  // what is higher is above most points
+            lower += count;
+            if (4 * count < most) continue;
+            if (const auto floor = from({up, height})) return floor;
+        }
+        return std::nullopt;
+    }
+
+  private:
+    /// The floor that a fit finds from a level guess; nothing if what it finds is no floor.
+    [[nodiscard]] std::optional<plane> from(const plane& guess) {
+        const auto fit = settled(points_, guess, widest_);
+        if (!fit || !is_below_sensor(fit->plane) || !examine(*fit)) return std::nullopt;
+        const auto clear = fitted(means_, fit->plane, fit->band);
+        if (!clear || !is_wide(*clear)) return std::nullopt;
+        const auto floor = settled(means_, clear->plane, fit->band);
+        if (!floor) return std::nullopt;
+        return floor->plane;
+    }
+
+    /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
+    /// below, up to three times as far from the plane.
+    struct cell {
+        std::uint32_t in_band = 0, above = 0, below = 0;
+        Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
+
+        /// Noise is as often above as below: if more are above, something stands there.
+        [[nodiscard]] bool is_clear() const {
+            return in_band > 0 && above <= below + few * in_band;
+        }
+    };
+
+    static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
+    // The share of the points of a floor that may be below it, and of the points of a clear cell
+    // that may be above; chosen. In real scans of floors up to 3.4 % are below.
+    static constexpr double few = 0.04;
+
+    /// The plane through the points in a band about itself; nothing if it turns away from the
+    /// guess.
+    [[nodiscard]] std::optional<floor_fit> settled(const auto& points, const plane& guess,
+                                                   double band) {
+        std::optional<floor_fit> fit;
+        plane floor = guess;
+        for (int refit = 0; refit < 50; ++refit) {
+            fit = fitted(points, floor, band);
+            if (!fit || is_steep(fit->plane, guess)) return std::nullopt;
+            // Narrow the band to three robust standard deviations of the points of the floor
+            // (1.4826 times the median for a normal distribution).
+            const auto median = distances_.begin() + std::ssize(distances_) / 2;
+            std::nth_element(distances_.begin(), median, distances_.end());
+            fit->band = std::clamp(3.0 * 1.4826 * *median, 0.1 * widest_, widest_);
+            const bool rests = length(difference(fit->plane.normal, floor.normal)) < 1e-6 &&
+                               std::abs(floor.signed_distance(fit->centroid)) < 1e-6 &&
+                               std::abs(fit->band - band) < 1e-6;
+            floor = fit->plane;
+            band = fit->band;
+            if (rests) break;
+        }
+        return fit;
+    }
+
+    /// The plane through the points in a band about another one, and their distances from that.
+    [[nodiscard]] std::optional<floor_fit> fitted(const auto& points, const plane& about,
+                                                  double band) {
+        // Moments about a point of the band, so that nothing is lost far from the origin.
+        Eigen::Vector3d origin(0.0, 0.0, 0.0);
+        moments m;
+        distances_.clear();
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const Eigen::Vector3d p = points[i];
+            const double d = std::abs(about.signed_distance(p));
+            if (!(d <= band) || !all_finite(p)) continue;
+            if (m.count == 0) origin = p;
+            m.add(difference(p, origin));
+            distances_.push_back(d);
+        }
+        return floor_fit_of(m, origin, about);
+    }
+
+    /// Whether the level band about a guess does not contain a plane over the least width of a
+    /// floor, as that of a wall that a fit turned to.
+    [[nodiscard]] bool is_steep(const plane& found, const plane& guess) const {
+        const double steepest = 2.0 * widest_ / min_width_;
+        const double cosine = dot(found.normal, guess.normal);
+        return cosine * cosine * (1.0 + steepest * steepest) < 1.0;
+    }
+
+    /// Whether at most half of the view points, where they are known, are under the plane.
+    [[nodiscard]] bool is_below_sensor(const plane& floor) const {
+        const auto& positions = seen_from_.positions();
+        const auto under =
+            std::count_if(positions.begin(), positions.end(),
+                          [&](const Eigen::Vector3d& v) { return floor.signed_distance(v) < 0.0; });
+        return 2 * under <= std::ssize(positions);
+    }
+
+    /// Lists the means of the points of clear cells, which count alike although most points are
+    /// near the sensor. Whether hardly a point is below the plane.
+    [[nodiscard]] bool examine(const floor_fit& fit) {
+        std::size_t in_band = 0, below = 0;
+        cells_.assign(std::bit_ceil(fit.count), {});
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const Eigen::Vector3d p = points_[i];
+            const double d = fit.plane.signed_distance(p);
+            if (!all_finite(p) || d > 3.0 * fit.band) continue;
+            if (d < -3.0 * fit.band) {
+                ++below;
+                continue;
+            }
+            const Eigen::Vector3d from_centroid = difference(p, fit.centroid);
+            cell& c = cells_[cell_of(fit, from_centroid)];
+            if (d > fit.band) {
+                ++c.above;
+            } else if (d < -fit.band) {
+                ++c.below;
+            } else {
+                ++c.in_band;
+                ++in_band;
+                c.sum = combined(1.0, c.sum, 1.0, from_centroid);
+            }
+        }
+        means_.clear();
+        for (const cell& c : cells_)
+            if (c.is_clear()) means_.push_back(combined(1.0, fit.centroid, 1.0 / c.in_band, c.sum));
+        return static_cast<double>(below) <= few * static_cast<double>(in_band);
+    }
+
+    /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
+    /// cover the area of a square as wide: the feet of a table do not.
+    [[nodiscard]] bool is_wide(const floor_fit& cells) const {
+        const double area = side * side * static_cast<double>(cells.count);
+        return std::min(area, 12.0 * cells.axes.values[1]) >= min_width_ * min_width_;
+    }
+
+    /// The number of the cell of a point: cells lie along the principal axes, so that they move
+    /// with the points. A few share their number with another one.
+    [[nodiscard]] std::size_t cell_of(const floor_fit& fit,
+                                      const Eigen::Vector3d& from_centroid) const {
+        std::uint64_t hash = 0;
+        for (int a = 0; a < 2; ++a) {
+            // Up to 1e15, whole numbers are exact; farther outliers share cells.
+            const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
+            const double number = std::floor(std::clamp(sides, -1e15, 1e15));
+            // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
+            hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
+                   0x9E3779B97F4A7C15u;
+            hash ^= hash >> 32;
+        }
+        return hash & (cells_.size() - 1);
+    }
+
+    const Points& points_;
+    const viewpoint_table& seen_from_;
+    double widest_;
+    double min_width_;
+    scratch<double> distances_;
+    scratch<cell> cells_;
+    scratch<Eigen::Vector3d> means_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/preprocess.hpp -----------------------------------------------------
 
 /// @file
 /// Finds floor and ceiling, levels the scan, and removes both: they are often more than half of an
 /// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
 /// of the bands open; the floor is refitted to its band until it converges, so that tilts are
-/// found.
+/// found. A level plane that is no floor, such as a table top, is not taken for one.
 
 namespace gnomon {
 
 /// What counts as the floor.
 struct find_floor_options {
-    double band = 0.1;  ///< half the height [m] of the band about the plane
+    double band = 0.1;       ///< half the height of the band about a first guess [m]
+    double min_width = 1.4;  ///< in both directions [m]; chosen: table tops are up to 1.2 m wide
 };
 
 /// Where to look for the ceiling, in heights above the floor.
@@ -13124,87 +12944,43 @@ inline void require_hesse(const plane& p) {
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
-}  // namespace detail
-
-/// A first guess for scans whose floor is not at z = 0: the lowest height at which a good part of
-/// the points lies (a quarter of those at the most frequent height, in bins of 10 cm).
-///
-/// @param up  unit vector against gravity
-/// @return nothing without finite points
-/// @throws std::invalid_argument  unless `up` is of unit length
-/// Complexity: O(n log n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] std::optional<plane> guess_floor(const R& points,
-                                               const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
-                                               Proj projection = {}) {
-    detail::require_hesse({up, 0.0});
-    const position_view<R, Proj> p(points, std::move(projection));
-    const detail::height_histogram histogram(p, plane{up, 0.0}, 0.1);
-    if (histogram.bins().empty()) return std::nullopt;
-    const std::size_t most = detail::fullest(histogram).count;
-    const auto lowest = std::find_if(histogram.bins().begin(), histogram.bins().end(),
-                                     [most](const auto& bin) { return 4 * bin.count >= most; });
-    return plane{up, lowest->height};
+inline void require_valid(const find_floor_options& search) {
+    require(search.band > 0.0 && search.min_width > 0.0,
+            "find_floor: band and width must be positive");
 }
 
-/// The floor: the plane through the points in a band about itself.
+inline void require_valid(const find_ceiling_options& search) {
+    require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+}
+
+}  // namespace detail
+
+/// The floor: the lowest plane that is level, has hardly a point below it and the sensor, where
+/// its view points are known, above it, and is clear of other things over a width that furniture
+/// does not have. It is fitted where nothing stands on it.
 ///
-/// @param guess  z = 0 as in the thesis, or what guess_floor says; within about 3 degrees
-/// @return the plane, its normal on the side of the guess's; nothing where the points of the
-///         band do not determine one
-/// @throws std::invalid_argument  unless the band is positive and the guess's normal of unit length
-/// Complexity: O(n) per refit, a handful of them, at most 50.
+/// @param up  unit vector against gravity; the floor is tilted by 3 degrees at most, perhaps twice
+///            that where it is wide
+/// @return the plane, its normal on the side of `up`; nothing if no plane is a floor
+/// @throws std::invalid_argument  unless band and width are positive and `up` is of unit length,
+///                                or if the view points are for another number of points
+/// Complexity: O(n log n), and for each height at which many points lie, O(n) per refit, a handful
+/// of them, at most 50. Most scans of a floor have one such height to examine.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] std::optional<plane> find_floor(const R& points, const plane& guess = {},
+[[nodiscard]] std::optional<plane> find_floor(const R& points,
+                                              const Eigen::Vector3d& up = {0.0, 0.0, 1.0},
                                               const find_floor_options& search = {},
                                               Proj projection = {}) {
-    detail::require(search.band > 0.0, "find_floor: the band must be positive");
-    detail::require_hesse(guess);
+    detail::require_valid(search);
+    detail::require_hesse({up, 0.0});
     const position_view<R, Proj> p(points, std::move(projection));
-    plane floor = guess;
-    double band = search.band;
-    detail::scratch<double> distances;
-    for (int refit = 0; refit < 50; ++refit) {
-        // Moments about a point of the band, so that nothing is lost far from the origin.
-        std::optional<Eigen::Vector3d> origin;
-        moments m;
-        distances.clear();
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            if (!is_finite(p[i])) continue;
-            const double d = std::abs(floor.signed_distance(p[i]));
-            if (!(d <= band)) continue;
-            if (!origin) origin = p[i];
-            m.add(p[i] - *origin);
-            distances.push_back(d);
-        }
-        if (m.count < 3) return std::nullopt;
-        const detail::eigen_decomposition e = detail::symmetric_eigen(m.covariance_of_neighbors());
-        if (e.values[1] <= 1e-12 * e.values[0]) return std::nullopt;
-
-        plane next{detail::column(e.vectors, 2), 0.0};
-        if (detail::dot(next.normal, floor.normal) < 0.0)
-            next.normal = detail::scaled(-1.0, next.normal);
-        Eigen::Vector3d centroid = *origin;
-        for (int a = 0; a < 3; ++a) centroid[a] += m.sum[a] / static_cast<double>(m.count);
-        next.offset = detail::dot(next.normal, centroid);
-
-        // Feet of furniture and walls stand in the band: narrow it to three robust standard
-        // deviations of the points of the floor (1.4826 times the median for a normal
-        // distribution).
-        const auto median = distances.begin() + static_cast<std::ptrdiff_t>(m.count / 2);
-        std::nth_element(distances.begin(), median, distances.end());
-        const double narrower = std::clamp(3.0 * 1.4826 * *median, 0.1 * search.band, search.band);
-
-        const bool rests = detail::length(detail::difference(next.normal, floor.normal)) < 1e-9 &&
-                           std::abs(floor.signed_distance(centroid)) < 1e-8 &&
-                           std::abs(narrower - band) < 1e-9;
-        floor = next;
-        band = narrower;
-        if (rests) break;
-    }
-    return floor;
+    const detail::height_histogram heights(p, plane{up, 0.0}, search.band);
+    return detail::with_table_of(points, [&](const viewpoint_table& seen_from) {
+        detail::floor_search floors(p, seen_from, search.band, search.min_width);
+        return floors.lowest(up, heights);
+    });
 }
 
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
@@ -13218,8 +12994,7 @@ template <class R, class Proj = std::identity>
 [[nodiscard]] std::optional<double> find_ceiling(const R& points, const plane& floor,
                                                  const find_ceiling_options& search = {},
                                                  Proj projection = {}) {
-    detail::require(search.bin > 0.0, "find_ceiling: the bin must be positive");
-    detail::require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    detail::require_valid(search);
     detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
@@ -13399,200 +13174,304 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/plane_of_sums.hpp -------------------------------------------
+// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
 
 /// @file
-/// Planes of whole regions from sums over their points about one origin: that of two regions
-/// together follows without looking at a point again.
+/// Growth of planes: from the flattest points on, those neighbors join whose normals agree and
+/// which are within three standard deviations of the plane of the region, which is fit again as the
+/// region grows (after Poppinga et al. 2008).
 
 namespace gnomon::detail {
 
-/// The least squares plane of points.
-struct fitted_plane {
-    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};  ///< no normal if not determined
-    double variance = 0.0;                                     ///< of the points across it [m^2]
+/// Grows planes in a cloud.
+template <neighborhood_graph G, normal_range S>
+class plane_growth {
+  public:
+    /// @param labels  those of the regions; grown ones are added
+    plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
+                 std::size_t min_points, scratch<std::int32_t>& labels)
+        : cloud_(cloud),
+          graph_(graph),
+          surface_(surface),
+          min_points_(min_points),
+          labels_(labels),
+          visit_(cloud.size(), 0) {}
+
+    /// Grows regions of unlabeled points.
+    /// @param min_cosine  of the angle between normals of points and planes
+    /// @param next        the label of the first new region
+    template <execution X>
+    void operator()(double min_cosine, std::int32_t next, const X& run) {
+        min_cosine_ = min_cosine;
+        scratch<char> was_tried(cloud_.size(), false);
+        for (const point_index seed : flattest_first(run)) {
+            if (was_tried[seed] != 0 || !is_free(seed)) continue;
+            const plane_sums sums = grown_from(seed);
+            if (sums.count >= min_points_) {
+                for (const point_index i : members_) labels_[i] = next;
+                ++next;
+            } else {
+                for (const point_index i : members_) was_tried[i] = true;
+            }
+        }
+    }
+
+  private:
+    [[nodiscard]] bool is_free(std::size_t i) const {
+        return labels_[i] == unlabeled && !is_missing(normal(i));
+    }
+
+    [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
+
+    /// The free points by the mean squared distance of their neighbors from the plane of their
+    /// normal, in variances of the noise.
+    template <execution X>
+    [[nodiscard]] scratch<point_index> flattest_first(const X& run) const {
+        scratch<double> roughness(cloud_.size(), std::numeric_limits<double>::infinity());
+        for_each_chunk(run, cloud_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i)
+                if (is_free(i)) roughness[i] = roughness_at(i);
+        });
+        scratch<point_index> order;
+        for (std::size_t i = 0; i < cloud_.size(); ++i)
+            if (is_free(i)) order.push_back(static_cast<point_index>(i));
+        std::sort(order.begin(), order.end(), [&](point_index a, point_index b) {
+            return roughness[a] != roughness[b] ? roughness[a] < roughness[b] : a < b;
+        });
+        return order;
+    }
+
+    [[nodiscard]] double roughness_at(std::size_t i) const {
+        const Eigen::Vector3d n = normal(i);
+        double sum = 0.0, count = 1.0, mean = 0.0;
+        for (const point_index j : graph_[i]) {
+            const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
+            sum += d * d;
+            mean += d;
+            count += 1.0;
+        }
+        const double dev = cloud_.noise[i].across(n);
+        mean /= count;
+        return (sum / count - mean * mean) / (dev * dev);
+    }
+
+    /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
+    /// twice again with the final plane, which corrects the decisions of early planes.
+    plane_sums grown_from(point_index seed) {
+        constexpr int passes = 3;
+        region_plane to = start_at(seed);
+        plane_sums sums;
+        members_.clear();
+        if (!fits(seed, to)) return sums;
+        members_.push_back(seed);
+        for (int pass = 0; pass < passes; ++pass) {
+            if (pass > 0) std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
+            sums = spread(to, pass == 0);
+            const region_plane next = sums.fit();
+            if (!next.is_determined) return sums;
+            to = next;
+        }
+        return sums;
+    }
+
+    /// Adds to members_ what fits a plane and is connected with them.
+    /// @param follows  whether the plane is fit again each time that their number has doubled
+    plane_sums spread(region_plane& to, bool follows) {
+        ++stamp_;
+        for (const point_index i : members_) visit_[i] = stamp_;
+        plane_sums sums;
+        std::size_t refit_at = follows ? 8 : std::numeric_limits<std::size_t>::max();
+        for (std::size_t next = 0; next < members_.size(); ++next) {
+            const point_index i = members_[next];
+            cloud_.add(i, sums);
+            for (const point_index j : graph_[i]) {
+                if (visit_[j] == stamp_ || !fits(j, to)) continue;
+                visit_[j] = stamp_;
+                members_.push_back(j);
+            }
+            if (sums.count < refit_at) continue;
+            const double excess = to.chi2;
+            if (const region_plane f = sums.fit(); f.is_determined) to = f;
+            to.chi2 = excess;  // that of a part is of little precision
+            refit_at *= 2;
+        }
+        return sums;
+    }
+
+    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
+        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
+               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+    }
+
+    /// The plane through the mean of the seed and those of its neighbors whose normals agree.
+    [[nodiscard]] region_plane start_at(point_index seed) const {
+        const Eigen::Vector3d n = normal(seed);
+        Eigen::Vector3d sum = cloud_.offsets[seed];
+        double count = 1.0;
+        for (const point_index j : graph_[seed]) {
+            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
+            sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
+            count += 1.0;
+        }
+        region_plane start;
+        start.plane = {n, dot(n, sum) / count};
+        return start;
+    }
+
+    const planar_cloud& cloud_;
+    const G& graph_;
+    const S& surface_;
+    std::size_t min_points_;
+    scratch<std::int32_t>& labels_;
+    double min_cosine_ = 1.0;
+    scratch<std::size_t> visit_;  // by which spreading
+    std::size_t stamp_ = 0;
+    scratch<point_index> members_;
 };
 
-/// Adds the moments about the same point.
-inline void add(moments& to, const moments& more) {
-    to.count += more.count;
-    for (int j = 0; j < 3; ++j) {
-        to.sum[j] += more.sum[j];
-        for (int i = j; i < 3; ++i) to.outer(i, j) += more.outer(i, j);
-    }
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
+
+/// @file
+/// Whether one plane explains two regions as well as two planes do: the common plane follows from
+/// the sums of both, and no point is looked at again.
+
+namespace gnomon::detail {
+
+/// The plane of two regions.
+[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
+    plane_sums both = a.sums;
+    both.add(b.sums);
+    return both.fit();
 }
 
-/// The plane of points with these moments about `origin`.
-[[nodiscard]] inline fitted_plane fitted(const moments& m, const Eigen::Vector3d& origin) {
-    fitted_plane f;
-    if (m.count < 3) return f;
-    const plane_fit fit = plane_of_least_spread(m.covariance_of_neighbors(), 0.0);
-    if (!usable(fit.trust)) return f;
-    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
-    f.plane = {fit.normal, dot(fit.normal, mean)};
-    f.variance = fit.spectrum.lambda[2];
-    return f;
+/// How much worse one plane explains two regions next to each other than two planes do; at most 1
+/// if they may be one: the deviations of either from the common plane are at most half as large
+/// again as those from their own.
+[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+    constexpr double tolerated = 1.5 * 1.5;  // chosen
+    const region_plane both = plane_of_both(a, b);
+    if (!both.is_determined) return std::numeric_limits<double>::infinity();
+    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
+    return worst / (tolerated * std::max(a.fit.excess(), b.fit.excess()));
 }
 
-/// The mean squared distance [m^2] of points with these moments about `origin` from a plane.
-[[nodiscard]] inline double mean_square(const moments& m, const Eigen::Vector3d& origin,
-                                        const plane& to) {
-    const Eigen::Matrix3d c = m.covariance_of_neighbors();
-    const Eigen::Vector3d mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
-    const double off = to.signed_distance(mean);
-    return dot(to.normal, product(c, to.normal)) + off * off;
+/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
+/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
+/// own must be nearly parallel to that of both.
+[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
+    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
+    // rho_a of the thesis, Sec. 4.4.1
+    const double nearly = min_cosine(degrees(15));
+    const region_plane both = plane_of_both(a, b);
+    const auto statistic = [&](const auto& r) {
+        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
+        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
+    };
+    const auto is_parallel = [&](const auto& r) {
+        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
+    };
+    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
+        return std::numeric_limits<double>::infinity();
+    return (statistic(a) + statistic(b)) / chi2_of_3;
 }
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
+// -------- gnomon/segmentation/detail/agglomeration.hpp -------------------------------------------
 
 /// @file
-/// How segment_planes grows a region: from a seed to neighbors that lie on its plane, which is
-/// fitted again each time that it has doubled.
+/// Agglomerative merging of regions: the most alike first, as long as one plane explains all that
+/// become one (after Feng et al. 2014).
 
 namespace gnomon::detail {
 
-/// What regions have to keep to.
-struct plane_rules {
-    double noise;       ///< sigma, across the surface [m]
-    double deviations;  ///< of a point from its plane, in sigma
-    double min_cosine;  ///< between a point's normal and its plane's
-    std::size_t min_points;
-};
+using region_pair = std::pair<point_index, point_index>;
 
-/// Regions of the points of a position_view, one after the other.
-template <class Points, neighborhood_graph Graph, normal_range Surface>
-class plane_growth {
+/// Sorts pairs, and leaves each once.
+void make_unique(auto& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
+/// they have become is still alike.
+class agglomeration {
   public:
-    plane_growth(const Points& points, const Graph& graph, const Surface& surface,
-                 const plane_rules& rules)
-        : points_(points),
-          graph_(graph),
-          surface_(surface),
-          rules_(rules),
-          labels_(points.size(), unlabeled),
-          visit_(points.size(), 0) {}
+    /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
+    explicit agglomeration(scratch<planar_region>& regions)
+        : regions_(regions),
+          sets_(regions.size()),
+          is_new_(regions.size(), true),
+          is_root_(regions.size(), true) {}
 
-    /// From one seed after the other, those in the flattest surroundings first.
-    /// @return the labels of the points
-    template <execution X>
-    [[nodiscard]] std::vector<std::int32_t> operator()(const X& run) {
-        std::int32_t label = 0;
-        for (const point_index seed : seeds(run)) {
-            if (labels_[seed] != unlabeled) continue;
-            grow(seed);
-            if (members_.size() < rules_.min_points) continue;
-            for (const point_index i : members_) labels_[i] = label;
-            ++label;
+    /// @param pairs    that may be one, each once
+    /// @param unlike   unlike(region, region): at most 1 if they may be one
+    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
+    ///                 beginning of the round; called when all else is in favor
+    /// @param gather   gather(into, from), after each round, for all that have become part of
+    ///                 another
+    /// @return the sets of regions that are one
+    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
+                                        auto&& gather) {
+        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
+            for (std::size_t r = 0; r < sets_.size(); ++r) {
+                const auto region = static_cast<point_index>(r), root = sets_.find(region);
+                if (root != region && is_root_[r] != 0) gather(root, region);
+                is_root_[r] = root == region;
+            }
+            for (auto& [a, b] : pairs) {
+                const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
+                a = std::min(root_of_a, root_of_b);
+                b = std::max(root_of_a, root_of_b);
+            }
+            std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
+            make_unique(pairs);
         }
-        return std::move(labels_);
+        return std::move(sets_);
     }
 
   private:
-    /// The points with a normal, by the mean square of their neighbors' distances from their
-    /// tangent planes.
-    template <execution X>
-    std::vector<point_index> seeds(const X& run) const {
-        std::vector<double> roughness(points_.size(), 0.0);
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (!may_grow(i)) continue;
-                std::size_t count = 0;
-                for (const point_index j : graph_[i]) {
-                    const double d = dot(surface_[i].normal, difference(points_[j], points_[i]));
-                    if (!std::isfinite(d)) continue;
-                    roughness[i] += d * d;
-                    ++count;
-                }
-                if (count > 0) roughness[i] /= static_cast<double>(count);
-            }
-        });
-        std::vector<point_index> order;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (may_grow(i)) order.push_back(static_cast<point_index>(i));
+    struct candidate {
+        double unlikeness;
+        region_pair pair;
+        [[nodiscard]] bool operator<(const candidate& o) const {
+            return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
         }
-        std::stable_sort(order.begin(), order.end(),
-                         [&](point_index a, point_index b) { return roughness[a] < roughness[b]; });
-        return order;
-    }
+    };
 
-    bool may_grow(std::size_t i) const {
-        return is_finite(points_[i]) && !is_missing(surface_[i].normal);
-    }
-
-    /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
-    /// twice more with the final plane, which corrects the decisions of early planes.
-    void grow(point_index seed) {
-        gnomon::plane along{surface_[seed].normal, 0.0};
-        double reach = rules_.deviations * rules_.noise;
-        along.offset = dot(along.normal, mean_around(seed, along.normal));
-        members_.clear();
-        if (!fits(seed, along, reach)) return;
-        members_.push_back(seed);
-        constexpr int passes = 3;
-        for (int pass = 0; pass < passes; ++pass) {
-            ++stamp_;
-            if (pass > 0)
-                std::erase_if(members_, [&](point_index i) { return !fits(i, along, reach); });
-            for (const point_index i : members_) visit_[i] = stamp_;
-            std::size_t refit_at = pass == 0 ? 8 : points_.size() + 1;
-            for (std::size_t next = 0; next < members_.size(); ++next) {
-                for (const point_index j : graph_[members_[next]]) {
-                    if (visit_[j] == stamp_ || !fits(j, along, reach)) continue;
-                    visit_[j] = stamp_;
-                    members_.push_back(j);
-                }
-                if (members_.size() < refit_at) continue;
-                if (const auto f = plane_of_members(points_[seed]); !is_missing(f.plane.normal))
-                    along = f.plane;
-                refit_at *= 2;
-            }
-            const fitted_plane f = plane_of_members(points_[seed]);
-            if (is_missing(f.plane.normal)) {
-                members_.clear();
-                return;
-            }
-            along = f.plane;
-            // Where there is more noise than elsewhere, up to twice as much.
-            reach = rules_.deviations *
-                    std::clamp(std::sqrt(f.variance), rules_.noise, 2.0 * rules_.noise);
+    /// One round.
+    /// @return whether it merged any
+    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
+        scratch<candidate> candidates;
+        for (const auto& pair : pairs) {
+            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+            const double u = unlike(regions_[pair.first], regions_[pair.second]);
+            if (u <= 1.0) candidates.push_back({u, pair});
         }
-    }
-
-    /// Whether a free point may join a plane.
-    bool fits(point_index i, const gnomon::plane& to, double reach) const {
-        return labels_[i] == unlabeled && may_grow(i) &&
-               std::abs(dot(to.normal, surface_[i].normal)) >= rules_.min_cosine &&
-               std::abs(to.signed_distance(points_[i])) <= reach;
-    }
-
-    /// The mean of the seed and those of its neighbors whose normals agree [m].
-    Eigen::Vector3d mean_around(point_index seed, const Eigen::Vector3d& normal) const {
-        moments m;
-        for (const point_index j : graph_[seed]) {
-            if (labels_[j] == unlabeled && may_grow(j) &&
-                std::abs(dot(normal, surface_[j].normal)) >= rules_.min_cosine)
-                m.add(difference(points_[j], points_[seed]));
+        std::sort(candidates.begin(), candidates.end());
+        std::fill(is_new_.begin(), is_new_.end(), false);
+        bool any = false;
+        for (const candidate& c : candidates) {
+            const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
+            if (a == b) continue;
+            const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
+            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
+            if (!accepts(c.pair.first, c.pair.second)) continue;
+            plane_sums sums = regions_[a].sums;
+            sums.add(regions_[b].sums);
+            const point_index whole = sets_.unite(a, b);
+            regions_[whole] = {sums, sums.fit()};
+            is_new_[whole] = any = true;
         }
-        return combined(1.0, points_[seed], 1.0, m.mean_with_point());
+        return any;
     }
 
-    /// The plane of the members.
-    fitted_plane plane_of_members(const Eigen::Vector3d& origin) const {
-        moments m;
-        for (const point_index i : members_) m.add(difference(points_[i], origin));
-        return fitted(m, origin);
-    }
-
-    const Points& points_;
-    const Graph& graph_;
-    const Surface& surface_;
-    plane_rules rules_;
-    std::vector<std::int32_t> labels_;
-    std::vector<std::size_t> visit_;  // by which pass of which seed
-    std::size_t stamp_ = 0;
-    std::vector<point_index> members_;
+    scratch<planar_region>& regions_;
+    union_find sets_;
+    scratch<char> is_new_;   // since the round before
+    scratch<char> is_root_;  // at the beginning of the round
 };
 
 }  // namespace gnomon::detail
@@ -13600,226 +13479,128 @@ class plane_growth {
 // -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
 
 /// @file
-/// The regions of segment_planes once they are grown: those that are one plane merge, and all
-/// compete for the points.
+/// A labeling of a cloud by planes: their growth, the merging of neighbors, and the competition for
+/// points, in turns.
 
 namespace gnomon::detail {
 
-/// Regions of the points of a position_view.
-template <class Points, neighborhood_graph Graph>
+/// The regions of a cloud.
+template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const Points& points, const Graph& graph, const plane_rules& rules,
-                  std::vector<std::int32_t> labels)
-        : points_(points), graph_(graph), rules_(rules), labels_(std::move(labels)) {
-        std::size_t first = 0;
-        while (first < points.size() && !is_finite(points[first])) ++first;
-        if (first < points.size()) origin_ = points[first];
-        std::int32_t last = unlabeled;
-        for (const std::int32_t label : labels_) last = std::max(last, label);
-        regions_.resize(static_cast<std::size_t>(last + 1));
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
+                  scratch<std::int32_t> labels)
+        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
         refit();
     }
 
-    /// Neighboring regions that are one plane become one, the most alike first.
-    void merge() {
-        meet();
-        std::vector<candidate> heap;
-        for (std::int32_t a = 0; a < count(); ++a) {
-            for (const std::int32_t b : at(a).beside) {
-                if (a < b) push(heap, a, b);
-            }
+    [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
+    [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
+
+    /// Adds regions that are not planar.
+    /// @param more  the labels of unlabeled points: new regions are numbered from 0 on
+    void add_regions(const auto& more) {
+        const auto first = static_cast<std::int32_t>(regions_.size());
+        for (std::size_t i = 0; i < labels_.size(); ++i) {
+            if (labels_[i] != unlabeled || more[i] == unlabeled) continue;
+            labels_[i] = first + more[i];
+            const auto r = static_cast<std::size_t>(labels_[i]);
+            while (regions_.size() <= r) regions_.push_back({{}, {}, false});
         }
-        union_find whole(regions_.size());
-        while (!heap.empty()) {
-            std::pop_heap(heap.begin(), heap.end(), later);
-            const candidate c = heap.back();
-            heap.pop_back();
-            // Regions that have changed since have a newer candidate, or were merged.
-            if (at(c.a).age != c.age_of_a || at(c.b).age != c.age_of_b) continue;
-            whole.unite(static_cast<point_index>(c.a), static_cast<point_index>(c.b));
-            take_in(c.a, c.b);
-            for (const std::int32_t other : at(c.a).beside)
-                push(heap, std::min(c.a, other), std::max(c.a, other));
-        }
-        for (std::int32_t& label : labels_) {
+    }
+
+    /// Grows new regions in what is unlabeled.
+    template <normal_range S, execution X>
+    void grow(const S& surface, double min_cosine, const X& run) {
+        plane_growth grow(cloud_, graph_, surface, min_points_, labels_);
+        grow(min_cosine, static_cast<std::int32_t>(regions_.size()), run);
+        refit();
+    }
+
+    /// Merges regions next to each other that one plane explains.
+    void merge_neighbors() {
+        union_find sets = agglomeration(regions_)(
+            touching(),
+            [](const planar_region& a, const planar_region& b) {
+                return unlikeness_of_neighbors(a, b);
+            },
+            [](point_index, point_index) { return true; }, [](point_index, point_index) {});
+        for (std::int32_t& label : labels_)
             if (label != unlabeled)
-                label = static_cast<std::int32_t>(whole.find(static_cast<point_index>(label)));
-        }
-    }
-
-    /// Each point goes to the region among its neighbors that suits it best, or to none.
-    /// @return whether any changed
-    template <execution X>
-    [[nodiscard]] bool compete(const X& run) {
-        std::vector<std::int32_t> next(labels_.size(), unlabeled);
-        for_each_chunk(run, labels_.size(), [&](std::size_t begin, std::size_t end) {
-            std::vector<std::int32_t> around;
-            for (std::size_t i = begin; i < end; ++i) {
-                if (is_finite(points_[i])) next[i] = best_region(i, around);
-            }
-        });
-        const bool changed = next != labels_;
-        labels_ = std::move(next);
+                label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
         refit();
-        return changed;
     }
 
-    /// The labels of the points, and the planes by label; some labels have no points.
-    [[nodiscard]] const std::vector<std::int32_t>& labels() const { return labels_; }
-    [[nodiscard]] const gnomon::plane& plane_of(std::size_t label) const {
-        return regions_[label].fit.plane;
+    /// Each point goes to the region, among those of its neighbors and its own, that explains it
+    /// best; to none if all are too far. Planes are fit again.
+    /// @return whether a label has changed
+    template <execution X>
+    bool compete(const X& run) {
+        scratch<std::int32_t> next =
+            labels_after_competition(cloud_, graph_, regions_, labels_, run);
+        const bool has_changed = next != labels_;
+        labels_.swap(next);
+        refit();
+        return has_changed;
+    }
+
+    /// Rounds of competition and merging, until nothing changes.
+    template <execution X>
+    void settle(const X& run) {
+        merge_neighbors();
+        for (int round = 0; round < most_rounds && compete(run); ++round) merge_neighbors();
     }
 
   private:
-    struct region {
-        moments sums{};  ///< of its points, about origin_
-        fitted_plane fit{};
-        std::vector<std::int32_t> beside = {};  ///< those that it touches, ascending
-        std::uint32_t age = 0;                  ///< how often it has changed while merging
-    };
-
-    region& at(std::int32_t label) { return regions_[static_cast<std::size_t>(label)]; }
-    const region& at(std::int32_t label) const { return regions_[static_cast<std::size_t>(label)]; }
-    std::int32_t count() const { return static_cast<std::int32_t>(regions_.size()); }
-
-    /// The variance across a region's plane, at least that of the noise [m^2].
-    double variance_of(std::int32_t r) const {
-        return std::max(at(r).fit.variance, rules_.noise * rules_.noise);
-    }
-
-    /// At most 1 if two regions may be one plane: it is then no farther from the points of either,
-    /// in the root mean square, than one and a half times what these scatter about their own.
-    double unlikeness(std::int32_t a, std::int32_t b) const {
-        constexpr double no = 2.0;
-        const moments &one = at(a).sums, &other = at(b).sums;
-        const double cosine = dot(at(a).fit.plane.normal, at(b).fit.plane.normal);
-        if (!(std::abs(cosine) >= rules_.min_cosine)) return no;
-        moments both = one;
-        add(both, other);
-        const fitted_plane f = fitted(both, origin_);
-        if (is_missing(f.plane.normal)) return no;
-        constexpr double more = 1.5 * 1.5;
-        return std::max(mean_square(one, origin_, f.plane), mean_square(other, origin_, f.plane)) /
-               (more * std::max(variance_of(a), variance_of(b)));
-    }
-
-    /// Makes known to each region which others it touches.
-    void meet() {
-        for (region& r : regions_) {
-            r.beside.clear();
-            r.age = 0;
+    /// Sums and planes of the labels; regions that are too small, or no planes, are none.
+    void refit() {
+        std::int32_t most = unlabeled;
+        for (const std::int32_t label : labels_) most = std::max(most, label);
+        regions_.assign(static_cast<std::size_t>(most + 1), {});
+        for (std::size_t i = 0; i < labels_.size(); ++i)
+            if (labels_[i] != unlabeled)
+                cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
+        scratch<std::int32_t> number(regions_.size(), unlabeled);
+        std::size_t kept = 0;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            regions_[r].fit = regions_[r].sums.fit();
+            if (regions_[r].sums.count < min_points_ || !regions_[r].fit.is_determined) continue;
+            number[r] = static_cast<std::int32_t>(kept);
+            regions_[kept++] = regions_[r];
         }
+        regions_.resize(kept);
+        for (std::int32_t& label : labels_)
+            if (label != unlabeled) label = number[static_cast<std::size_t>(label)];
+    }
+
+    /// Pairs of regions with at least five pairs of neighboring points.
+    [[nodiscard]] scratch<region_pair> touching() const {
+        constexpr std::ptrdiff_t fewest = 5;  // chosen
+        scratch<region_pair> links;
         for (std::size_t i = 0; i < labels_.size(); ++i) {
             if (labels_[i] == unlabeled) continue;
             for (const point_index j : graph_[i]) {
                 if (labels_[j] == unlabeled || labels_[j] == labels_[i]) continue;
-                at(labels_[i]).beside.push_back(labels_[j]);
-                at(labels_[j]).beside.push_back(labels_[i]);
+                const auto pair = std::minmax(labels_[i], labels_[j]);
+                links.emplace_back(static_cast<point_index>(pair.first),
+                                   static_cast<point_index>(pair.second));
             }
         }
-        constexpr std::ptrdiff_t min_links = 5;  // fewer are a touch by chance
-        for (region& r : regions_) {
-            std::sort(r.beside.begin(), r.beside.end());
-            auto kept = r.beside.begin();
-            for (auto first = r.beside.begin(); first != r.beside.end();) {
-                const auto last = std::upper_bound(first, r.beside.end(), *first);
-                if (last - first >= min_links) *kept++ = *first;
-                first = last;
-            }
-            r.beside.erase(kept, r.beside.end());
-        }
-    }
-
-    /// Two regions that may become one.
-    struct candidate {
-        double unlikeness;
-        std::int32_t a, b;
-        std::uint32_t age_of_a, age_of_b;
-    };
-    static bool later(const candidate& x, const candidate& y) {
-        return std::tie(x.unlikeness, x.a, x.b) > std::tie(y.unlikeness, y.a, y.b);
-    }
-    void push(auto& heap, std::int32_t a, std::int32_t b) {
-        const double apart = unlikeness(a, b);
-        if (!(apart <= 1.0)) return;
-        heap.push_back({apart, a, b, at(a).age, at(b).age});
-        std::push_heap(heap.begin(), heap.end(), later);
-    }
-
-    /// Makes one region of two.
-    void take_in(std::int32_t kept, std::int32_t gone) {
-        region &k = at(kept), &g = at(gone);
-        add(k.sums, g.sums);
-        k.fit = fitted(k.sums, origin_);
-        ++k.age;
-        ++g.age;
-        for (const std::int32_t other : g.beside) {
-            if (other == kept) continue;
-            auto& names = at(other).beside;
-            std::erase(names, gone);
-            if (!std::binary_search(names.begin(), names.end(), kept)) {
-                names.insert(std::upper_bound(names.begin(), names.end(), kept), kept);
-                k.beside.push_back(other);
-            }
-        }
-        std::erase(k.beside, gone);
-        std::sort(k.beside.begin(), k.beside.end());
-        g.beside.clear();
-    }
-
-    /// The region among those of the neighbors that costs point i least: its squared distance in
-    /// variances (a likelihood), and a Potts term for each neighbor of another region.
-    std::int32_t best_region(std::size_t i, std::vector<std::int32_t>& around) const {
-        constexpr double all_others = 4.0;
-        around.clear();
-        std::size_t count = 0;
-        for (const point_index j : graph_[i]) {
-            ++count;
-            if (labels_[j] != unlabeled) around.push_back(labels_[j]);
-        }
-        if (labels_[i] != unlabeled) around.push_back(labels_[i]);  // may stay, alone
-        std::sort(around.begin(), around.end());
-        std::int32_t best = unlabeled;
-        double least = 0.0;
-        for (auto first = around.begin(); first != around.end();) {
-            const auto last = std::upper_bound(first, around.end(), *first);
-            const double d = at(*first).fit.plane.signed_distance(points_[i]);
-            const double deviation = d * d / variance_of(*first);
-            const double agreeing = static_cast<double>(last - first) - (*first == labels_[i]);
-            const double cost =
-                0.5 * deviation + all_others * (1.0 - agreeing / static_cast<double>(count));
-            if (deviation <= rules_.deviations * rules_.deviations &&
-                (best == unlabeled || cost < least)) {
-                best = *first;
-                least = cost;
-            }
+        std::sort(links.begin(), links.end());
+        scratch<region_pair> pairs;
+        for (auto first = links.begin(); first != links.end();) {
+            const auto last = std::upper_bound(first, links.end(), *first);
+            if (last - first >= fewest) pairs.push_back(*first);
             first = last;
         }
-        return best;
+        return pairs;
     }
 
-    /// Computes sums and planes again; regions that became too small are removed.
-    void refit() {
-        for (region& r : regions_) r.sums = {};
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] != unlabeled) at(labels_[i]).sums.add(difference(points_[i], origin_));
-        }
-        for (region& r : regions_) r.fit = fitted(r.sums, origin_);
-        for (std::int32_t& label : labels_) {
-            if (label == unlabeled) continue;
-            const region& r = at(label);
-            if (r.sums.count < rules_.min_points || is_missing(r.fit.plane.normal))
-                label = unlabeled;
-        }
-    }
-
-    const Points& points_;
-    const Graph& graph_;
-    plane_rules rules_;
-    std::vector<std::int32_t> labels_;
-    Eigen::Vector3d origin_{0.0, 0.0, 0.0};
-    std::vector<region> regions_;  // by label
+    const planar_cloud& cloud_;
+    const G& graph_;
+    std::size_t min_points_;
+    scratch<std::int32_t> labels_;
+    scratch<planar_region> regions_;
 };
 
 }  // namespace gnomon::detail
@@ -13827,96 +13608,217 @@ class plane_regions {
 // -------- gnomon/segmentation/segment_planes.hpp -------------------------------------------------
 
 /// @file
-/// Planar segments with their planes. Smooth surfaces (segment_surfaces.hpp) end some points before
-/// an edge, where normals are blended, and leak where the blend is gradual; membership in a plane
-/// is decided by the distance from it, relative to the noise:
+/// Planar segments. Smooth surfaces (segment_surfaces.hpp) end some points before an edge, where
+/// normals are blended, and leak where the blend is gradual; membership in a plane is decided by
+/// the distance from it, relative to the noise:
 ///
-///  1. grow     From the flattest places on, points whose normals roughly agree join while they lie
-///              within a few deviations of the region's plane, which is fitted again as it grows.
+///  1. grow     From the flattest places on, points whose normals roughly agree join while they are
+///              within three standard deviations of the region's plane, which is fit again as it
+///              grows.
 ///  2. merge    Neighbors that one plane fits as well as two are one.
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
-///              explains it best, and planes are fitted again: edges come out sharp.
+///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// Region growing after Poppinga et al. 2008, merging after agglomerative clustering (Feng et al.
-/// 2014), and the competition for points after variational shape approximation (Cohen-Steiner et
-/// al. 2004) with the Potts model of Isack and Boykov 2012. All lengths are multiples of the noise,
+/// All three once more in what is left, by a wider angle. All lengths are multiples of the noise,
 /// so that no distance need be set.
 
 namespace gnomon {
 
 /// Parameters of `segment_planes`.
 struct segment_planes_options {
-    std::optional<double> noise =
-        {};                         ///< sigma across the surface [m]; else what `noise_level` finds
-    double max_deviations = 4.0;    ///< of a point from its plane, in sigma
-    angle max_angle = degrees(25);  ///< between a point's normal and its plane's, to grow
-    std::size_t min_points = 30;    ///< n_min, smaller segments are noise
-    int rounds = 6;                 ///< of the competition, at most
+    noise_curve noise = constant_noise{};  ///< along the rays
+    angle max_angle = degrees(15);         ///< between a point's normal and its plane's, to grow
+    std::size_t min_points = 30;           ///< n_min, smaller segments are noise
 };
 
-/// Segments, and the plane of each.
-struct planar_segments {
-    gnomon::segments segments;  ///< largest first
-    std::vector<plane> planes;  ///< by label; the normal's sign is arbitrary
-};
+namespace detail {
 
-/// The planes of a cloud.
+/// @throws std::invalid_argument  for a max_angle outside [0, 90] degrees
+inline void require_valid(const segment_planes_options& options) {
+    (void)min_cosine(options.max_angle);
+}
+
+/// The regions of the planes of a cloud.
+template <neighborhood_graph G, normal_range S, execution X>
+[[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
+                                                 const S& surface, std::size_t min_points,
+                                                 angle max_angle, const X& run) {
+    constexpr angle wider = degrees(35);  // chosen: where the noise blends normals
+    plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
+    regions.grow(surface, min_cosine(max_angle), run);
+    regions.settle(run);
+    regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);
+    regions.settle(run);
+    return regions;
+}
+
+}  // namespace detail
+
+/// The planes of a cloud; see `estimate_planes` for these themselves.
 ///
-/// @param points   any point range of n points [m]
-/// @param graph    the neighbors of each: few, as edges are found to their width (`knn{12}`)
-/// @param surface  a normal for each point, from as few; where it is missing, no plane grows, but a
-///                 point may be taken by one
-/// @return the segments of at least `min_points` points and their planes
-/// @throws std::invalid_argument  if points, graph and surface differ in size or the graph lists an
-///                                index out of range; unless noise and max_deviations are finite
-///                                and not negative, and max_angle is from 0 to 90 degrees
-/// Complexity: O(n (log n + k)) for k neighbors in the graph where what grows is kept, and O(n m k)
-/// where it stays below m = min_points; O(t log t) for t pairs of regions that touch, and O(t^2
-/// log t) at worst. Growing runs on one thread. The same bytes for every execution.
+/// @param points   any point range of n points [m]; where view points are known, noise lies along
+///                 the rays, else it is the same in all directions
+/// @param graph    the neighbors of each: few, as edges are found to their width (`knn{20}`)
+/// @param surface  a normal for each point; where it is missing, no plane grows, but a point may be
+///                 taken by one
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if points, graph, surface or view points differ in number, the
+///                                graph lists an index out of range, or max_angle is outside
+///                                [0, 90] degrees
+/// Complexity: O(n (log n + k)) for k neighbors in the graph, and O(t log t) for t pairs of regions
+/// that touch. Growing runs on one thread. The same bytes for every execution.
 template <class R, neighborhood_graph G, normal_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] planar_segments segment_planes(const R& points, const G& graph,
-                                             const Surface& surface,
-                                             const segment_planes_options& options = {},
-                                             const X& run = {}, Proj projection = {}) {
-    const auto is_length = [](double x) { return x >= 0.0 && std::isfinite(x); };
-    const position_view<R, Proj> p(points, projection);
-    detail::require(graph.size() == p.size(), "segment_planes: graph and points differ in size");
-    detail::require(std::ranges::size(surface) == p.size(),
+[[nodiscard]] segments segment_planes(const R& points, const G& graph, const Surface& surface,
+                                      const segment_planes_options& options = {}, const X& run = {},
+                                      Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(graph.size() == index.size(),
+                    "segment_planes: graph and points differ in size");
+    detail::require(std::ranges::size(surface) == index.size(),
                     "segment_planes: surface and points differ in size");
-    detail::require(!options.noise || is_length(*options.noise),
-                    "segment_planes: the noise must be finite and not negative");
-    detail::require(is_length(options.max_deviations),
-                    "segment_planes: max_deviations must be finite and not negative");
-    double farthest = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
+    detail::require_valid(options);
+    for (std::size_t i = 0; i < index.size(); ++i)
         for (const point_index j : graph[i])
-            detail::require(j < p.size(), "segment_planes: the graph has an index out of range");
-        if (is_finite(p[i])) farthest = std::max(farthest, p[i].cwiseAbs().maxCoeff());
-    }
-    // Of a clean cloud, rounding is the noise.
-    const double rounding = 1e-12 * farthest;
-    const double noise = options.noise ? *options.noise : noise_level(points, run, projection);
-
-    const detail::plane_rules rules{.noise = std::max(noise, rounding),
-                                    .deviations = options.max_deviations,
-                                    .min_cosine = detail::min_cosine(options.max_angle),
-                                    .min_points = std::max<std::size_t>(options.min_points, 3)};
-    detail::plane_growth grow(p, graph, surface, rules);
-    detail::plane_regions regions(p, graph, rules, grow(run));
-    regions.merge();
-    for (int round = 0; round < options.rounds; ++round) {
-        if (!regions.compete(run)) break;
-        regions.merge();
-    }
-
-    std::vector<std::int32_t> labels = regions.labels();
-    const auto label_of = detail::number_by_size(labels);
-    planar_segments result{segments(std::move(labels)), {}};
-    for (const std::int32_t label : label_of)
-        result.planes.push_back(regions.plane_of(static_cast<std::size_t>(label)));
+            detail::require(j < index.size(),
+                            "segment_planes: the graph has an index out of range");
+    const detail::planar_cloud cloud(index, options.noise, team);
+    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
+                                            options.max_angle, team)
+                      .labels();
+    detail::number_by_size(labels);
+    segments result;
+    result.assign(labels);
     return result;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/segment_surfaces.hpp -----------------------------------------------
+
+/// @file
+/// Smooth surfaces: neighboring points are one surface where their normals turn by at most a small
+/// angle. The search radius follows the density of the scan, so that the sparse rim of a rotational
+/// scan is treated like its dense middle.
+///
+/// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
+
+namespace gnomon {
+
+/// Normals with the mean distance to the neighbors, as estimate_normals gives them.
+template <class S>
+concept surfel_range = normal_range<S> && requires(const S& surface, std::size_t i) {
+    { surface[i].mean_distance } -> std::convertible_to<double>;
+};
+
+/// Parameters of Alg. 4.2, with the thesis's values.
+struct segment_surfaces_options {
+    angle max_angle = degrees(5);  ///< alpha_max between normals of neighbors
+    double max_distance = 0.30;    ///< rho_max [m], no link is longer; may be infinite
+    std::size_t min_points = 30;   ///< n_min, smaller segments are noise
+    /// Compare oriented normals, so that the two sides of a thin board, seen from two view points,
+    /// stay apart; the thesis compares |<n_i, n_j>|.
+    bool oriented = false;
+};
+
+namespace detail {
+
+/// @throws std::invalid_argument  for a negative or NaN max_distance or a max_angle outside [0, 90]
+///                                degrees
+inline void require_valid(const segment_surfaces_options& options) {
+    (void)min_cosine(options.max_angle);
+    require(options.max_distance >= 0.0,
+            "segment_surfaces: max_distance must not be negative or NaN");
+}
+
+/// The criterion and the search radius of Alg. 4.2.
+template <surfel_range Surface>
+class smooth_link {
+  public:
+    smooth_link(const Surface& surface, const segment_surfaces_options& options, std::size_t points)
+        : surface_(surface), options_(options), min_cosine_(min_cosine(options.max_angle)) {
+        require(std::ranges::size(surface) == points,
+                "segment_surfaces: surface and points differ in size");
+        require_valid(options);
+    }
+
+    /// rho_s of point i [m], Eq. (4.3); none for a missing normal. The margin lets a neighbor in
+    /// that is as far as the mean says but for rounding, as on regular grids, so that turning the
+    /// cloud changes nothing.
+    [[nodiscard]] double radius(std::size_t i) const {
+        if (is_missing(surface_[i].normal)) return no_search;
+        constexpr double margin = 1.0 + 1e-9;
+        return std::min(margin * static_cast<double>(surface_[i].mean_distance),
+                        options_.max_distance);
+    }
+
+    /// Whether the normal of the neighbor is there and agrees with that of i.
+    [[nodiscard]] bool operator()(std::size_t i, const neighbor& q) const {
+        const Eigen::Vector3d& n_j = surface_[q.index].normal;
+        if (is_missing(n_j)) return false;
+        const double cosine = surface_[i].normal.dot(n_j);
+        return (options_.oriented ? cosine : std::abs(cosine)) >= min_cosine_;
+    }
+
+  private:
+    const Surface& surface_;
+    segment_surfaces_options options_;
+    double min_cosine_;
+};
+
+/// segment_surfaces(index, surface, options, run), in the memory of `result`.
+template <surfel_range Surface, execution X>
+void segment_surfaces_into(segments& result, const spatial_index& index, const Surface& surface,
+                           const segment_surfaces_options& options, const X& run) {
+    const smooth_link<Surface> link(surface, options, index.size());
+    linker linker(index);
+    linker.link_all([&link](std::size_t i) { return link.radius(i); }, link, run);
+    result.assign(linker.labels(options.min_points));
+}
+
+}  // namespace detail
+
+/// The smooth surfaces of a cloud, exact: every point within the radius is looked at.
+///
+/// @param points   any point range of n points
+/// @param surface  their n surface elements; where the normal is zero, nothing is joined
+/// @return the segments of at least `min_points` points, largest first
+/// @throws std::invalid_argument  if surface and points differ in size, for a negative or NaN
+///                                max_distance or a max_angle outside [0, 90] degrees
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius. The same bytes for every
+/// execution.
+template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const Surface& surface,
+                                        const segment_surfaces_options& options = {},
+                                        const X& run = {}, Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    segments result;
+    detail::segment_surfaces_into(result, detail::index_of(points, team, projection), surface,
+                                  options, team);
+    return result;
+}
+
+/// The same over a stored graph: no second search, and of the points within the radius only those
+/// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
+/// it differs from the exact one only at points repaired from a wider neighborhood, and where more
+/// neighbors tie than the graph lists.
+/// @throws std::invalid_argument  also if graph and points differ in size
+template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const G& graph, const Surface& surface,
+                                        const segment_surfaces_options& options = {},
+                                        const X& run = {}, Proj projection = {}) {
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(graph.size() == p.size(), "segment_surfaces: graph and points differ in size");
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    detail::linker linker(p);
+    linker.link_listed(
+        graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
+    return linker.result(options.min_points);
 }
 
 }  // namespace gnomon
@@ -13924,141 +13826,42 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
 // -------- gnomon/segmentation/split_outliers.hpp -------------------------------------------------
 
 /// @file
-/// Splits points off planar segments that are not on their planes: normals of a large neighborhood
+/// Splits points off flat segments that are not on their planes: normals of a large neighborhood
 /// turn slowly around the rim of a seat or a table top, so that a segmentation by normals includes
-/// the rim, and of a surface that few scan lines meet, the rim may be a third.
-///
-/// A rim may be as narrow as noise is wide. But noise acts along the rays, so that its component
-/// across a surface at oblique incidence is small; and the mean of a point and its neighbors is
-/// more accurate than the point. Floors that are warped, or measured in steps, are off their planes
-/// too: their normals are not. (Not in the thesis; assign_unlabeled is the reverse.)
+/// the rim. (Not in the thesis; assign_unlabeled gives what was split off to its neighbors.)
 
 namespace gnomon {
 
-/// Parameters of `split_outliers`.
-struct split_outliers_options {
-    double sigma = 0.015;            ///< standard deviation of ranges [m]
-    std::size_t k = 8;               ///< points are tested, and grouped, with their k nearest
-    double max_distance = 0.30;      ///< that are no farther [m]
-    angle max_angle = degrees(7.5);  ///< off the plane's: points with such a normal stay
-    std::size_t min_points = 30;     ///< at least this number of released ones is a segment
-};
-
-namespace detail {
-
-/// Whether point i of a segment is on its plane: the mean of it and its neighbors may be off by
-/// four standard deviations of a mean, as many points are tested, and it by five of its own.
-/// Neighbors that are farther off count as if by five, so that no single one decides; those of
-/// another segment say nothing. What is not finite is off no plane.
-[[nodiscard]] bool is_on(const auto& points, const viewpoint_table& viewpoints, const auto& graph,
-                         const segments& parts, std::size_t i, const noisy_plane& of,
-                         double max_distance) {
-    constexpr double mean_at_most = 4.0, each_at_most = 5.0;
-    if (!is_finite(points[i])) return true;
-    const auto deviations_off = [&](std::size_t j) {
-        const Eigen::Vector3d q = points[j];
-        return of.distance(q) / of.deviation_at(q, known_viewpoint(viewpoints, j));
-    };
-    double sum = deviations_off(i), count = 1.0;
-    if (std::abs(sum) > each_at_most) return false;
-    for (const point_index j : graph[i]) {
-        if (squared_distance(points[j], points[i]) > max_distance * max_distance) break;
-        if (parts.labels()[j] != unlabeled && parts.labels()[j] != parts.labels()[i]) continue;
-        sum += std::clamp(deviations_off(j), -each_at_most, each_at_most);
-        count += 1.0;
-    }
-    return std::abs(sum) <= mean_at_most * std::sqrt(count);
-}
-
-/// Labels the groups of adjacent points that had the same label before and have none now.
-/// @param graph  the neighbors of each of these points
-void label_released_groups(scratch<std::int32_t>& labels, const auto& points, const auto& graph,
-                           const segments& before, const split_outliers_options& options) {
-    const auto is_released = [&](std::size_t i) { return labels[i] != before.labels()[i]; };
-    union_find sets(labels.size());
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (!is_released(i)) continue;
-        for (const point_index j : graph[i]) {
-            const double squared = squared_distance(points[j], points[i]);
-            if (squared > options.max_distance * options.max_distance) break;
-            if (is_released(j) && before.labels()[i] == before.labels()[j])
-                sets.unite(static_cast<point_index>(i), j);
-        }
-    }
-    const auto groups = labels_of_sets(sets, options.min_points, is_released);
-    for (std::size_t i = 0; i < labels.size(); ++i)
-        if (groups[i] != unlabeled)
-            labels[i] = static_cast<std::int32_t>(before.size()) + groups[i];
-}
-
-/// split_outliers(index, surface, parts, options, run), in the memory of `result`, which may be
-/// `parts`.
-template <normal_range Surface, execution X>
-void split_outliers_into(segments& result, const spatial_index& points, const Surface& surface,
-                         const segments& parts, const split_outliers_options& options,
-                         const X& run) {
-    require(parts.labels().size() == points.size(),
-            "split_outliers: the numbers of points and of labels differ");
-    require(std::ranges::size(surface) == points.size(),
-            "split_outliers: the numbers of points and of surface elements differ");
-    require(options.sigma > 0.0, "split_outliers: sigma must be greater than 0");
-    require(options.k > 0, "split_outliers: k must be at least 1");
-    require(options.max_distance >= 0.0,
-            "split_outliers: max_distance must not be negative or NaN");
-    const double cosine = min_cosine(options.max_angle);
-    const auto planes = planes_of_segments(points, parts, options.sigma, run);
-    scratch<char> is_doubtful(points.size(), false);
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-        if (!planes[s].is_flat()) continue;
-        for (const point_index i : parts[s]) {
-            const Eigen::Vector3d normal = surface[i].normal;
-            is_doubtful[i] =
-                is_missing(normal) || !(std::abs(dot(normal, planes[s].normal())) >= cosine);
-        }
-    }
-    const scratch_graph graph = graph_of_some(
-        options.k, [&](std::size_t i) { return is_doubtful[i] != 0; }, points, run);
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    run(parts.size(), [&](std::size_t s) {
-        scratch<point_index> released;
-        for (const point_index i : parts[s])
-            if (is_doubtful[i] != 0 &&
-                !is_on(points, points.viewpoints, graph, parts, i, planes[s], options.max_distance))
-                released.push_back(i);
-        if (3 * released.size() > parts[s].size()) return;
-        for (const point_index i : released) labels[i] = unlabeled;
-    });
-    label_released_groups(labels, points, graph, parts, options);
-    number_by_size(labels);
-    result.assign(labels);
-}
-
-}  // namespace detail
-
-/// The segments without those points of flat ones that are not of their planes. Where enough of
-/// these hang together, such as a mug on a table, they are a segment of their own. Segments that
-/// are thicker than twice `sigma`, narrower than it, or would lose more than a third of their
-/// points, are no planes, and keep them all.
+/// The segments without the points that are farther than three standard deviations from the plane
+/// of a flat one, which are unlabeled then. Segments that are not flat keep all.
 ///
-/// @param points   any point range of n points [m]; where view points are known, noise lies along
-///                 the rays, else it is the same in all directions
-/// @param surface  a normal for each, of either sign; points without one are judged without
-/// @param parts    segments of these points
+/// @param points  any point range of n points [m]; where view points are known, noise lies along
+///                the rays, else it is the same in all directions
+/// @param parts   segments of these points
+/// @param noise   of the sensor
 /// @return the segments, largest first; the same bytes for every execution
-/// @throws std::invalid_argument  if points, surface, segments or view points differ in number, or
-///                                unless sigma is greater than 0, k at least 1, max_distance not
-///                                negative, and max_angle in [0, 90] degrees
-/// Complexity: O(n log n), and O(k log k) for each point whose normal disagrees.
-template <class R, normal_range Surface, execution X = sequential, class Proj = std::identity>
+/// @throws std::invalid_argument  if points, segments or view points differ in number
+/// Complexity: O(n), and an index if `points` is none.
+template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] segments split_outliers(const R& points, const Surface& surface,
-                                      const segments& parts,
-                                      const split_outliers_options& options = {}, const X& run = {},
+[[nodiscard]] segments split_outliers(const R& points, const segments& parts,
+                                      const noise_curve& noise, const X& run = {},
                                       Proj projection = {}) {
     const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(parts.labels().size() == index.size(),
+                    "split_outliers: the numbers of points and of labels differ");
+    const detail::planar_cloud cloud(index, noise, team);
+    const auto regions = detail::regions_of(cloud, parts, team);
+    detail::scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (labels[i] == unlabeled || !cloud.is_finite(i)) continue;
+        const auto& of = regions[static_cast<std::size_t>(labels[i])];
+        if (detail::misfit_of(cloud, i, of) < 0.0) labels[i] = unlabeled;
+    }
+    detail::number_by_size(labels);
     segments result;
-    detail::split_outliers_into(result, detail::index_of(points, team, projection), surface, parts,
-                                options, team);
+    result.assign(labels);
     return result;
 }
 
@@ -14665,381 +14468,6 @@ template <class Members = std::identity>
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/occlusion/detail/seen_plane.hpp -------------------------------------------------
-
-/// @file
-/// The plane of a segment from its ranges. The noise is along the rays, not across the surface: the
-/// plane is the regression of the depth along a mean ray on the position across it. For segments
-/// narrower than the noise, or seen at a grazing angle, the direction of least variance is
-/// meaningless; the regression has a large covariance there.
-///
-/// The rays to one segment are taken as parallel. Segments too wide for that have enough points
-/// that the error does not matter.
-
-namespace gnomon::detail {
-
-/// A viewing direction and two axes across it, all of unit length.
-struct sight_axes {
-    Eigen::Vector3d along, x, y;
-
-    /// Towards d, of any length but zero.
-    explicit sight_axes(const Eigen::Vector3d& d)
-        : along(direction_of(d)), x(orthogonal(along)), y(cross(along, x)) {}
-};
-
-/// Two coordinates across a viewing direction.
-using place_across = std::array<double, 2>;
-
-/// A symmetric matrix over them.
-struct matrix_across {
-    double xx, xy, yy;
-
-    [[nodiscard]] double determinant() const { return xx * yy - xy * xy; }
-    /// The inverse, times v.
-    [[nodiscard]] place_across solved(const place_across& v) const {
-        return {(yy * v[0] - xy * v[1]) / determinant(), (xx * v[1] - xy * v[0]) / determinant()};
-    }
-    [[nodiscard]] place_across operator*(const place_across& v) const {
-        return {xx * v[0] + xy * v[1], xy * v[0] + yy * v[1]};
-    }
-    [[nodiscard]] double largest_eigenvalue() const {
-        return 0.5 * (xx + yy) + std::hypot(0.5 * (xx - yy), xy);
-    }
-    [[nodiscard]] matrix_across inverse() const {
-        return {yy / determinant(), -xy / determinant(), xx / determinant()};
-    }
-    friend matrix_across operator+(const matrix_across& a, const matrix_across& b) {
-        return {a.xx + b.xx, a.xy + b.xy, a.yy + b.yy};
-    }
-    friend matrix_across operator*(double s, const matrix_across& a) {
-        return {s * a.xx, s * a.xy, s * a.yy};
-    }
-};
-
-[[nodiscard]] inline double dot(const place_across& a, const place_across& b) {
-    return a[0] * b[0] + a[1] * b[1];
-}
-
-/// Points of one plane.
-struct plane_sample {
-    std::size_t count = 0;
-    Eigen::Vector3d mean{0.0, 0.0, 0.0};                   ///< [m]
-    Eigen::Matrix3d covariance = diagonal(0.0, 0.0, 0.0);  ///< [m^2]
-    Eigen::Vector3d viewpoint{0.0, 0.0, 0.0};              ///< the mean of theirs [m]
-};
-
-/// The viewing direction of a sample; for a sample around its own view point, the normal of its
-/// plane.
-[[nodiscard]] inline sight_axes axes_towards(const plane_sample& sample) {
-    const Eigen::Vector3d d = difference(sample.mean, sample.viewpoint);
-    const double size = length(d);
-    return sight_axes(size > 0.0 && std::isfinite(size)
-                          ? d
-                          : column(symmetric_eigen(sample.covariance).vectors, 2));
-}
-
-/// depth = slope . place + constant, through the mean of a sample.
-struct depth_regression {
-    place_across slope;
-    matrix_across spread;  ///< covariance of the places [m^2]
-
-    depth_regression(const plane_sample& sample, const sight_axes& axes) {
-        const Eigen::Vector3d x = product(sample.covariance, axes.x);
-        const Eigen::Vector3d y = product(sample.covariance, axes.y);
-        // No place is known better than this: that of a single ray, or row of rays, neither.
-        constexpr double exact = 1e-9;  // [m^2]
-        spread = {dot(axes.x, x) + exact, dot(axes.x, y), dot(axes.y, y) + exact};
-        slope = spread.solved({dot(axes.along, x), dot(axes.along, y)});
-    }
-
-    /// Times a way from the mean, how much deeper than the plane that ends. Not of unit length.
-    [[nodiscard]] Eigen::Vector3d normal(const sight_axes& axes) const {
-        return combined(1.0, axes.along, -slope[0], axes.x, -slope[1], axes.y);
-    }
-
-    /// How well the slope is known by `count` points: the inverse of its covariance.
-    [[nodiscard]] matrix_across information(std::size_t count, double sigma) const {
-        return (static_cast<double>(count) / (sigma * sigma)) * spread;
-    }
-};
-
-/// What a sample tells of its plane by itself.
-struct plane_knowledge {
-    double squared_width;    ///< larger variance of the positions across the direction [m^2]
-    angle uncertainty;       ///< of the direction of the plane, three standard deviations
-    Eigen::Vector3d normal;  ///< towards the view point, not of unit length
-};
-
-/// @param sigma  the standard deviation of ranges [m]
-[[nodiscard]] inline plane_knowledge knowledge_of(const plane_sample& sample, double sigma) {
-    const sight_axes axes = axes_towards(sample);
-    const depth_regression plane(sample, axes);
-    const matrix_across of_slope = plane.information(sample.count, sigma).inverse();
-    return {plane.spread.largest_eigenvalue(),
-            radians(std::atan(3.0 * std::sqrt(of_slope.largest_eigenvalue()))),
-            scaled(-1.0, plane.normal(axes))};
-}
-
-/// Tells of an offset [m] from `origin` whether the point there is on the plane of a sample, as far
-/// as noise lets it be.
-[[nodiscard]] inline auto is_on_plane_of(const plane_sample& sample, double sigma,
-                                         const Eigen::Vector3d& origin) {
-    constexpr double at_most = 2.5;  // standard deviations of a range
-    const sight_axes axes = axes_towards(sample);
-    const Eigen::Vector3d deeper = depth_regression(sample, axes).normal(axes);
-    return [deeper, at_mean = dot(deeper, difference(sample.mean, origin)),
-            depth = at_most * sigma](const Eigen::Vector3d& offset) {
-        return std::abs(dot(deeper, offset) - at_mean) <= depth;
-    };
-}
-
-/// The indices of the points that are on the plane of a sample of them. O(n).
-/// @param positions  of the points [m]
-/// @param members    their indices
-[[nodiscard]] inline scratch<point_index> points_on_plane(
-    std::span<const Eigen::Vector3d> positions, std::span<const point_index> members,
-    const plane_sample& sample, double sigma) {
-    const auto is_on_plane = is_on_plane_of(sample, sigma, sample.mean);
-    scratch<point_index> on;
-    on.reserve(members.size());
-    for (std::size_t k = 0; k < members.size(); ++k)
-        if (is_on_plane(difference(positions[k], sample.mean))) on.push_back(members[k]);
-    return on;
-}
-
-/// The mean of the known view points of some points [m]; the origin if none is known.
-[[nodiscard]] inline Eigen::Vector3d mean_viewpoint(std::span<const point_index> members,
-                                                    const viewpoint_table& viewpoints) {
-    Eigen::Vector3d sum(0.0, 0.0, 0.0);
-    std::size_t count = 0;
-    for (const point_index i : members) {
-        const Eigen::Vector3d v = viewpoints[i];
-        if (!is_finite(v)) continue;
-        sum = combined(1.0, sum, 1.0, v);
-        ++count;
-    }
-    return count > 0 ? scaled(1.0 / static_cast<double>(count), sum) : sum;
-}
-
-/// The points of a segment that are on its plane. The segment may contain points of adjacent
-/// surfaces at its edges: points off the plane are removed repeatedly, unless they are more than
-/// half of the points that were left. Of no points if none is finite. O(n).
-/// @param positions  of the points of the segment [m]
-/// @param all        of these
-/// @param viewpoint  the mean of their view points [m]
-[[nodiscard]] inline plane_sample plane_sample_of(std::span<const Eigen::Vector3d> positions,
-                                                  const moments_about_first& all,
-                                                  const Eigen::Vector3d& viewpoint, double sigma) {
-    plane_sample sample;
-    sample.viewpoint = viewpoint;
-    if (all.of_points.count == 0) return sample;
-    const Eigen::Vector3d origin = all.origin;
-    const auto take = [&](const moments& m) {
-        sample.count = m.count;
-        sample.mean = combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum);
-        sample.covariance = m.covariance_of_neighbors();
-    };
-    take(all.of_points);
-    for (int pass = 0; pass < 4; ++pass) {
-        const auto is_on_plane = is_on_plane_of(sample, sigma, origin);
-        moments on = all.of_points;  // less the points off the plane, which are few
-        for (const Eigen::Vector3d& p : positions) {
-            const Eigen::Vector3d offset = difference(p, origin);
-            if (!is_on_plane(offset) && is_finite(p)) on.remove(offset);
-        }
-        if (2 * on.count >= sample.count) take(on);
-    }
-    return sample;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/plane_comparison.hpp -------------------------------------------
-
-/// @file
-/// The test whether two segments are coplanar, certainly not coplanar, or neither can be decided
-/// under the noise: a Chow test of two regressions (Chow 1960).
-
-namespace gnomon::detail {
-
-/// Two samples and the result of the test.
-class plane_comparison {
-  public:
-    /// With a sample of no points nothing is of one plane, nor of two.
-    /// @param wide  that of the wider segment
-    plane_comparison(const plane_sample& wide, const plane_sample& slim, double sigma)
-        : sigma_(sigma), both_have_points_(wide.count > 0 && slim.count > 0) {
-        const sight_axes axes = axes_towards(slim);  // which depends more on how the rays go
-        const depth_regression a(wide, axes), b(slim, axes);
-        constexpr double square_of_two = 11.8;  // 99.7 % of chi-squared, of two numbers
-        const place_across turn{a.slope[0] - b.slope[0], a.slope[1] - b.slope[1]};
-        const matrix_across spread = spread_of_slope(wide, a) + spread_of_slope(slim, b);
-        parallel_ = dot(turn, spread.solved(turn)) <= square_of_two;
-        const Eigen::Vector3d normal = a.normal(axes), other = b.normal(axes);
-        turned_ = std::atan2(length(cross(normal, other)), dot(normal, other));
-        turned_by_noise_ = std::atan(deviations * std::sqrt(spread.largest_eigenvalue()));
-
-        // The common slope of parallel planes is the mean weighted by information; otherwise the
-        // slope of the wider segment is used.
-        const matrix_across known_a = a.information(wide.count, sigma),
-                            known_b = b.information(slim.count, sigma);
-        const matrix_across sum = parallel_ ? known_a + known_b : known_a;
-        const place_across in_a = known_a * a.slope, in_b = known_b * b.slope;
-        const place_across slope =
-            parallel_ ? sum.solved({in_a[0] + in_b[0], in_a[1] + in_b[1]}) : a.slope;
-        const Eigen::Vector3d between = difference(slim.mean, wide.mean);
-        const place_across way{dot(axes.x, between), dot(axes.y, between)};
-        const double cosine = 1.0 / std::sqrt(1.0 + dot(slope, slope));  // of depths, distances
-        offset_ = cosine * std::abs(dot(axes.along, between) - dot(slope, way));
-        const double variance = sigma * sigma;
-        offset_deviation_ = cosine * std::sqrt(variance / static_cast<double>(wide.count) +
-                                               variance / static_cast<double>(slim.count) +
-                                               dot(way, sum.solved(way)));
-        // What is hardly wider than noise became a segment by chance, and its points are no fair
-        // sample of the noise.
-        constexpr double chosen = 1.0;  // in standard deviations
-        tolerated_offset_ = no_noise * sigma;
-        if (b.spread.largest_eigenvalue() < 9.0 * variance)
-            tolerated_offset_ = std::max(cosine * chosen * sigma, tolerated_offset_);
-    }
-
-    /// The distance of the narrower segment from the common plane, or from that of the wider
-    /// segment [m].
-    [[nodiscard]] double offset() const { return offset_; }
-
-    /// Whether the segments are coplanar. Their angle must be below its 99.7 % quantile under the
-    /// null hypothesis, plus a tenth of a standard deviation for rounded edges; an angle that is
-    /// known well may be up to max_angle. The offset must be below its 97.6 % quantile, as parallel
-    /// planes a centimeter apart are common. False if the noise would hide an offset of max_offset
-    /// in more than one of six cases.
-    [[nodiscard]] bool is_of_one(angle max_angle, double max_offset) const {
-        constexpr double not_hidden = deviations + 1.0;  // of which 84 % are found
-        return both_have_points_ &&
-               (parallel_ ||
-                (turned_ <= max_angle.radians() && turned_by_noise_ <= max_angle.radians())) &&
-               offset_ < max_offset &&
-               not_hidden * offset_deviation_ + no_noise * sigma_ < max_offset &&
-               offset_ <= deviations_of_offset * offset_deviation_ + tolerated_offset_;
-    }
-
-    /// Whether their angle is greater than max_angle, or their offset than max_offset, by more than
-    /// three standard deviations. Of what is neither of one plane nor of two, nothing is known.
-    [[nodiscard]] bool is_of_two(angle max_angle, double max_offset) const {
-        return both_have_points_ &&
-               ((!parallel_ && turned_ - turned_by_noise_ > max_angle.radians()) ||
-                offset_ - deviations * offset_deviation_ - tolerated_offset_ > max_offset);
-    }
-
-  private:
-    static constexpr double deviations = 3.0;             // 99.7 % of a normal distribution
-    static constexpr double deviations_of_offset = 2.25;  // 97.6 %
-    static constexpr double no_noise = 0.1;               // in standard deviations
-
-    /// The covariance of a slope, with what is no noise.
-    [[nodiscard]] matrix_across spread_of_slope(const plane_sample& sample,
-                                                const depth_regression& r) const {
-        const double more = no_noise * no_noise * static_cast<double>(sample.count);
-        return (1.0 + more) * r.information(sample.count, sigma_).inverse();
-    }
-
-    double sigma_;
-    bool both_have_points_, parallel_;
-    double turned_, turned_by_noise_;                      // [rad]
-    double offset_, offset_deviation_, tolerated_offset_;  // [m]
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/fragment.hpp ---------------------------------------------------
-
-/// @file
-/// A segment as merging sees it: how flat it is, what it tells of its plane, and where gaps to
-/// others begin.
-
-namespace gnomon::detail {
-
-/// Where three points in four of a segment are in one plane, no thicker than twice the noise, the
-/// segment is flat, and gaps begin there: the others may be round a corner, or what something in
-/// front has lent it.
-struct fragment {
-    scratch<point_index> members;
-    scratch<point_index> on_plane;  ///< of a flat one: of these, if three in four, else all
-    principal_frame frame;
-    plane_sample plane;
-    /// Of its plane, or else the sum of those of its points; of any length.
-    Eigen::Vector3d normal{0.0, 0.0, 0.0};
-    bool is_flat = false;
-    bool is_known = false;  ///< tells the direction of its plane by itself
-    bool is_spot = false;   ///< narrower than noise
-    bool is_new = true;     ///< since the round before
-};
-
-/// The sum of the normals of some points.
-[[nodiscard]] Eigen::Vector3d sum_of_normals(const auto& normals,
-                                             std::span<const point_index> members) {
-    Eigen::Vector3d sum(0.0, 0.0, 0.0);
-    for (const point_index i : members) {
-        const Eigen::Vector3d normal = normals[i].normal;
-        if (is_finite(normal)) sum = combined(1.0, sum, 1.0, normal);
-    }
-    return sum;
-}
-
-/// The fragment of some points of a position_view. O(n).
-/// @param normals        of all points, towards their view points
-/// @param members        the points of the segment
-/// @param positions      memory for the positions of the members
-/// @param max_variation  surface variation of a flat segment
-/// @param max_angle      by which planes may differ: the direction of a plane is known if its
-///                       uncertainty is smaller
-/// @param sigma          the standard deviation of ranges [m]
-template <class Points>
-[[nodiscard]] fragment fragment_of(const Points& points, const auto& normals,
-                                   const viewpoint_table& viewpoints, scratch<point_index> members,
-                                   std::span<Eigen::Vector3d> positions, double max_variation,
-                                   angle max_angle, double sigma) {
-    fragment f;
-    f.members = std::move(members);
-    std::transform(f.members.begin(), f.members.end(), positions.begin(),
-                   [&points](point_index i) { return points[i]; });
-    const moments_about_first all(positions);
-    f.frame = principal_axes_of(all);
-    f.plane = plane_sample_of(positions, all, mean_viewpoint(f.members, viewpoints), sigma);
-    const auto are_most = [&](std::size_t count) { return 4 * count >= 3 * f.members.size(); };
-    const double thickness2 = symmetric_eigen(f.plane.covariance).values[2];
-    f.is_flat =
-        f.plane.count > 0 && (f.frame.spectrum.surface_variation() <= max_variation ||
-                              (are_most(f.plane.count) && thickness2 <= 4.0 * sigma * sigma));
-    if (f.is_flat) f.on_plane = points_on_plane(positions, f.members, f.plane, sigma);
-    if (f.is_flat && !are_most(f.on_plane.size())) f.on_plane = f.members;
-    const plane_knowledge known = knowledge_of(f.plane, sigma);
-    f.is_known = known.uncertainty <= max_angle;
-    f.normal = f.is_known ? known.normal : sum_of_normals(normals, f.members);
-    f.is_spot = known.squared_width < sigma * sigma;
-    return f;
-}
-
-/// What the planes of two tell of each other.
-[[nodiscard]] inline plane_comparison comparison_of(const fragment& a, const fragment& b,
-                                                    double sigma) {
-    const bool first = a.frame.spectrum.lambda[1] >= b.frame.spectrum.lambda[1];
-    return {(first ? a : b).plane, (first ? b : a).plane, sigma};
-}
-
-/// Whether two segments without anything in front of their gap may be parts of one surface. A
-/// segment hardly wider than the noise determines its plane poorly; its mean normal must then agree
-/// with that of the other within 45 degrees. The normals of a segment narrower than the noise are
-/// noise, so that the plane of the other must be known.
-[[nodiscard]] inline bool may_adjoin(const fragment& a, const fragment& b) {
-    if (a.is_spot || b.is_spot) return a.is_known || b.is_known;
-    constexpr double blended = 0.5;  // the square of the cosine of 45 degrees
-    const double product = dot(a.normal, b.normal);
-    return product >= 0.0 &&
-           product * product >= blended * dot(a.normal, a.normal) * dot(b.normal, b.normal);
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/occlusion/merge_policy.hpp ------------------------------------------------------
 
 /// @file
@@ -15359,10 +14787,25 @@ namespace gnomon {
 struct visibility_options {
     angle pixel = radians(0);  ///< of the images; 0 stands for the spacing of the rays
     std::optional<Eigen::Vector3d> pole = std::nullopt;  ///< as in `range_image_options`
-    /// Standard deviation of ranges [m]; three of them are no difference, and view points in a cube
-    /// of this size are one.
-    double sigma = 0.015;
+    /// Along the rays: three standard deviations are no difference, and view points in a cube as
+    /// wide as the typical one are one.
+    noise_curve noise = constant_noise{};
 };
+
+namespace detail {
+
+/// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian
+///                                to 90 degrees, or a pole that is not finite or of no length
+inline void require_valid(const visibility_options& options) {
+    constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+    const double given = options.pixel.radians();
+    require(given == 0.0 || (given >= least && given <= most),
+            "visibility: a pixel has between a microradian and 90 degrees");
+    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+            "visibility: the pole must be finite and have a length");
+}
+
+}  // namespace detail
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
@@ -15385,20 +14828,15 @@ class visibility {
     /// The observations of a whole cloud: also of points that belong to no segment, such as floor
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
-    /// @throws std::invalid_argument  for a sigma that is negative or not finite, an angle of
-    ///                                a pixel that is neither 0 nor from a microradian to 90
+    /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
+    /// microradian to 90
     ///                                degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
                         Proj projection = {})
-        : sigma_(options.sigma) {
-        detail::require(options.sigma >= 0.0 && std::isfinite(options.sigma),
-                        "visibility: sigma must be finite and not negative");
-        constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
-        const double given = options.pixel.radians();
-        detail::require(given == 0.0 || (given >= least && given <= most),
-                        "visibility: a pixel has between a microradian and 90 degrees");
+        : noise_(options.noise) {
+        detail::require_valid(options);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             observe(points, viewpoints, options, run, projection);
         });
@@ -15464,7 +14902,7 @@ class visibility {
         pixel_ = std::numbers::pi / static_cast<double>(height);
         const range_image_options format{2 * height, height, options.pole};
 
-        const auto places = detail::places_of_sensor(p, viewpoints, options.sigma);
+        const auto places = detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
         detail::scratch<std::optional<range_image>> images(places.size());
         run(places.size(), [&](std::size_t i) {
             images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
@@ -15473,12 +14911,28 @@ class visibility {
         for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
     }
 
+    /// The root mean square of the standard deviations of the ranges [m].
+    [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
+        constexpr std::size_t enough = 1000;
+        double sum = 0.0, count = 0.0;
+        for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
+            const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
+            if (!std::isfinite(variance)) continue;
+            sum += variance;
+            count += 1.0;
+        }
+        return count > 0.0 ? std::sqrt(sum / count) : 0.0;
+    }
+
     /// What one view point has seen there.
     [[nodiscard]] observation towards(const Eigen::Vector3d& place,
                                       const range_image& image) const {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
-        const double margin = 3.0 * sigma_ + expected * pixel_;
+        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        const double margin =
+            deviations * noise_.along(detail::difference(place, image.viewpoint())) +
+            expected * pixel_;
         const auto told_by = [&](const range_image::pixel& other) {
             const double range = image.range(other);
             if (range < 0.0) return observation::unobserved;
@@ -15521,7 +14975,7 @@ class visibility {
         return about;
     }
 
-    double sigma_;
+    noise_curve noise_;
     double pixel_ = 0.0;  // [rad]
     detail::scratch<range_image> images_;
 };
@@ -15565,149 +15019,95 @@ template <merge_policy M>
 // -------- gnomon/occlusion/detail/occlusion_merger.hpp -------------------------------------------
 
 /// @file
-/// The rounds of merge_occluded: which pairs of segments are compared, which gaps are closed, and
-/// which segments become one.
+/// Which segments merge_occluded compares, and which gaps between them it closes.
 
 namespace gnomon::detail {
 
 /// A gap between two segments, as `considered_gap`.
 struct examined_gap {
+    region_pair sides;
     scratch<boundary_pair> lines;
     observation_count seen = {};
     bool merged = false;
 };
 
 /// One run of the algorithm.
-/// @tparam Points   a position_view
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <class Points, class Normals, merge_policy M, class Options, execution X>
+template <merge_policy M, class Options>
 class occlusion_merger {
   public:
-    /// @param known  fragments of an earlier run over the same points, with the same options: those
-    ///               with the same members as a segment are not computed again
-    occlusion_merger(const Points& points, const viewpoint_table& viewpoints,
-                     const Normals& normals, const segments& parts, const visibility& visible,
-                     const M& policy, const Options& options, const X& run,
-                     scratch<fragment>& known)
+    template <execution X>
+    occlusion_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
+                     const visibility& visible, const M& policy, const Options& options,
+                     const X& run)
         : points_(points),
-          viewpoints_(viewpoints),
-          normals_(normals),
           visible_(visible),
           policy_(policy),
           options_(options),
-          positions_(points.size()) {
-        constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-        scratch<std::size_t> known_of(parts.size(), none);
-        for (std::size_t f = 0; f < known.size(); ++f) {
-            const std::int32_t label = parts.labels()[known[f].members.front()];
-            if (label == unlabeled) continue;
-            const auto s = static_cast<std::size_t>(label);
-            // (Not by std::ranges::equal, whose concepts all users would compile.)
-            const auto& before = known[f].members;
-            const auto now = parts[s];
-            if (std::equal(before.begin(), before.end(), now.begin(), now.end())) known_of[s] = f;
-        }
-        scratch<std::size_t> begin(parts.size(), 0);
-        for (std::size_t s = 1; s < parts.size(); ++s)
-            begin[s] = begin[s - 1] + parts[s - 1].size();
-        scratch<fragment> all(parts.size());
+          regions_(parts.size()),
+          members_(parts.size()),
+          is_flat_(parts.size(), false) {
         run(parts.size(), [&](std::size_t s) {
             if (parts[s].empty()) return;
-            const bool is_known = known_of[s] != none;
-            all[s] = is_known ? std::move(known[known_of[s]])
-                              : fragment_with({parts[s].begin(), parts[s].end()}, begin[s]);
-            all[s].is_new = true;
+            const plane_of_members found(cloud, parts[s]);
+            regions_[s] = found.region;
+            is_flat_[s] = found.is_flat;
+            for (const point_index i : parts[s])
+                if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
+                    members_[s].push_back(i);
         });
-        for (fragment& f : all)
-            if (!f.members.empty()) fragments_.push_back(std::move(f));
     }
 
-    /// Merges, round by round.
-    void operator()() {
-        while (merge_once()) {
-        }
-    }
-
-    /// The labels of the points.
-    [[nodiscard]] scratch<std::int32_t> labels() const {
-        return labels_of_groups(points_.size(), fragments_, &fragment::members);
-    }
-    /// All gaps that were examined, in the order of the rounds.
-    [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
-    /// The fragments after merging, for another run.
-    [[nodiscard]] scratch<fragment> take_fragments() { return std::move(fragments_); }
-
-  private:
-    /// @param begin  of its positions in `positions_`
-    [[nodiscard]] fragment fragment_with(scratch<point_index> members, std::size_t begin) {
-        const auto positions = std::span(positions_).subspan(begin, members.size());
-        return fragment_of(points_, normals_, viewpoints_, std::move(members), positions,
-                           options_.max_variation, options_.max_angle, options_.sigma);
-    }
-
-    /// A gap that may be closed.
-    struct link {
-        point_index first, second;  ///< the fragments on both sides
-        double offset;              ///< of one from the plane of the other [m]
-        std::size_t gap;            ///< its number
-    };
-
-    /// One round.
-    /// @return whether it merged any
-    bool merge_once() {
-        scratch<link> links;
-        for (const auto& [i, j] : pairs_to_compare(fragments_, options_.candidates,
-                                                   &fragment::is_flat, &fragment::frame)) {
-            const fragment &a = fragments_[i], &b = fragments_[j];
-            if (!a.is_new && !b.is_new) continue;
-            const plane_comparison planes = comparison_of(a, b, options_.sigma);
-            if (!planes.is_of_one(options_.max_angle, options_.max_offset)) continue;
-            examined_gap gap;
-            gap.lines.reserve(options_.boundary_pairs);
-            append_boundary_pairs(gap.lines, points_, a.on_plane, b.on_plane,
-                                  {a.frame.centroid, b.frame.centroid}, options_.boundary_pairs);
-            if (is_closed(gap, may_adjoin(a, b)))
-                links.push_back({i, j, planes.offset(), gaps_.size()});
-            gaps_.push_back(std::move(gap));
-        }
-        if (links.empty()) return false;
-        union_find sets = sets_of(links);
-        for (const link& l : links) gaps_[l.gap].merged = sets.find(l.first) == sets.find(l.second);
-        gather(sets);
-        return true;
-    }
-
-    /// What the links join, the closest planes first. A fragment that tells little of its plane may
-    /// be of one with two that are certainly of two: it does not join these, each set being judged
-    /// by its largest fragment.
-    [[nodiscard]] union_find sets_of(scratch<link>& links) const {
-        std::sort(links.begin(), links.end(), [this](const link& a, const link& b) {
-            if (a.offset != b.offset) return a.offset < b.offset;
-            return coplanar_distance(gaps_[a.gap].lines) < coplanar_distance(gaps_[b.gap].lines);
-        });
-        union_find sets(fragments_.size());
-        scratch<point_index> largest(fragments_.size());
-        std::iota(largest.begin(), largest.end(), point_index{0});
-        for (const link& l : links) {
-            const point_index a = largest[sets.find(l.first)], b = largest[sets.find(l.second)];
-            if (comparison_of(fragments_[a], fragments_[b], options_.sigma)
-                    .is_of_two(options_.max_angle, options_.max_offset))
-                continue;
-            const bool first = fragments_[a].members.size() >= fragments_[b].members.size();
-            largest[sets.unite(l.first, l.second)] = first ? a : b;
-        }
+    /// Merges the segments; their sets.
+    [[nodiscard]] union_find operator()() {
+        union_find sets = agglomeration(regions_)(
+            pairs(),
+            [this](const planar_region& a, const planar_region& b) {
+                return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
+            },
+            [this](point_index a, point_index b) { return is_closed(a, b); },
+            [this](point_index into, point_index from) {
+                members_[into].insert(members_[into].end(), members_[from].begin(),
+                                      members_[from].end());
+                members_[from].clear();
+            });
+        for (examined_gap& gap : gaps_)
+            gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
         return sets;
     }
 
-    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow and its
-    /// sides may adjoin, whether `liberal` does.
-    /// @param gap  stores what was seen in it
-    [[nodiscard]] bool is_closed(examined_gap& gap, bool may_adjoin) const {
+    /// All gaps that were examined.
+    [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
+
+  private:
+    /// Pairs of flat segments that may be one.
+    [[nodiscard]] scratch<region_pair> pairs() const {
+        scratch<std::size_t> all(regions_.size());
+        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
+        return pairs_to_compare(
+            all, options_.candidates, [this](std::size_t r) { return is_flat_[r] != 0; },
+            [this](std::size_t r) { return regions_[r].fit; });
+    }
+
+    /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
+    /// (4.6).
+    [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
+        const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
+        const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
+        return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
+    }
+
+    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow, whether
+    /// `liberal` does.
+    [[nodiscard]] bool is_closed(point_index a, point_index b) {
+        examined_gap gap{{a, b}, {}};
+        append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
+                              {centroid(a), centroid(b)}, options_.boundary_pairs);
         std::size_t accepted = 0, passable = 0;
         bool is_kept_open = false;
         for (const boundary_pair& line : gap.lines) {
             const Eigen::Vector3d v =
-                combined(0.5, viewpoints_[line.first], 0.5, viewpoints_[line.second]);
+                combined(0.5, points_.viewpoints[line.first], 0.5, points_.viewpoints[line.second]);
             const observation_count seen =
                 visible_.between(points_[line.first], points_[line.second], v);
             gap.seen += seen;
@@ -15715,40 +15115,29 @@ class occlusion_merger {
             accepted += accepts(policy_, seen) ? 1 : 0;
             passable += accepts(liberal{}, seen) ? 1 : 0;
         }
-        return !is_kept_open && (2 * accepted > gap.lines.size() ||
-                                 (may_adjoin && coplanar_distance(gap.lines) < options_.max_gap &&
-                                  2 * passable > gap.lines.size()));
+        const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
+        const std::size_t most = is_narrow ? std::max(accepted, passable) : accepted;
+        const bool is_one = !is_kept_open && 2 * most > gap.lines.size();
+        gaps_.push_back(std::move(gap));
+        return is_one;
     }
 
-    /// Makes one segment of each set.
-    void gather(union_find& sets) {
-        for (fragment& f : fragments_) f.is_new = false;
-        for (std::size_t i = 0; i < fragments_.size(); ++i) {
-            const point_index root = sets.find(static_cast<point_index>(i));
-            if (root == i) continue;
-            auto &from = fragments_[i].members, &to = fragments_[root].members;
-            to.insert(to.end(), from.begin(), from.end());
-            from.clear();
-            fragments_[root].is_new = true;
-        }
-        std::erase_if(fragments_, [](const fragment& f) { return f.members.empty(); });
-        for (fragment& f : fragments_) {
-            if (!f.is_new) continue;
-            std::sort(f.members.begin(), f.members.end());
-            f = fragment_with(std::move(f.members), 0);
-        }
+    /// Of the points of a segment on its plane, at the beginning of a round [m].
+    [[nodiscard]] Eigen::Vector3d centroid(point_index r) const {
+        Eigen::Vector3d sum(0.0, 0.0, 0.0);
+        const Eigen::Vector3d first = points_[members_[r].front()];
+        for (const point_index i : members_[r])
+            sum = combined(1.0, sum, 1.0, difference(points_[i], first));
+        return combined(1.0, first, 1.0 / static_cast<double>(members_[r].size()), sum);
     }
 
-    const Points& points_;
-    const viewpoint_table& viewpoints_;
-    const Normals& normals_;
+    const spatial_index& points_;
     const visibility& visible_;
     const M& policy_;
     const Options& options_;
-    // One array for all threads: the memory in use does not depend on which segments are fitted at
-    // the same time.
-    scratch<Eigen::Vector3d> positions_;
-    scratch<fragment> fragments_;
+    scratch<planar_region> regions_;
+    scratch<scratch<point_index>> members_;  // on the planes
+    scratch<char> is_flat_;
     scratch<examined_gap> gaps_;
 };
 
@@ -15760,32 +15149,24 @@ class occlusion_merger {
 /// Merging of occluded segments: flat coplanar segments are merged where the observations in the
 /// gap between them are evidence for one surface.
 ///
-/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: in rounds, each
-/// of which tests all pairs with a new segment and merges the accepted ones, until there are none.
-/// Two segments that are certainly not coplanar are not joined through a third one. A narrow gap,
-/// which the thesis always closes, stays open where free space was observed (docs/thesis-notes.md,
-/// A18). Coplanarity is a test on the regressions of the ranges, and for adjacent narrow segments
-/// also on their normals. merge_occluded_literally is the algorithm as printed.
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: the most alike
+/// first, until no two are alike. Coplanarity is a test of all points of both (Chow 1960), so that
+/// two planes are not joined through a third segment that would be of either. A narrow gap, which
+/// the thesis always closes, stays open where free space was observed (docs/thesis-notes.md, A18).
+/// merge_occluded_literally is the algorithm as printed.
 
 namespace gnomon {
 
-/// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
+/// Parameters of `merge_occluded`.
 struct merge_occluded_options {
-    double max_variation =
-        0.15;  ///< sigma_sv,max of a flat segment, Eq. (3.28): 0 a plane, 1 a ball
-    angle max_angle = degrees(15);  ///< rho_a between coplanar segments
-    double max_offset = 0.05;       ///< rho_o of coplanar segments [m]
+    noise_curve noise = constant_noise{};  ///< along the rays
+    double max_offset = 0.05;              ///< rho_o between coplanar segments side by side [m]
     /// rho_c [m]: narrower gaps are closed whatever the policy, unless free space was observed in
-    /// them or their sides are too narrow to determine that they are one surface.
+    /// them.
     double max_gap = 0.20;
-    /// Standard deviation of ranges [m], greater than 0; of points across a surface it is no more.
-    /// What is less flat, or less in one plane, than the thresholds want may be so by noise, and
-    /// what keeps to them by less than noise would.
-    double sigma = 0.015;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
     /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
-    /// to 300 segments, and for 20 of more. Two that become neighbors only because others merged
-    /// are not compared in the same run.
+    /// to 300 segments, and for 20 of more.
     std::size_t candidates = 0;
 };
 
@@ -15809,61 +15190,47 @@ struct merged_segments {
 
 namespace detail {
 
-/// Refuses what no form of the algorithm can work with.
-inline void require_thresholds(const merge_occluded_options& options) {
-    require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
-            "merge_occluded_options: the number of boundary pairs must be even and not 0");
-    require(options.max_variation >= 0.0 && options.max_offset >= 0.0 && options.max_gap >= 0.0 &&
-                options.max_angle.radians() >= 0.0,
-            "merge_occluded_options: a threshold is negative or NaN");
+/// @throws std::invalid_argument  for what no form of the algorithm can work with
+inline void require_boundary_pairs(std::size_t pairs) {
+    require(pairs > 0 && pairs % 2 == 0,
+            "merging: the number of boundary pairs must be even and not 0");
 }
 
-/// Normals of points without any.
-struct no_normals {
-    struct element {
-        Eigen::Vector3d normal{0.0, 0.0, 0.0};
-    };
-    [[nodiscard]] element operator[](std::size_t) const { return {}; }
-};
+inline void require_valid(const merge_occluded_options& options) {
+    require_boundary_pairs(options.boundary_pairs);
+    require(options.max_offset >= 0.0 && options.max_gap >= 0.0,
+            "merge_occluded: max_offset and max_gap must not be negative or NaN");
+}
 
-/// merge_occluded(), in the memory of `result`, which may be `parts`.
-/// @param known      fragments of the first run for a second one with the same points, normals and
-///                   options; none for the first run. Becomes those of this run.
-/// @param each_gap   each_gap(examined_gap) is called for all gaps, in the order of the rounds
-template <class R, class Normals, merge_policy M, execution X, class Proj>
-void merge_occluded_into(segments& result, const R& points, const Normals& normals,
-                         const segments& parts, const visibility& visible, const M& policy,
-                         const merge_occluded_options& options, const X& run,
-                         const Proj& projection, scratch<fragment>& known, auto&& each_gap) {
-    const position_view<R, Proj> p(points, projection);
-    require(parts.labels().size() == p.size(),
+/// The sets of the segments of an index that merge_occluded makes one.
+/// @param each_gap  each_gap(examined_gap) is called for all gaps
+template <merge_policy M, execution X>
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const segments& parts,
+                                     const visibility& visible, const M& policy,
+                                     const merge_occluded_options& options, const X& run,
+                                     auto&& each_gap) {
+    require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
-    require_thresholds(options);
-    require(options.sigma > 0.0 && std::isfinite(options.sigma),
-            "merge_occluded: sigma must be greater than 0, and finite");
-    with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        occlusion_merger merge(p, viewpoints, normals, parts, visible, policy, options, run, known);
-        merge();
-        result.assign(merge.labels());
-        for (const examined_gap& gap : merge.gaps()) each_gap(gap);
-        known = merge.take_fragments();
-    });
+    require_valid(options);
+    const planar_cloud cloud(points, options.noise, run);
+    occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
+    union_find sets = merge();
+    for (const examined_gap& gap : merge.gaps()) each_gap(gap);
+    return sets;
 }
 
-/// The same without a second run.
-template <class R, class Normals, merge_policy M, execution X, class Proj>
-[[nodiscard]] merged_segments merged_once(const R& points, const Normals& normals,
-                                          const segments& parts, const visibility& visible,
-                                          const M& policy, const merge_occluded_options& options,
-                                          const X& run, const Proj& projection) {
-    merged_segments result;
-    scratch<fragment> none;
-    merge_occluded_into(
-        result.segments, points, normals, parts, visible, policy, options, run, projection, none,
-        [&result](const examined_gap& gap) {
-            result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
-        });
-    return result;
+/// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
+template <merge_policy M, execution X>
+void merge_occluded_into(segments& result, const spatial_index& points, const segments& parts,
+                         const visibility& visible, const M& policy,
+                         const merge_occluded_options& options, const X& run, auto&& each_gap) {
+    union_find sets = merged_sets(points, parts, visible, policy, options, run, each_gap);
+    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    for (std::int32_t& label : labels)
+        if (label != unlabeled)
+            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+    number_by_size(labels);
+    result.assign(labels);
 }
 
 }  // namespace detail
@@ -15871,30 +15238,13 @@ template <class R, class Normals, merge_policy M, execution X, class Proj>
 /// Merges flat segments that are one surface behind something.
 ///
 /// @param points   any point range of n points; their view points as in `visibility`
-/// @param surface  their n surface elements, or anything with normals towards the view points; what
-///                 has none is judged without
 /// @param parts    segments of these points
-/// @param visible   what was seen from where, best by the whole cloud
+/// @param visible  what was seen from where, best by the whole cloud
 /// @param policy   `conservative`, `liberal` or another
-/// @throws std::invalid_argument  if the surface or the segments are of another number of points,
-///                                for an odd or no number of boundary pairs, a negative or NaN
-///                                threshold, or a sigma that is not finite and
-///                                greater than 0
+/// @throws std::invalid_argument  if the segments or view points are of another number of points,
+///                                for an odd or no number of boundary pairs, or a negative or NaN
+///                                threshold
 /// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
-template <class R, normal_range Surface, merge_policy M = conservative, execution X = sequential,
-          class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] merged_segments merge_occluded(const R& points, const Surface& surface,
-                                             const segments& parts, const visibility& visible,
-                                             const M& policy = {},
-                                             const merge_occluded_options& options = {},
-                                             const X& run = {}, Proj projection = {}) {
-    detail::require(std::ranges::size(surface) == parts.labels().size(),
-                    "merge_occluded: surface and points differ in size");
-    return detail::merged_once(points, surface, parts, visible, policy, options, run, projection);
-}
-
-/// The same without normals: more adjacent narrow segments are merged.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -15902,8 +15252,14 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const visibility& visible, const M& policy = {},
                                              const merge_occluded_options& options = {},
                                              const X& run = {}, Proj projection = {}) {
-    return detail::merged_once(points, detail::no_normals{}, parts, visible, policy, options, run,
-                               projection);
+    merged_segments result;
+    const auto& team = detail::staying(run);
+    detail::merge_occluded_into(
+        result.segments, detail::index_of(points, team, projection), parts, visible, policy,
+        options, team, [&](const auto& gap) {
+            result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        });
+    return result;
 }
 
 }  // namespace gnomon
@@ -15952,20 +15308,35 @@ template <merge_policy M>
 
 }  // namespace detail
 
-/// Merges flat segments by Alg. 4.3. The parameters are those of merge_occluded, but sigma is not
-/// used; a pair of boundary points from different view points counts as not occluded.
+/// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
+struct literal_merging_options {
+    double max_variation =
+        0.15;  ///< sigma_sv,max of a flat segment, Eq. (3.28): 0 a plane, 1 a ball
+    angle max_angle = degrees(15);   ///< rho_a between coplanar segments
+    double max_offset = 0.05;        ///< rho_o of coplanar segments [m]
+    double max_gap = 0.20;           ///< rho_c [m]: narrower gaps are closed
+    std::size_t boundary_pairs = 6;  ///< n_b, an even number
+    std::size_t candidates = 0;      ///< k_c, as in `merge_occluded_options`
+};
+
+/// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
+/// not occluded.
 /// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                thresholds as in merge_occluded
+///                                an odd or no number of boundary pairs, and a negative or NaN
+///                                threshold
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
                                                 const visibility& visible, const M& policy = {},
-                                                const merge_occluded_options& options = {},
+                                                const literal_merging_options& options = {},
                                                 Proj projection = {}) {
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
-    detail::require_thresholds(options);
+    detail::require_boundary_pairs(options.boundary_pairs);
+    detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
+                        options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
+                    "merge_occluded_literally: a threshold is negative or NaN");
     const viewpoint_table viewpoints = detail::viewpoints_of(points);
     // Near view points share an image, which is the nearest one.
     const auto image_of = [&](point_index i) {
@@ -18076,6 +17447,291 @@ class stopwatch {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/cells.hpp ---------------------------------------------------
+
+/// @file
+/// A cloud thinned to its noise: the points of each cube, one standard deviation wide, become their
+/// mean.
+
+namespace gnomon::detail {
+
+/// The cells of the finite points of an index, in the order of their first points.
+struct cells {
+    scratch<Eigen::Vector3d> means;  ///< [m]
+    viewpoint_table viewpoints;      ///< the means of those of the points
+    scratch<point_index> first;      ///< the first point of each
+    scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
+
+    /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
+    ///               of the root of 2, so that cells of many widths share a grid
+    cells(const spatial_index& index, auto&& width) {
+        const Eigen::Vector3d least = least_corner(index);
+        of_point.assign(index.size(), no_cell);
+        const std::size_t slots = std::bit_ceil(std::max<std::size_t>(2 * index.finite(), 16));
+        scratch<point_index> slot(slots, no_cell);
+        scratch<key> keys;
+        scratch<double> counts;
+        scratch<Eigen::Vector3d> seen_from;
+        const bool has_many = index.viewpoints.positions().size() > 1;
+        for (std::size_t i = 0; i < index.size(); ++i) {
+            if (!index.is_finite(i)) continue;
+            const Eigen::Vector3d p = index[i];
+            const key own = key_of(difference(p, least), width(i));
+            std::size_t at = hash(own) & (slots - 1);
+            while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
+            if (slot[at] == no_cell) {
+                slot[at] = static_cast<point_index>(keys.size());
+                keys.push_back(own);
+                means.push_back(p);
+                counts.push_back(0.0);
+                first.push_back(static_cast<point_index>(i));
+                if (has_many) seen_from.push_back(index.viewpoints[i]);
+            }
+            const point_index c = of_point[i] = slot[at];
+            const double share = 1.0 / ++counts[c];
+            means[c] = combined(1.0 - share, means[c], share, p);
+            if (has_many)
+                seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
+        }
+        viewpoints =
+            has_many
+                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
+                : index.viewpoints;
+    }
+
+    static constexpr point_index no_cell = std::numeric_limits<point_index>::max();
+
+  private:
+    using key = std::array<std::int64_t, 4>;
+
+    [[nodiscard]] static Eigen::Vector3d least_corner(const spatial_index& index) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Eigen::Vector3d least(infinity, infinity, infinity);
+        for (std::size_t i = 0; i < index.size(); ++i) {
+            if (!index.is_finite(i)) continue;
+            const Eigen::Vector3d p = index[i];
+            for (int a = 0; a < 3; ++a) least[a] = std::min(least[a], p[a]);
+        }
+        return least;
+    }
+
+    [[nodiscard]] static key key_of(const Eigen::Vector3d& offset, double width) {
+        const double level = std::floor(2.0 * std::log2(width));
+        const double side = std::exp2(0.5 * level);
+        const auto cube = [&](int a) {
+            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, 4e18)));
+        };
+        return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
+    }
+
+    [[nodiscard]] static std::size_t hash(const key& k) {
+        std::uint64_t h = 0;
+        for (const std::int64_t part : k) {
+            h ^= static_cast<std::uint64_t>(part);
+            h *= 0x9e3779b97f4a7c15U;
+            h ^= h >> 32;
+        }
+        return static_cast<std::size_t>(h);
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/perception/detail/cell_surfaces.hpp ---------------------------------------------
+
+/// @file
+/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which
+/// determine a surface as well as the points do, and are fewer. The last step gives the points
+/// their segments.
+
+namespace gnomon::detail {
+
+/// The cells of the points of an index, and what is found in them step by step.
+template <class Estimate>
+class cell_surfaces {
+  public:
+    using surface_type = std::vector<surfel<Estimate>>;
+
+    /// @param points   of which the cells are
+    /// @param noise    of the points: perception_result::known_noise
+    /// @param index    memory for the index of the cells
+    /// @param surface  memory for their surface elements
+    template <execution X>
+    cell_surfaces(const spatial_index& points, const auto& noise, spatial_index& index,
+                  surface_type& surface, const X& run)
+        : points_(points),
+          noise_(noise.of_planes),
+          exact_noise_(noise.curve),
+          index_(index),
+          surface_(surface),
+          cells_(points, [&](std::size_t i) {
+              constexpr double least = 1e-6;  // [m]: at no noise, a cell is a point
+              const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
+              return std::max(noise.of_planes.along(ray), least);
+          }) {
+        index.rebuild(cells_.means, run);
+        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
+    }
+
+    /// The normals of the cells, and which are neighbors.
+    template <class N, class E, execution X>
+    void estimate(const N& neighborhood, const E& estimator, const X& run) {
+        estimate_normals_into(surface_, index_, neighborhood, estimator, run);
+        orient_normals(index_, surface_, run);
+        constexpr std::size_t neighbors = 30;  // as for normals
+        scratch_graph::arrays graph;
+        sweep_any_sizes(knn{.k = neighbors}, index_, run, graph);
+        graph_.emplace(std::move(graph));
+    }
+
+    /// The planes, and in what is left the smooth surfaces.
+    template <execution X>
+    void find(const segment_planes_options& planes,
+              const std::optional<segment_surfaces_options>& remainder, const X& run) {
+        cloud_.emplace(index_, noise_, run);
+        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
+                                           planes.max_angle, run));
+        if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
+    }
+
+    /// The labels of the points, of the regions.
+    template <execution X>
+    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
+        scratch<std::int32_t> labels(points_.size(), unlabeled);
+        const auto& of_cells = regions_->labels();
+        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
+            label_competition competition;
+            for (std::size_t i = begin; i < end; ++i) {
+                const point_index c = cells_.of_point[i];
+                if (c == cells::no_cell) continue;
+                competition.begin((*graph_)[c], of_cells, of_cells[c]);
+                const bool is_seen = !index_.viewpoints.empty();
+                const point_noise noise = noise_of_point(points_, noise_, i, is_seen);
+                const point_noise exact = noise_of_point(points_, exact_noise_, i, is_seen);
+                const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
+                labels[i] = competition.winner([&](std::int32_t label) {
+                    const planar_region& to = regions_->regions()[static_cast<std::size_t>(label)];
+                    return is_certainly_off(offset, exact, to) ? -1.0
+                                                               : misfit_of(offset, noise, to);
+                });
+            }
+        });
+        return labels;
+    }
+
+    [[nodiscard]] const spatial_index& index() const { return index_; }
+    [[nodiscard]] const surface_type& surface() const { return surface_; }
+    /// The labels of the cells.
+    [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
+    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
+    /// A point of a cell.
+    [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
+    /// The surface element of a point: that of its cell.
+    [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
+        const point_index c = cells_.of_point[point];
+        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+    }
+
+  private:
+    [[nodiscard]] viewpoint_table known_viewpoints() const {
+        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
+        return cells_.viewpoints;
+    }
+
+    /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
+    template <execution X>
+    [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
+                                                         const X& run) const {
+        surface_type rest = surface_;
+        for (std::size_t c = 0; c < rest.size(); ++c)
+            if (labels()[c] != unlabeled) rest[c].normal = Eigen::Vector3d(0.0, 0.0, 0.0);
+        const segments found = segment_surfaces(index_, *graph_, rest, options, run);
+        return {found.labels().begin(), found.labels().end()};
+    }
+
+    const spatial_index& points_;
+    const noise_curve& noise_;        // of wide planes
+    const noise_curve& exact_noise_;  // of each point for itself
+    spatial_index& index_;
+    surface_type& surface_;
+    cells cells_;
+    std::optional<scratch_graph> graph_;
+    std::optional<planar_cloud> cloud_;
+    std::optional<plane_regions<scratch_graph>> regions_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/wide_noise.hpp ---------------------------------------------------
+
+/// @file
+/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
+/// scatter, so that a wide plane deviates more than a small neighborhood. That is
+/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
+
+namespace gnomon::detail {
+
+/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
+/// measured, and is more.
+/// @param noise  that of small neighborhoods
+template <class X>
+[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
+                                               const X& run) {
+    constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
+    const std::size_t thinning = index.finite() / enough;
+    if (thinning < 2) return noise;
+    scratch<point_index> some;
+    double range = 0.0;
+    for (std::size_t i = 0; i < index.size(); ++i) {
+        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
+        some.push_back(static_cast<point_index>(i));
+        range += length(difference(index[i], index.viewpoints[i]));
+    }
+    const measured_noise wide = measure_noise(subset_view<spatial_index>(index, some), run);
+    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
+    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/perception/detail/known_noise.hpp -----------------------------------------------
+
+/// @file
+/// The noise that all steps of `perception` share: that which is given, or measured, or else that
+/// across the surfaces, with the reason.
+
+namespace gnomon::detail {
+
+/// @param noise  becomes that of the points: perception_result::known_noise
+/// @param given  by the user, if any
+template <class X>
+void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
+                const X& run) {
+    noise = {};
+    if (given) {
+        noise.curve = noise.of_planes = *given;
+        return;
+    }
+    const measured_noise found = measure_noise(points, run);
+    if (found.curve) {
+        noise.curve = *found.curve;
+        noise.of_planes = noise_of_wide_planes(points, noise.curve, run);
+        return;
+    }
+    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+    noise.is_across_surface = true;
+    noise.reason = found.reason;
+}
+
+/// The same policy for this noise, if it depends on any.
+template <class Policy>
+[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
+    return policy;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/perception/detail/perception_memory.hpp -----------------------------------------
 
 /// @file
@@ -18087,8 +17743,8 @@ namespace gnomon::detail {
 template <class Estimate>
 class perception_memory {
   public:
-    std::vector<surfel<Estimate>> surface;  ///< of the kept points, where some were removed
-    segments parts;                         ///< of these
+    spatial_index cells;                    ///< the index of the cells
+    std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;
     perception_memory(const perception_memory&) : perception_memory() {}
@@ -18124,29 +17780,42 @@ namespace gnomon {
 /// @tparam Estimate  what the estimator gives: estimate_t<Estimator>
 template <class Estimate = plane_fit>
 struct perception_result {
-    /// How long the steps took [s].
-    struct durations {
-        double preprocessing = 0.0;  ///< finding floor and ceiling
-        double index = 0.0;          ///< building it
-        double normals = 0.0;        ///< with their repair and orientation
-        double segmentation = 0.0;
-        double merging = 0.0;     ///< with range images
-        double assignment = 0.0;  ///< splitting of outliers, assignment of unlabeled points,
-                                  ///< joining of surfaces of revolution
+    /// A step and how long it took [s].
+    struct timed_step {
+        std::string_view name;
+        double seconds;
+    };
+    /// The noise that all steps went by.
+    struct known_noise {
+        noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
+        /// That of wide planes: more, where neighbors have errors in common.
+        noise_curve of_planes = constant_noise{0.0};
+        /// Whether it is that across the surfaces, in place of that along the rays; then nothing
+        /// was merged behind occluders.
+        bool is_across_surface = false;
+        std::string_view reason = {};  ///< why it is so
     };
 
-    std::optional<plane> floor;             ///< if it was searched for and found
-    std::optional<double> ceiling;          ///< its height above the floor [m]
-    std::vector<point_index> kept;          ///< the points that were not removed, ascending
-    spatial_index index;                    ///< of the kept points; empty if an index was
-                                            ///< given and no point was removed
+    std::optional<plane> floor;     ///< if it was searched for and found
+    std::optional<double> ceiling;  ///< its height above the floor [m]
+    std::vector<point_index> kept;  ///< the points that were not removed, ascending
+    spatial_index index;            ///< of the kept points; empty if an index was
+                                    ///< given and no point was removed
+    known_noise noise;
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
-    segments initial_segments;              ///< of the n points, before merging
+    segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
-    std::vector<considered_gap> gaps;       ///< all that the first merging considered, and what
-                                            ///< the second one merged
-    durations seconds;
+    std::vector<plane_estimate> planes;     ///< of the surfaces; which of them are flat
+    std::vector<considered_gap> gaps;       ///< all that the merging considered, between points
+    std::vector<timed_step> steps;          ///< in their order
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
+
+    /// The duration of all steps [s].
+    [[nodiscard]] double seconds() const {
+        double sum = 0.0;
+        for (const timed_step& step : steps) sum += step.seconds;
+        return sum;
+    }
 };
 
 }  // namespace gnomon
@@ -18174,41 +17843,29 @@ class perception_run {
 
     void operator()() {
         const pool_scope scope(&result_.memory.pool());
-        result_.seconds = {};
-        step("preprocessing", result_.seconds.preprocessing, [&] { keep(); });
-        step("index", result_.seconds.index, [&] { index_kept(); });
-        step("normals", result_.seconds.normals, [&] { estimate(); });
-        step("segmentation", result_.seconds.segmentation, [&] { segment(); });
-        merging merged;
-        merge(merged);
-        step("assignment", result_.seconds.assignment, [&] { split(); });
-        if (chain_.splitting) merge(merged);  // planes are more accurate without outliers
-        result_.gaps.resize(merged.gaps);
-        step("assignment", result_.seconds.assignment, [&] { assign_and_join(); });
+        chain_.require_valid();
+        result_.steps.clear();
+        result_.gaps.clear();
+        step("floor", [&] { keep(); });
+        step("index", [&] { index_kept(); });
+        step("noise", [&] { know_noise(result_.noise, *given_, chain_.noise, run_); });
+        if constexpr (Chain::is_on_cells)
+            find_on_cells();
+        else
+            find_on_points();
+        step("planes of surfaces", [&] { estimate_planes_of_all(); });
     }
 
   private:
-    /// What the second merging reuses of the first one.
-    struct merging {
-        std::optional<visibility> seen = {};
-        scratch<fragment> fragments = {};
-        std::size_t gaps = 0;  ///< in the result
-    };
+    static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
+    static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
-    /// The number of steps: not all chains merge, or split and merge again.
-    [[nodiscard]] std::size_t steps() const {
-        if constexpr (merge_policy<decltype(chain_.merge)>)
-            return chain_.splitting ? 8 : 7;
-        else
-            return 6;
-    }
-
-    /// Announces a step, and adds its time to `seconds`.
-    void step(const char* name, double& seconds, auto&& work) {
-        begin_step(progress_, name, ++step_, steps());
+    /// Announces a step, and notes its time.
+    void step(const char* name, auto&& work) {
+        begin_step(progress_, name, result_.steps.size() + 1, steps);
         const stopwatch watch;
         work();
-        seconds += watch.seconds();
+        result_.steps.push_back({name, watch.seconds()});
     }
 
     [[nodiscard]] std::size_t size() const {
@@ -18222,8 +17879,7 @@ class perception_run {
         result_.ceiling.reset();
         if (chain_.leave_out) {
             const auto& out = *chain_.leave_out;
-            if (const auto guess = guess_floor(points_, out.up, projection_))
-                result_.floor = find_floor(points_, *guess, out.floor, projection_);
+            result_.floor = find_floor(points_, out.up, out.floor, projection_);
             if (result_.floor) {
                 result_.ceiling = find_ceiling(points_, *result_.floor, out.ceiling, projection_);
                 crop_height_into(result_.kept, position_view<R, Proj>(points_, projection_),
@@ -18248,96 +17904,124 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    void estimate() {
-        const auto& index = *given_;
-        auto& surface = surface_of_kept();
-        estimate_normals_into(surface, index, chain_.neighborhood, chain_.estimate, run_);
-        if constexpr (requires {
-                          repair_anisotropic(index, chain_.neighborhood, surface, chain_.estimate,
-                                             chain_.repair, run_);
-                      })
-            repair_anisotropic(index, chain_.neighborhood, surface, chain_.estimate, chain_.repair,
-                               run_);
-        orient_normals(index, surface, run_);
-        if (keeps_all()) return;
-        result_.surface.assign(size(), {});
-        for (std::size_t i = 0; i < surface.size(); ++i)
-            result_.surface[result_.kept[i]] = surface[i];
+    /// Calls work(visibility) if segments may be merged.
+    void merging(auto&& work) {
+        step("merging", [&] {
+            if (result_.noise.is_across_surface) return;
+            const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
+            work(visibility(points_, options, run_, projection_));
+        });
     }
 
-    /// The surface elements of the kept points.
-    [[nodiscard]] std::vector<surfel<Estimate>>& surface_of_kept() const {
-        return keeps_all() ? result_.surface : result_.memory.surface;
+    /// `planes_first`
+    void find_on_cells() {
+        const noise_curve& noise = result_.noise.of_planes;
+        std::optional<cell_surfaces<Estimate>> found;
+        step("cells", [&] {
+            found.emplace(*given_, result_.noise, result_.memory.cells, result_.memory.surface,
+                          run_);
+        });
+        step("normals", [&] {
+            found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
+                            at_noise(chain_.estimate, noise), run_);
+            result_.surface.assign(size(), {});
+            for (std::size_t i = 0; i < result_.kept.size(); ++i)
+                result_.surface[result_.kept[i]] = found->element_of(i);
+        });
+        step("planes",
+             [&] { found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_); });
+        scratch<std::int32_t> labels;
+        step("assignment", [&] {
+            labels = found->labels_of_points(run_);
+            set_segments(result_.initial_segments, labels);
+            result_.surfaces = result_.initial_segments;
+        });
+        if constexpr (merges)
+            merging([&](const visibility& visible) {
+                segments parts;
+                parts.assign(found->labels());
+                union_find sets = merged_sets(
+                    found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
+                    run_, [&](const examined_gap& gap) {
+                        note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
+                    });
+                for (std::int32_t& label : labels)
+                    if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
+                        label =
+                            static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+                set_segments(result_.surfaces, labels);
+            });
     }
 
-    void segment() {
-        segments& parts = keeps_all() ? result_.initial_segments : result_.memory.parts;
-        segment_surfaces_into(parts, *given_, surface_of_kept(), chain_.segmentation, run_);
-        if (!keeps_all()) assign_to_all(result_.initial_segments, parts);
-        result_.surfaces = result_.initial_segments;
+    /// `smooth_surfaces`
+    void find_on_points() {
+        auto& surface = keeps_all() ? result_.surface : result_.memory.surface;
+        const auto neighborhood = at_noise(chain_.neighborhood, result_.noise.curve);
+        const auto estimate = at_noise(chain_.estimate, result_.noise.curve);
+        step("normals", [&] {
+            estimate_normals_into(surface, *given_, neighborhood, estimate, run_);
+            const auto& repair = chain_.segmentation.repair;
+            if constexpr (requires {
+                              repair_anisotropic(*given_, neighborhood, surface, estimate, repair,
+                                                 run_);
+                          })
+                repair_anisotropic(*given_, neighborhood, surface, estimate, repair, run_);
+            orient_normals(*given_, surface, run_);
+            if (keeps_all()) return;
+            result_.surface.assign(size(), {});
+            for (std::size_t i = 0; i < surface.size(); ++i)
+                result_.surface[result_.kept[i]] = surface[i];
+        });
+        segments parts;
+        step("segmentation", [&] {
+            segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
+            scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+            set_segments(result_.initial_segments, labels);
+            result_.surfaces = result_.initial_segments;
+        });
+        if constexpr (merges)
+            merging([&](const visibility& visible) {
+                segments merged;
+                merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
+                                    at_noise(chain_.merging, result_.noise.of_planes), run_,
+                                    [&](const examined_gap& gap) {
+                                        note(gap, [&](point_index i) { return result_.kept[i]; });
+                                    });
+                scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
+                set_segments(result_.surfaces, labels);
+            });
     }
 
-    /// Makes segments of all points from those of the kept ones.
-    void assign_to_all(segments& all, const segments& of_kept) const {
+    /// Makes segments of all points from labels of the kept ones.
+    void set_segments(segments& all, const scratch<std::int32_t>& of_kept) const {
         scratch<std::int32_t> labels(size(), unlabeled);
-        for (std::size_t i = 0; i < result_.kept.size(); ++i)
-            labels[result_.kept[i]] = of_kept.labels()[i];
+        for (std::size_t i = 0; i < result_.kept.size(); ++i) labels[result_.kept[i]] = of_kept[i];
+        number_by_size(labels);
         all.assign(labels);
     }
 
-    /// Calls change(segments) with result_.surfaces, or with those of the kept points, which then
-    /// become those of all.
-    void change_segments_of_kept(auto&& change) const {
-        if (keeps_all()) return change(result_.surfaces);
-        segments& parts = result_.memory.parts;
+    /// Writes a gap to the result.
+    /// @param point_of  the number in the cloud of the things the gap is between
+    void note(const examined_gap& gap, auto&& point_of) const {
+        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
+        for (auto& line : to.lines) {
+            line.first = point_of(line.first);
+            line.second = point_of(line.second);
+        }
+        result_.gaps.push_back(std::move(to));
+    }
+
+    void estimate_planes_of_all() {
+        const bool is_seen = !result_.noise.is_across_surface;
+        const planar_cloud cloud(*given_, result_.noise.of_planes, run_, is_seen);
+        const planar_cloud exact(*given_, result_.noise.curve, run_, is_seen);
         scratch<std::int32_t> labels;
         labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);
-        parts.assign(labels);
-        change(parts);
-        assign_to_all(result_.surfaces, parts);
-    }
-
-    /// Merges occluded segments. Points that were removed occlude as well as others.
-    void merge(merging& state) {
-        if constexpr (merge_policy<decltype(chain_.merge)>) {
-            step("merging", result_.seconds.merging, [&] {
-                const bool is_first = !state.seen;
-                if (is_first) state.seen.emplace(points_, chain_.visibility, run_, projection_);
-                merge_occluded_into(result_.surfaces, points_, result_.surface, result_.surfaces,
-                                    *state.seen, chain_.merge, chain_.merging, run_, projection_,
-                                    state.fragments, [&](const examined_gap& gap) {
-                                        if (is_first || gap.merged) write(gap, state.gaps++);
-                                    });
-            });
-        }
-    }
-
-    /// Writes gap number g of the result, over that of the last call.
-    void write(const examined_gap& gap, std::size_t g) const {
-        if (g == result_.gaps.size()) result_.gaps.emplace_back();
-        considered_gap& to = result_.gaps[g];
-        to.lines.assign(gap.lines.begin(), gap.lines.end());
-        to.seen = gap.seen;
-        to.merged = gap.merged;
-    }
-
-    void split() {
-        if (!chain_.splitting) return;
-        change_segments_of_kept([&](segments& parts) {
-            split_outliers_into(parts, *given_, surface_of_kept(), parts, *chain_.splitting, run_);
-        });
-    }
-
-    void assign_and_join() {
-        if (!chain_.assignment && !chain_.revolution) return;
-        change_segments_of_kept([&](segments& parts) {
-            if (chain_.assignment)
-                assign_unlabeled_into(parts, *given_, parts, *chain_.assignment, run_);
-            if (chain_.revolution)
-                join_surfaces_of_revolution_into(parts, *given_, surface_of_kept(), parts,
-                                                 *chain_.revolution, run_);
-        });
+        const label_groups parts(labels);
+        result_.planes.assign(result_.surfaces.size(), {});
+        run_(parts.size(),
+             [&](std::size_t s) { result_.planes[s] = estimate_of(cloud, parts[s], exact); });
     }
 
     const Chain& chain_;
@@ -18347,7 +18031,6 @@ class perception_run {
     pooled_run<X> run_;
     const Proj& projection_;
     const spatial_index* given_ = nullptr;  // of the kept points
-    std::size_t step_ = 0;
 };
 
 }  // namespace gnomon::detail
@@ -18355,18 +18038,22 @@ class perception_run {
 // -------- gnomon/perception/perception.hpp -------------------------------------------------------
 
 /// @file
-/// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling,
-/// normals and their orientation, segmentation into smooth surfaces, merging of occluded segments,
-/// assignment of unlabeled points and joining of surfaces of revolution. Each step is a policy of
-/// its own floor; the result holds what each step returned and how long it took. All steps share
-/// one index of the points (Klasing 2010, Fig. 4.2, Table 4.1).
+/// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
+/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an occluder
+/// interrupts. Each step is a policy of its own floor; the result holds what each step returned,
+/// and how long it took. All steps share one index of the points, one of their cells, and one
+/// noise.
 ///
-///     const gnomon::perception<> chain{.neighborhood = {.k = 50}};
+///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
 ///
 /// and for each further scan, in the same memory:
 ///
 ///     chain.into(seen, next_scan, team);
+///
+/// The chain of the thesis is (Klasing 2010, Fig. 4.2, Sec. 4.4.1):
+///
+///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces> chain;
 
 namespace gnomon {
 
@@ -18376,55 +18063,79 @@ struct floor_and_ceiling {
     find_floor_options floor{};
     find_ceiling_options ceiling{};
     crop_height_options bands{};
+
+    /// @throws std::invalid_argument  what the search throws for parameters out of range
+    void require_valid() const {
+        detail::require_hesse({up, 0.0});
+        detail::require_valid(floor);
+        detail::require_valid(ceiling);
+    }
 };
 
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
+/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces
+/// (`segment_surfaces`) in what is left: right for every sensor, as all lengths are multiples of
+/// its noise.
+struct planes_first {
+    segment_planes_options planes{};
+    /// Of cells; nothing to leave all unlabeled that is not planar.
+    std::optional<segment_surfaces_options> remainder = segment_surfaces_options{};
+};
+
+/// The segmentation of the thesis: smooth surfaces, from the normals of all points.
+struct smooth_surfaces {
+    segment_surfaces_options surfaces{};
+    /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
+    /// estimator can.
+    repair_anisotropic_options repair{};
+};
+
 /// The chain, ready to be called on one scan after the other.
 ///
-/// `neighborhood` is any model of `neighborhood`, `estimate` of `estimator`, `merge` of
-/// `merge_policy`, or `no_merging{}`. Name these three, and the types follow; by members, name the
-/// types, as in `perception<>{.leave_out = floor_and_ceiling{}}` or
-/// `perception<knn, plane_pca, liberal>{.visibility = {.sigma = 0.01}}`.
-template <class Neighborhood = knn, class Estimator = plane_pca, class Merge = conservative>
+/// `neighborhood` is any model of `neighborhood` that is indexed, `estimate` of `estimator`,
+/// `merge` of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the
+/// chain.
+template <class Neighborhood = noise_knn, class Estimator = plane_pca, class Merge = conservative,
+          class Segmentation = planes_first>
 struct perception {
     static_assert(merge_policy<Merge> || std::same_as<Merge, no_merging>,
                   "perception: merge by a merge_policy, or by no_merging{}");
+    static_assert(std::same_as<Segmentation, planes_first> ||
+                      std::same_as<Segmentation, smooth_surfaces>,
+                  "perception: the segmentation is planes_first, or smooth_surfaces");
+    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_first>;
 
     Neighborhood neighborhood{};
     Estimator estimate{};
     Merge merge{};
-    segment_surfaces_options segmentation{};
+    Segmentation segmentation{};
+    /// Along the rays; by default it is measured.
+    std::optional<noise_curve> noise = std::nullopt;
+    std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};
     visibility_options visibility{};
-    std::optional<floor_and_ceiling> leave_out = std::nullopt;
-    /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
-    /// estimator can.
-    repair_anisotropic_options repair{};
-    /// Unlabeled points are assigned to planar segments.
-    std::optional<assign_unlabeled_options> assignment = assign_unlabeled_options{};
-    /// Before that, outliers of planar segments are split off, and segments merged once more.
-    std::optional<split_outliers_options> splitting = split_outliers_options{};
-    /// At the end, oversegmented surfaces of revolution are joined.
-    std::optional<join_surfaces_of_revolution_options> revolution =
-        join_surfaces_of_revolution_options{};
 
-    /// The same chain for ranges of this standard deviation [m], in the steps after the normals.
-    /// The estimator and the neighborhood keep their own.
-    [[nodiscard]] perception with_sigma(double sigma) const {
-        perception chain = *this;
-        chain.merging.sigma = chain.visibility.sigma = sigma;
-        if (chain.assignment) chain.assignment->sigma = sigma;
-        if (chain.splitting) chain.splitting->sigma = sigma;
-        if (chain.revolution) chain.revolution->sigma = sigma;
-        return chain;
+    /// @throws std::invalid_argument  what the steps throw for parameters out of range
+    void require_valid() const {
+        detail::require_valid(neighborhood);
+        detail::require_valid(merging);
+        detail::require_valid(visibility);
+        if (leave_out) detail::require_valid(*leave_out);
+        if constexpr (is_on_cells) {
+            detail::require_valid(segmentation.planes);
+            if (segmentation.remainder) detail::require_valid(*segmentation.remainder);
+        } else {
+            detail::require_valid(segmentation.surfaces);
+        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  what the steps throw, for parameters out of range, and if the
+    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if
+    /// the
     ///                                view point of a point with a normal is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
@@ -18462,14 +18173,12 @@ struct perception {
 };
 
 /// For clang, which does not deduce the parameters of an aggregate by itself.
-template <class Neighborhood, class Estimator, class Merge>
-perception(Neighborhood, Estimator, Merge, segment_surfaces_options = {},
-           merge_occluded_options = {}, visibility_options = {},
-           std::optional<floor_and_ceiling> = std::nullopt, repair_anisotropic_options = {},
-           std::optional<assign_unlabeled_options> = assign_unlabeled_options{},
-           std::optional<split_outliers_options> = split_outliers_options{},
-           std::optional<join_surfaces_of_revolution_options> =
-               join_surfaces_of_revolution_options{}) -> perception<Neighborhood, Estimator, Merge>;
+template <class Neighborhood, class Estimator, class Merge = conservative,
+          class Segmentation = planes_first>
+perception(Neighborhood, Estimator, Merge = {}, Segmentation = {},
+           std::optional<noise_curve> = std::nullopt,
+           std::optional<floor_and_ceiling> = std::nullopt, merge_occluded_options = {},
+           visibility_options = {}) -> perception<Neighborhood, Estimator, Merge, Segmentation>;
 
 }  // namespace gnomon
 

@@ -95,13 +95,19 @@ struct plane_of_members {
         return some;
     }
 
+    /// Whether point i is certainly not on the plane, however rough it is.
+    [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
+        const plane& p = region.fit.plane;
+        return std::abs(p.signed_distance(cloud.offsets[i])) >
+               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
+    }
+
     /// How many points are certainly not on the plane.
     [[nodiscard]] std::size_t off_it(const Cloud& cloud,
                                      std::span<const point_index> members) const {
         std::size_t off = 0;
         for (const point_index i : members)
-            if (cloud.is_finite(i) && cloud.deviations(i, region.fit.plane) > certain_deviations)
-                ++off;
+            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
         return off;
     }
 };

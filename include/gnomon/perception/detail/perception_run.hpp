@@ -224,8 +224,9 @@ class perception_run {
     }
 
     void estimate_planes_of_all() {
-        const planar_cloud cloud(*given_, result_.noise.of_planes, run_);
-        const planar_cloud exact(*given_, result_.noise.curve, run_);
+        const bool is_seen = !result_.noise.is_across_surface;
+        const planar_cloud cloud(*given_, result_.noise.of_planes, run_, is_seen);
+        const planar_cloud exact(*given_, result_.noise.curve, run_, is_seen);
         scratch<std::int32_t> labels;
         labels.reserve(result_.kept.size());
         for (const point_index i : result_.kept) labels.push_back(result_.surfaces.labels()[i]);

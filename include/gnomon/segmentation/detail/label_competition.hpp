@@ -90,8 +90,7 @@ class label_competition {
 [[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
                                            const planar_region& region) {
     const plane& p = region.fit.plane;
-    return region.is_planar &&
-           std::abs(p.signed_distance(offset)) > certain_deviations * noise.across(p.normal);
+    return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
 
 /// The labels of the points of a cloud after one round.

@@ -25,7 +25,12 @@ class planar_cloud {
   public:
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
-        : noise(noise_of_points(index, curve, run)),
+        : planar_cloud(index, curve, run, !index.viewpoints.empty()) {}
+
+    /// @param is_seen  whether the view points are known; the origin where there are none
+    template <execution X>
+    planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
+        : noise(noise_of_points(index, curve, run, is_seen)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
         std::size_t first = 0;

@@ -28,7 +28,7 @@ namespace gnomon::detail {
 /// normal distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it.
+/// A point that is farther than this is certainly not of it: one of two million by chance.
 inline constexpr double certain_deviations = 5.0;
 
 inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
@@ -60,6 +60,14 @@ struct point_noise {
         sigma = std::sqrt(variance);
     }
 
+    /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
+    /// deviations, and 1 cm for what is not flat.
+    /// @param normal  of unit length
+    [[nodiscard]] double certain_reach(const Eigen::Vector3d& normal) const {
+        const double noise = std::sqrt(std::max(0.0, sigma * sigma - flatness * flatness));
+        return certain_deviations * (noise / sigma * across(normal) + flatness);
+    }
+
     [[nodiscard]] bool has_ray() const { return dot(ray, ray) > 0.0; }
 
     /// The standard deviation of the point across a plane [m].
@@ -83,12 +91,12 @@ struct point_noise {
 /// The noise of all points of an index.
 template <execution X>
 [[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
-                                                   const noise_curve& noise, const X& run) {
+                                                   const noise_curve& noise, const X& run,
+                                                   bool is_seen) {
     scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
     for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            if (index.is_finite(i))
-                all[i] = noise_of_point(index, noise, i, !index.viewpoints.empty());
+            if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, is_seen);
     });
     return all;
 }
