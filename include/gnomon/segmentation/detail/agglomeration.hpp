@@ -74,11 +74,7 @@ inline void make_unique(scratch<region_pair>& pairs) {
             is_root[r] = root == region;
         }
         is_new.swap(changed);
-        for (auto& [a, b] : pairs) {
-            const point_index root_of_a = sets.find(a), root_of_b = sets.find(b);
-            a = std::min(root_of_a, root_of_b);
-            b = std::max(root_of_a, root_of_b);
-        }
+        for (region_pair& p : pairs) p = std::minmax({sets.find(p.first), sets.find(p.second)});
         std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
         make_unique(pairs);
     }
