@@ -129,7 +129,7 @@ TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
 }
 
 /// How small depends on the noise: a tile that is 30 cm wide and turned by 10 degrees is 15 mm off
-/// in the mean, which is one standard deviation.
+/// on average, which is one standard deviation.
 TEST(merge_occluded, requires_planes_at_a_small_angle) {
     for (const auto& [turned, rest] : {std::pair(0.0, 1u), {4.0, 1u}, {10.0, 2u}, {80.0, 2u}}) {
         drawn wall;
