@@ -69,7 +69,7 @@ perceived_room perceived_living_room(std::uint64_t seed) {
 }
 
 /// What a segment has of a surface at least. A seat has some hundred points, of which those of the
-/// rim may go to the board; a vase is in two or more parts, as it is no plane.
+/// rim can belong to the board; a vase is in two or more parts, as it is no plane.
 double least_iou(const std::string& name) {
     if (name.find("/seat/") != std::string::npos) return 0.7;
     return name.find("vase/") != std::string::npos ? 0.6 : 0.8;

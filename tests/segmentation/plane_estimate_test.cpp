@@ -84,7 +84,7 @@ TEST(plane_estimate, agrees_with_a_dense_weighted_fit) {
     }
 }
 
-/// The covariance is that of the fits of many scans of one plane.
+/// The covariance is that of the fits to many scans of a plane.
 TEST(plane_estimate, covariance_agrees_with_simulated_noise) {
     for (const patch& p : {patch{}, patch{.center = {3.0, 1.0, 0.5}, .side = {0.5, 1.0, 0.0}},
                            patch{.center = {2.0, 0.0, -1.5},
