@@ -21,11 +21,11 @@
 #include <optional>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -60,7 +60,7 @@ class noise_meter {
         const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
         constexpr std::size_t many = 3000;  // planes; the more, the less the noise of the result
         std::size_t few = 1000;             // performance only
-        std::vector<sampled_plane> planes = sample_(few, run_, nothing);
+        scratch<sampled_plane> planes = sample_(few, run_, nothing);
         if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
@@ -100,7 +100,7 @@ class noise_meter {
     void find_quantization(std::span<const sampled_plane> planes) {
         const noise_coordinate depth{axis_of_exact_planes(planes)};
         for (const noise_coordinate& candidate : {depth, noise_coordinate{}}) {
-            std::vector<double> readings;
+            scratch<double> readings;
             constexpr std::size_t most = 20'000;
             const std::size_t step = 1 + index_.size() / most;
             for (std::size_t i = 0; i < index_.size(); i += step)

@@ -55,7 +55,8 @@ namespace detail {
 template <class Cloud>
 struct plane_of_members {
     planar_region region;
-    bool is_flat = false;
+    bool is_planar = false;  ///< most points are on the plane
+    bool is_flat = false;    ///< and hardly any is certainly off it
 
     plane_of_members(const Cloud& cloud, std::span<const point_index> members)
         : plane_of_members(cloud, members, cloud) {}
@@ -73,9 +74,10 @@ struct plane_of_members {
             region = on;
             if (rests) break;
         }
-        is_flat = region.fit.is_determined && region.fit.is_seen &&
-                  region.fit.chi2 <= region_plane::most_excess &&
-                  4 * region.sums.count >= 3 * all && off_it(exact, members) < fewest_off;
+        is_planar = region.fit.is_determined && region.fit.is_seen &&
+                    region.fit.chi2 <= region_plane::most_excess &&
+                    4 * region.sums.count >= 3 * all;
+        is_flat = is_planar && off_it(exact, members) < fewest_off;
     }
 
     /// Whether point i is on the plane of a region.
@@ -120,7 +122,7 @@ template <execution X>
     run(parts.size(), [&](std::size_t s) {
         const plane_of_members found(cloud, parts[s]);
         regions[s] = found.region;
-        regions[s].is_planar = found.is_flat;
+        regions[s].is_planar = found.is_planar;
     });
     return regions;
 }

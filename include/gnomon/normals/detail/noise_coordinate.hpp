@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/normals/detail/noise_fit.hpp>
 #include <gnomon/normals/detail/residual_sampler.hpp>
@@ -40,13 +40,12 @@ struct noise_coordinate {
 /// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
-[[nodiscard]] std::vector<value_at> residuals_of(const auto& planes,
-                                                 const noise_coordinate& coordinate,
-                                                 const even_quartic& quantized, double crossed) {
+[[nodiscard]] scratch<value_at> residuals_of(const auto& planes, const noise_coordinate& coordinate,
+                                             const even_quartic& quantized, double crossed) {
     // Of the variance of rounding: its estimate from 17 points is below a quarter of it in two of
     // 1,000 cases (chi^2 with 14 degrees of freedom).
     constexpr double exact = 0.25;
-    std::vector<value_at> residuals;
+    scratch<value_at> residuals;
     for (const sampled_plane& s : planes) {
         if (dot(s.normal, s.normal) == 0.0) continue;
         const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;

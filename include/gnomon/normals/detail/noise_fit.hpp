@@ -8,11 +8,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/normals/detail/quantile.hpp>
@@ -86,7 +86,7 @@ inline void for_each_bin(const auto& values, std::size_t fewest, double part, au
     constexpr std::size_t most_bins = 20;  // chosen on furnished rooms 20,001 to 20,006
     const std::size_t n = values.size();
     const std::size_t bins = std::clamp<std::size_t>(n / fewest, 1, most_bins);
-    std::vector<double> of_bin;
+    scratch<double> of_bin;
     for (std::size_t b = 0; b < bins; ++b) {
         const std::size_t begin = b * n / bins, end = (b + 1) * n / bins;
         of_bin.clear();
@@ -126,7 +126,7 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// corrected for that. O(n log n). Precondition: there are residuals.
 /// @param least  part of the noise that is known
 [[nodiscard]] noise_fit fit_noise(auto all, const even_quartic& least) {
-    std::vector<double> xs;
+    scratch<double> xs;
     for (const value_at& s : all) xs.push_back(s.x);
     const double unit = quantile(xs, 0.5);
     noise_fit fit{noise_of_lower_quartiles(all, least, unit)};

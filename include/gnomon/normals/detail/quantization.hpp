@@ -6,11 +6,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/normals/detail/noise_fit.hpp>
 #include <gnomon/normals/detail/residual_sampler.hpp>
@@ -30,7 +30,7 @@ struct quantization {
     constexpr double same = 1.0 - 1e-6;  // the cosine of .08 degrees, for single precision
     // Chosen, on cameras in furnished rooms 20,001 to 20,006: some by chance do not make an axis.
     constexpr std::size_t needed = 30;
-    std::vector<Eigen::Vector3d> normals;
+    scratch<Eigen::Vector3d> normals;
     for (const sampled_plane& s : planes)
         if (dot(s.normal, s.normal) > 0.0 && s.variance < exact * dot(s.ray, s.ray))
             normals.push_back(s.normal);
@@ -59,7 +59,7 @@ struct quantization {
     // quantized ones 50 and more). Chosen on the same cameras.
     constexpr std::size_t per_value = 20, fewest_steps = 5;
     std::sort(readings.begin(), readings.end());
-    std::vector<value_at> steps;
+    scratch<value_at> steps;
     for (std::size_t i = 1; i < readings.size(); ++i) {
         const double gap = readings[i] - readings[i - 1];
         if (gap > distinct * std::max(0.1, readings[i])) steps.push_back({readings[i], gap});

@@ -5,11 +5,11 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -43,13 +43,12 @@ class residual_sampler {
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
     /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
-    [[nodiscard]] std::vector<sampled_plane> operator()(std::size_t samples,
-                                                        const execution auto& run,
-                                                        auto&& half_length) const {
+    [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
+                                                    auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
-        std::vector<sampled_plane> planes(n);
+        scratch<sampled_plane> planes(n);
         for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
-            std::vector<neighbor> found;
+            scratch<neighbor> found;
             for (std::size_t s = first; s < last; ++s)
                 planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
         });
@@ -60,7 +59,7 @@ class residual_sampler {
 
   private:
     [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
-                                         std::vector<neighbor>& found) const {
+                                         scratch<neighbor>& found) const {
         const Eigen::Vector3d p = index_[i];
         const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
@@ -104,7 +103,7 @@ class residual_sampler {
     }
 
     const Index& index_;
-    std::vector<point_index> finite_;
+    scratch<point_index> finite_;
 };
 
 }  // namespace gnomon::detail

@@ -8,11 +8,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/random.hpp>
@@ -58,9 +58,9 @@ class sorted_directions {
     /// deviations of the noise, and more than on a surface seen at 84 degrees.
     [[nodiscard]] double share_of_several_depths(auto&& noise) const {
         if (all_.size() < 2) return 0.0;
-        std::vector<double> apart;
+        scratch<double> apart;
         for (std::size_t i = 1; i < all_.size(); ++i) apart.push_back(angle_before(i));
-        std::vector<double> copy = apart;
+        scratch<double> copy = apart;
         const double near = quantile(copy, 0.5);
         std::size_t pairs = 0, several = 0;
         for (std::size_t i = 1; i < all_.size(); ++i) {
@@ -106,7 +106,7 @@ class sorted_directions {
         return x;
     }
 
-    std::vector<entry> all_;
+    scratch<entry> all_;
 };
 
 }  // namespace gnomon::detail

@@ -21,10 +21,11 @@ namespace gnomon::detail {
 
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
 /// measured, and is more.
-/// @param noise  that of small neighborhoods
+/// @param noise   that of small neighborhoods
+/// @param sparse  memory for the index of these points
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
-                                               const X& run) {
+                                               spatial_index& sparse, const X& run) {
     constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
     const std::size_t thinning = index.finite() / enough;
     if (thinning < 2) return noise;
@@ -35,7 +36,8 @@ template <class X>
         some.push_back(static_cast<point_index>(i));
         range += length(difference(index[i], index.viewpoints[i]));
     }
-    const measured_noise wide = measure_noise(subset_view<spatial_index>(index, some), run);
+    sparse.rebuild(subset_view<spatial_index>(index, some), run);
+    const measured_noise wide = measure_noise(sparse, run);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
     return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
 }

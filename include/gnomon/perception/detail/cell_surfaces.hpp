@@ -30,6 +30,7 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/segmentation/detail/cells.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
+#include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
@@ -135,11 +136,18 @@ class cell_surfaces {
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
                                                          const X& run) const {
-        surface_type rest = surface_;
+        struct element {
+            Eigen::Vector3d normal{0.0, 0.0, 0.0};
+            double mean_distance = 0.0;
+        };
+        scratch<element> rest(surface_.size());
         for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] != unlabeled) rest[c].normal = Eigen::Vector3d(0.0, 0.0, 0.0);
-        const segments found = segment_surfaces(index_, *graph_, rest, options, run);
-        return {found.labels().begin(), found.labels().end()};
+            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
+        const smooth_link<scratch<element>> link(rest, options, rest.size());
+        linker linker(index_);
+        linker.link_listed(
+            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
+        return linker.labels(options.min_points);
     }
 
     const spatial_index& points_;

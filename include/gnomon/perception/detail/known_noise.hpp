@@ -15,11 +15,12 @@
 
 namespace gnomon::detail {
 
-/// @param noise  becomes that of the points: perception_result::known_noise
-/// @param given  by the user, if any
+/// @param noise   becomes that of the points: perception_result::known_noise
+/// @param given   by the user, if any
+/// @param sparse  memory for the index of some of the points
 template <class X>
 void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                const X& run) {
+                spatial_index& sparse, const X& run) {
     noise = {};
     if (given) {
         noise.curve = noise.of_planes = *given;
@@ -28,7 +29,7 @@ void know_noise(auto& noise, const spatial_index& points, const std::optional<no
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
         noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, noise.curve, run);
+        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
         return;
     }
     noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};

@@ -8,6 +8,7 @@
 #include <gnomon/core/detail/memory_pool.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/surfel.hpp>
+#include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 
@@ -16,6 +17,8 @@ template <class Estimate>
 class perception_memory {
   public:
     spatial_index cells;                    ///< the index of the cells
+    spatial_index sparse;                   ///< that of some of the points
+    segments parts, merged;                 ///< of the cells, or of the kept points
     std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;

@@ -60,7 +60,9 @@ class perception_run {
         result_.gaps.clear();
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
-        step("noise", [&] { know_noise(result_.noise, *given_, chain_.noise, run_); });
+        step("noise", [&] {
+            know_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+        });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
         else
@@ -150,7 +152,7 @@ class perception_run {
         });
         if constexpr (merges)
             merging([&](const visibility& visible) {
-                segments parts;
+                segments& parts = result_.memory.parts;
                 parts.assign(found->labels());
                 union_find sets = merged_sets(
                     found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
@@ -184,7 +186,7 @@ class perception_run {
             for (std::size_t i = 0; i < surface.size(); ++i)
                 result_.surface[result_.kept[i]] = surface[i];
         });
-        segments parts;
+        segments& parts = result_.memory.parts;
         step("segmentation", [&] {
             segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
             scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
@@ -193,7 +195,7 @@ class perception_run {
         });
         if constexpr (merges)
             merging([&](const visibility& visible) {
-                segments merged;
+                segments& merged = result_.memory.merged;
                 merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
                                     at_noise(chain_.merging, result_.noise.of_planes), run_,
                                     [&](const examined_gap& gap) {
