@@ -93,6 +93,14 @@ class label_competition {
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
 
+/// Whether all neighbors have the label of the point itself, as most have: performance only.
+template <class Neighbors>
+[[nodiscard]] bool is_alone(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
+    for (const point_index j : neighbors)
+        if (labels[j] != own) return false;
+    return true;
+}
+
 /// The labels of the points of a cloud after one round.
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
@@ -104,10 +112,15 @@ template <neighborhood_graph G, execution X>
         label_competition competition;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
-            competition.begin(graph[i], labels, labels[i]);
-            next[i] = competition.winner([&](std::int32_t label) {
+            const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
-            });
+            };
+            if (const std::int32_t own = labels[i]; is_alone(graph[i], labels, own)) {
+                if (own != unlabeled && misfit(own) >= 0.0) next[i] = own;
+                continue;
+            }
+            competition.begin(graph[i], labels, labels[i]);
+            next[i] = competition.winner(misfit);
         }
     });
     return next;
