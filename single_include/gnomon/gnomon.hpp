@@ -8248,7 +8248,7 @@ inline void for_each_bin(const auto& values, std::size_t fewest, double part, au
     constexpr std::size_t most_bins = 20;  // chosen on furnished rooms 20,001 to 20,006
     const std::size_t n = values.size();
     const std::size_t bins = std::clamp<std::size_t>(n / fewest, 1, most_bins);
-    std::vector<double> of_bin;
+    scratch<double> of_bin;
     for (std::size_t b = 0; b < bins; ++b) {
         const std::size_t begin = b * n / bins, end = (b + 1) * n / bins;
         of_bin.clear();
@@ -8288,7 +8288,7 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 /// corrected for that. O(n log n). Precondition: there are residuals.
 /// @param least  part of the noise that is known
 [[nodiscard]] noise_fit fit_noise(auto all, const even_quartic& least) {
-    std::vector<double> xs;
+    scratch<double> xs;
     for (const value_at& s : all) xs.push_back(s.x);
     const double unit = quantile(xs, 0.5);
     noise_fit fit{noise_of_lower_quartiles(all, least, unit)};
@@ -8519,13 +8519,12 @@ class residual_sampler {
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
     /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
-    [[nodiscard]] std::vector<sampled_plane> operator()(std::size_t samples,
-                                                        const execution auto& run,
-                                                        auto&& half_length) const {
+    [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
+                                                    auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
-        std::vector<sampled_plane> planes(n);
+        scratch<sampled_plane> planes(n);
         for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
-            std::vector<neighbor> found;
+            scratch<neighbor> found;
             for (std::size_t s = first; s < last; ++s)
                 planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
         });
@@ -8536,7 +8535,7 @@ class residual_sampler {
 
   private:
     [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
-                                         std::vector<neighbor>& found) const {
+                                         scratch<neighbor>& found) const {
         const Eigen::Vector3d p = index_[i];
         const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
@@ -8580,7 +8579,7 @@ class residual_sampler {
     }
 
     const Index& index_;
-    std::vector<point_index> finite_;
+    scratch<point_index> finite_;
 };
 
 }  // namespace gnomon::detail
@@ -8616,13 +8615,12 @@ struct noise_coordinate {
 /// The residuals of planes as errors of a coordinate. Of quantized readings, those of planes that
 /// cross fewer steps than `crossed`, or are exact planes through two or three of them, are left
 /// out: there the errors of rounding are not independent of each other.
-[[nodiscard]] std::vector<value_at> residuals_of(const auto& planes,
-                                                 const noise_coordinate& coordinate,
-                                                 const even_quartic& quantized, double crossed) {
+[[nodiscard]] scratch<value_at> residuals_of(const auto& planes, const noise_coordinate& coordinate,
+                                             const even_quartic& quantized, double crossed) {
     // Of the variance of rounding: its estimate from 17 points is below a quarter of it in two of
     // 1,000 cases (chi^2 with 14 degrees of freedom).
     constexpr double exact = 0.25;
-    std::vector<value_at> residuals;
+    scratch<value_at> residuals;
     for (const sampled_plane& s : planes) {
         if (dot(s.normal, s.normal) == 0.0) continue;
         const double cosine = coordinate.cosine(s.ray), x = length(s.ray) * cosine;
@@ -8691,7 +8689,7 @@ struct quantization {
     constexpr double same = 1.0 - 1e-6;  // the cosine of .08 degrees, for single precision
     // Chosen, on cameras in furnished rooms 20,001 to 20,006: some by chance do not make an axis.
     constexpr std::size_t needed = 30;
-    std::vector<Eigen::Vector3d> normals;
+    scratch<Eigen::Vector3d> normals;
     for (const sampled_plane& s : planes)
         if (dot(s.normal, s.normal) > 0.0 && s.variance < exact * dot(s.ray, s.ray))
             normals.push_back(s.normal);
@@ -8720,7 +8718,7 @@ struct quantization {
     // quantized ones 50 and more). Chosen on the same cameras.
     constexpr std::size_t per_value = 20, fewest_steps = 5;
     std::sort(readings.begin(), readings.end());
-    std::vector<value_at> steps;
+    scratch<value_at> steps;
     for (std::size_t i = 1; i < readings.size(); ++i) {
         const double gap = readings[i] - readings[i - 1];
         if (gap > distinct * std::max(0.1, readings[i])) steps.push_back({readings[i], gap});
@@ -8786,9 +8784,9 @@ class sorted_directions {
     /// deviations of the noise, and more than on a surface seen at 84 degrees.
     [[nodiscard]] double share_of_several_depths(auto&& noise) const {
         if (all_.size() < 2) return 0.0;
-        std::vector<double> apart;
+        scratch<double> apart;
         for (std::size_t i = 1; i < all_.size(); ++i) apart.push_back(angle_before(i));
-        std::vector<double> copy = apart;
+        scratch<double> copy = apart;
         const double near = quantile(copy, 0.5);
         std::size_t pairs = 0, several = 0;
         for (std::size_t i = 1; i < all_.size(); ++i) {
@@ -8834,7 +8832,7 @@ class sorted_directions {
         return x;
     }
 
-    std::vector<entry> all_;
+    scratch<entry> all_;
 };
 
 }  // namespace gnomon::detail
@@ -8879,7 +8877,7 @@ class noise_meter {
         const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
         constexpr std::size_t many = 3000;  // planes; the more, the less the noise of the result
         std::size_t few = 1000;             // performance only
-        std::vector<sampled_plane> planes = sample_(few, run_, nothing);
+        scratch<sampled_plane> planes = sample_(few, run_, nothing);
         if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
@@ -8919,7 +8917,7 @@ class noise_meter {
     void find_quantization(std::span<const sampled_plane> planes) {
         const noise_coordinate depth{axis_of_exact_planes(planes)};
         for (const noise_coordinate& candidate : {depth, noise_coordinate{}}) {
-            std::vector<double> readings;
+            scratch<double> readings;
             constexpr std::size_t most = 20'000;
             const std::size_t step = 1 + index_.size() / most;
             for (std::size_t i = 0; i < index_.size(); i += step)
@@ -11480,7 +11478,7 @@ struct point_noise {
     }
 
     /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
-    /// deviations, and 1 cm for what is not flat.
+    /// deviations, and 1 cm as no surface is an exact plane.
     /// @param normal  of unit length
     [[nodiscard]] double certain_reach(const Eigen::Vector3d& normal) const {
         const double noise = std::sqrt(std::max(0.0, sigma * sigma - flatness * flatness));
@@ -11990,6 +11988,14 @@ class label_competition {
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
 
+/// Whether all neighbors have the label of the point itself, as most have: performance only.
+template <class Neighbors>
+[[nodiscard]] bool is_alone(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
+    for (const point_index j : neighbors)
+        if (labels[j] != own) return false;
+    return true;
+}
+
 /// The labels of the points of a cloud after one round.
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
@@ -12001,10 +12007,15 @@ template <neighborhood_graph G, execution X>
         label_competition competition;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
-            competition.begin(graph[i], labels, labels[i]);
-            next[i] = competition.winner([&](std::int32_t label) {
+            const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
-            });
+            };
+            if (const std::int32_t own = labels[i]; is_alone(graph[i], labels, own)) {
+                if (own != unlabeled && misfit(own) >= 0.0) next[i] = own;
+                continue;
+            }
+            competition.begin(graph[i], labels, labels[i]);
+            next[i] = competition.winner(misfit);
         }
     });
     return next;
@@ -12046,7 +12057,8 @@ namespace detail {
 template <class Cloud>
 struct plane_of_members {
     planar_region region;
-    bool is_flat = false;
+    bool is_planar = false;  ///< most points are on the plane
+    bool is_flat = false;    ///< and hardly any is certainly off it
 
     plane_of_members(const Cloud& cloud, std::span<const point_index> members)
         : plane_of_members(cloud, members, cloud) {}
@@ -12064,9 +12076,10 @@ struct plane_of_members {
             region = on;
             if (rests) break;
         }
-        is_flat = region.fit.is_determined && region.fit.is_seen &&
-                  region.fit.chi2 <= region_plane::most_excess &&
-                  4 * region.sums.count >= 3 * all && off_it(exact, members) < fewest_off;
+        is_planar = region.fit.is_determined && region.fit.is_seen &&
+                    region.fit.chi2 <= region_plane::most_excess &&
+                    4 * region.sums.count >= 3 * all;
+        is_flat = is_planar && off_it(exact, members) < fewest_off;
     }
 
     /// Whether point i is on the plane of a region.
@@ -12111,7 +12124,7 @@ template <execution X>
     run(parts.size(), [&](std::size_t s) {
         const plane_of_members found(cloud, parts[s]);
         regions[s] = found.region;
-        regions[s].is_planar = found.is_flat;
+        regions[s].is_planar = found.is_planar;
     });
     return regions;
 }
@@ -15051,7 +15064,7 @@ class occlusion_merger {
             if (parts[s].empty()) return;
             const plane_of_members found(cloud, parts[s]);
             regions_[s] = found.region;
-            is_flat_[s] = found.is_flat;
+            is_flat_[s] = found.is_planar;
             for (const point_index i : parts[s])
                 if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
                     members_[s].push_back(i);
@@ -17642,11 +17655,18 @@ class cell_surfaces {
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
                                                          const X& run) const {
-        surface_type rest = surface_;
+        struct element {
+            Eigen::Vector3d normal{0.0, 0.0, 0.0};
+            double mean_distance = 0.0;
+        };
+        scratch<element> rest(surface_.size());
         for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] != unlabeled) rest[c].normal = Eigen::Vector3d(0.0, 0.0, 0.0);
-        const segments found = segment_surfaces(index_, *graph_, rest, options, run);
-        return {found.labels().begin(), found.labels().end()};
+            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
+        const smooth_link<scratch<element>> link(rest, options, rest.size());
+        linker linker(index_);
+        linker.link_listed(
+            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
+        return linker.labels(options.min_points);
     }
 
     const spatial_index& points_;
@@ -17673,10 +17693,11 @@ namespace gnomon::detail {
 
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
 /// measured, and is more.
-/// @param noise  that of small neighborhoods
+/// @param noise   that of small neighborhoods
+/// @param sparse  memory for the index of these points
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
-                                               const X& run) {
+                                               spatial_index& sparse, const X& run) {
     constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
     const std::size_t thinning = index.finite() / enough;
     if (thinning < 2) return noise;
@@ -17687,7 +17708,8 @@ template <class X>
         some.push_back(static_cast<point_index>(i));
         range += length(difference(index[i], index.viewpoints[i]));
     }
-    const measured_noise wide = measure_noise(subset_view<spatial_index>(index, some), run);
+    sparse.rebuild(subset_view<spatial_index>(index, some), run);
+    const measured_noise wide = measure_noise(sparse, run);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
     return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
 }
@@ -17702,11 +17724,12 @@ template <class X>
 
 namespace gnomon::detail {
 
-/// @param noise  becomes that of the points: perception_result::known_noise
-/// @param given  by the user, if any
+/// @param noise   becomes that of the points: perception_result::known_noise
+/// @param given   by the user, if any
+/// @param sparse  memory for the index of some of the points
 template <class X>
 void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                const X& run) {
+                spatial_index& sparse, const X& run) {
     noise = {};
     if (given) {
         noise.curve = noise.of_planes = *given;
@@ -17715,7 +17738,7 @@ void know_noise(auto& noise, const spatial_index& points, const std::optional<no
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
         noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, noise.curve, run);
+        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
         return;
     }
     noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
@@ -17744,6 +17767,8 @@ template <class Estimate>
 class perception_memory {
   public:
     spatial_index cells;                    ///< the index of the cells
+    spatial_index sparse;                   ///< that of some of the points
+    segments parts, merged;                 ///< of the cells, or of the kept points
     std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;
@@ -17848,7 +17873,9 @@ class perception_run {
         result_.gaps.clear();
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
-        step("noise", [&] { know_noise(result_.noise, *given_, chain_.noise, run_); });
+        step("noise", [&] {
+            know_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+        });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
         else
@@ -17938,7 +17965,7 @@ class perception_run {
         });
         if constexpr (merges)
             merging([&](const visibility& visible) {
-                segments parts;
+                segments& parts = result_.memory.parts;
                 parts.assign(found->labels());
                 union_find sets = merged_sets(
                     found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
@@ -17972,7 +17999,7 @@ class perception_run {
             for (std::size_t i = 0; i < surface.size(); ++i)
                 result_.surface[result_.kept[i]] = surface[i];
         });
-        segments parts;
+        segments& parts = result_.memory.parts;
         step("segmentation", [&] {
             segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
             scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
@@ -17981,7 +18008,7 @@ class perception_run {
         });
         if constexpr (merges)
             merging([&](const visibility& visible) {
-                segments merged;
+                segments& merged = result_.memory.merged;
                 merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
                                     at_noise(chain_.merging, result_.noise.of_planes), run_,
                                     [&](const examined_gap& gap) {
@@ -18039,10 +18066,10 @@ class perception_run {
 
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
-/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an occluder
-/// interrupts. Each step is a policy of its own floor; the result holds what each step returned,
-/// and how long it took. All steps share one index of the points, one of their cells, and one
-/// noise.
+/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an
+/// occluder interrupts. Each step is a policy of its own floor; the result holds what each step
+/// returned, and how long it took. All steps share one index of the points, one of their cells, and
+/// one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});

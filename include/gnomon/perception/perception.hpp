@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
-/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an occluder
-/// interrupts. Each step is a policy of its own floor; the result holds what each step returned,
-/// and how long it took. All steps share one index of the points, one of their cells, and one
-/// noise.
+/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an
+/// occluder interrupts. Each step is a policy of its own floor; the result holds what each step
+/// returned, and how long it took. All steps share one index of the points, one of their cells, and
+/// one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});

@@ -61,7 +61,7 @@ struct point_noise {
     }
 
     /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
-    /// deviations, and 1 cm for what is not flat.
+    /// deviations, and 1 cm as no surface is an exact plane.
     /// @param normal  of unit length
     [[nodiscard]] double certain_reach(const Eigen::Vector3d& normal) const {
         const double noise = std::sqrt(std::max(0.0, sigma * sigma - flatness * flatness));
