@@ -48,20 +48,20 @@ TEST(noise_knn, models_obey_the_laws) {
 /// at least the fewest.
 std::vector<point_index> by_brute_force(const noise_knn& policy, const clouds::cloud& points,
                                         const Eigen::Vector3d& viewpoint, std::size_t i) {
-    std::vector<point_index> order;
+    std::vector<point_index> ranks;
     for (std::size_t j = 0; j < points.size(); ++j)
-        if (j != i && gnomon::is_finite(points[j])) order.push_back(static_cast<point_index>(j));
+        if (j != i && gnomon::is_finite(points[j])) ranks.push_back(static_cast<point_index>(j));
     const auto distance = [&](point_index j) {
         return gnomon::squared_distance(points[i], points[j]);
     };
-    std::stable_sort(order.begin(), order.end(),
+    std::stable_sort(ranks.begin(), ranks.end(),
                      [&](auto a, auto b) { return distance(a) < distance(b); });
-    order.resize(std::min(order.size(), policy.k));
+    ranks.resize(std::min(ranks.size(), policy.k));
     const double reach = policy.deviations * policy.noise((points[i] - viewpoint).norm());
-    const auto near = std::count_if(order.begin(), order.end(),
+    const auto near = std::count_if(ranks.begin(), ranks.end(),
                                     [&](auto j) { return distance(j) <= reach * reach; });
-    order.resize(std::min(order.size(), std::max(static_cast<std::size_t>(near), policy.fewest)));
-    return order;
+    ranks.resize(std::min(ranks.size(), std::max(static_cast<std::size_t>(near), policy.fewest)));
+    return ranks;
 }
 
 TEST(noise_knn, agrees_with_brute_force) {

@@ -22,8 +22,8 @@ namespace {
 
 using gnomon::assign_unlabeled, gnomon::knn, gnomon::segments, gnomon::unlabeled;
 
-constexpr double sigma = 0.01;
-const gnomon::noise_curve noise = gnomon::constant_noise{sigma};
+constexpr double sigma_of_sheet = 0.01;
+const gnomon::noise_curve noise_of_sheet = gnomon::constant_noise{sigma_of_sheet};
 
 /// Points with noise across the planes they are of, and a label for each.
 struct cloud {
@@ -39,11 +39,13 @@ struct cloud {
     void add_sheet(double x, double y, int columns, int rows, double height, std::int32_t label) {
         for (int i = 0; i < columns; ++i)
             for (int j = 0; j < rows; ++j)
-                add({x + 0.01 * i, y + 0.01 * j, height + sigma * random.gaussian()}, label);
+                add({x + 0.01 * i, y + 0.01 * j, height + sigma_of_sheet * random.gaussian()},
+                    label);
     }
     template <gnomon::execution X = gnomon::sequential>
     [[nodiscard]] segments assigned(const X& run = {}) const {
-        return assign_unlabeled(points, knn{.k = 20}(points), segments(labels), noise, run);
+        return assign_unlabeled(points, knn{.k = 20}(points), segments(labels), noise_of_sheet,
+                                run);
     }
 };
 
@@ -64,7 +66,7 @@ struct edge : cloud {
         for (const std::int32_t wall : {0, 1}) {
             for (int i = 0; i < 2500; ++i) {
                 const double u = random.uniform(), v = random.uniform();
-                const double e = sigma * random.gaussian();
+                const double e = sigma_of_sheet * random.gaussian();
                 add(wall == 0 ? Eigen::Vector3d(u, v, e) : Eigen::Vector3d(e, v, u),
                     u < 0.08 ? unlabeled : wall);
                 truth.push_back(wall);
@@ -96,11 +98,11 @@ TEST(assign_unlabeled, moves_points_between_segments) {
 TEST(assign_unlabeled, gives_each_to_the_nearest_plane) {
     cloud c;
     c.add_sheet(0.0, 0.0, 50, 60, 0.0, 0);
-    c.add_sheet(0.8, 0.0, 50, 60, 6.0 * sigma, 1);
+    c.add_sheet(0.8, 0.0, 50, 60, 6.0 * sigma_of_sheet, 1);
     const std::size_t first = c.points.size();
     c.add_sheet(0.5, 0.0, 4, 60, 0.0, unlabeled);
     const std::size_t second = c.points.size();
-    c.add_sheet(0.76, 0.0, 4, 60, 6.0 * sigma, unlabeled);
+    c.add_sheet(0.76, 0.0, 4, 60, 6.0 * sigma_of_sheet, unlabeled);
     const segments found = c.assigned();
     EXPECT_GE(share(found.labels(), first, second, found.labels().front()), 0.97);
     EXPECT_GE(share(found.labels(), second, c.points.size(), found.labels()[3000]), 0.97);
@@ -110,7 +112,7 @@ TEST(assign_unlabeled, gives_each_to_the_nearest_plane) {
 TEST(assign_unlabeled, leaves_points_beyond_three_deviations) {
     cloud c;
     c.add_sheet(0.0, 0.0, 60, 60, 0.0, 0);
-    const double deviation = std::hypot(sigma, gnomon::detail::flatness);
+    const double deviation = std::hypot(sigma_of_sheet, gnomon::detail::flatness);
     for (const double deviations : {2.7, 3.4})
         for (int i = 0; i < 5; ++i)
             c.add({0.105 + 0.1 * i, 0.305, deviations * deviation}, unlabeled);
@@ -125,11 +127,11 @@ TEST(assign_unlabeled, has_a_smaller_threshold_at_oblique_incidence) {
     cloud c;
     c.add_sheet(0.0, 0.0, 60, 60, 0.0, 0);
     for (Eigen::Vector3d& p : c.points) p.z() *= 0.3;
-    for (int i = 0; i < 5; ++i) c.add({0.12 * i, 0.3, 2.0 * sigma}, unlabeled);
+    for (int i = 0; i < 5; ++i) c.add({0.12 * i, 0.3, 2.0 * sigma_of_sheet}, unlabeled);
     const auto share_from = [&](const Eigen::Vector3d& eye) {
         const auto seen = gnomon::with_viewpoint(c.points, eye);
         const auto found =
-            assign_unlabeled(seen, knn{.k = 20}(c.points), segments(c.labels), noise);
+            assign_unlabeled(seen, knn{.k = 20}(c.points), segments(c.labels), noise_of_sheet);
         return share(found.labels(), 3600, 3605, 0);
     };
     EXPECT_EQ(share_from({0.3, 0.3, 50.0}), 1.0);
@@ -195,7 +197,7 @@ TEST(assign_unlabeled, takes_a_projection) {
     std::vector<std::pair<int, Eigen::Vector3d>> named;
     for (const Eigen::Vector3d& p : e.points) named.emplace_back(7, p);
     const auto place = [](const auto& n) -> const Eigen::Vector3d& { return n.second; };
-    EXPECT_EQ(assign_unlabeled(named, knn{.k = 20}(e.points), segments(e.labels), noise,
+    EXPECT_EQ(assign_unlabeled(named, knn{.k = 20}(e.points), segments(e.labels), noise_of_sheet,
                                gnomon::sequential{}, place),
               e.assigned());
 }
@@ -209,7 +211,7 @@ TEST(assign_unlabeled, survives_every_cloud) {
             std::iota(labels.begin(), labels.end(), 0);
             for (std::int32_t& l : labels) l = 2 * (l % groups) - 1;  // some numbers have no points
             for (std::int32_t& l : labels) l = std::max(l, unlabeled);
-            const auto found = assign_unlabeled(points, graph, segments(labels), noise);
+            const auto found = assign_unlabeled(points, graph, segments(labels), noise_of_sheet);
             ASSERT_EQ(found.labels().size(), points.size());
             EXPECT_LE(found.size(), segments(labels).size());
         }
@@ -222,12 +224,15 @@ TEST(assign_unlabeled, refuses_other_numbers_of_points) {
     const auto fewer = clouds::in_cube(7, 1);
     const auto graph = knn{.k = 5}(c.points);
     const segments parts(c.labels);
-    EXPECT_THROW((void)assign_unlabeled(c.points, graph, segments(), noise), std::invalid_argument);
-    EXPECT_THROW((void)assign_unlabeled(c.points, knn{.k = 5}(fewer), parts, noise),
+    EXPECT_THROW((void)assign_unlabeled(c.points, graph, segments(), noise_of_sheet),
                  std::invalid_argument);
-    EXPECT_THROW((void)assign_unlabeled(fewer, graph, parts, noise), std::invalid_argument);
+    EXPECT_THROW((void)assign_unlabeled(c.points, knn{.k = 5}(fewer), parts, noise_of_sheet),
+                 std::invalid_argument);
+    EXPECT_THROW((void)assign_unlabeled(fewer, graph, parts, noise_of_sheet),
+                 std::invalid_argument);
     const std::vector<std::vector<gnomon::point_index>> astray(c.points.size(), {1000});
-    EXPECT_THROW((void)assign_unlabeled(c.points, astray, parts, noise), std::invalid_argument);
+    EXPECT_THROW((void)assign_unlabeled(c.points, astray, parts, noise_of_sheet),
+                 std::invalid_argument);
 }
 
 }  // namespace

@@ -20,8 +20,8 @@ namespace {
 
 using gnomon::plane_estimate, gnomon::segments;
 
-constexpr double sigma = 0.01;
-const gnomon::noise_curve noise = gnomon::constant_noise{sigma};
+constexpr double sigma_of_patch = 0.01;
+const gnomon::noise_curve noise_of_patch = gnomon::constant_noise{sigma_of_patch};
 
 /// n points of a rectangle, seen from an eye, with noise along the rays.
 struct patch {
@@ -35,16 +35,16 @@ struct patch {
         for (int i = 0; i < n; ++i) {
             const double a = places.uniform() - 0.5, b = places.uniform() - 0.5;
             const Eigen::Vector3d p = center + a * side + b * other_side;
-            all.push_back(p + sigma * errors.gaussian() * (p - eye).normalized());
+            all.push_back(p + sigma_of_patch * errors.gaussian() * (p - eye).normalized());
         }
         return all;
     }
 };
 
-segments one_segment(std::size_t n) { return segments(std::vector<std::int32_t>(n, 0)); }
+segments whole_segment(std::size_t n) { return segments(std::vector<std::int32_t>(n, 0)); }
 
 plane_estimate estimate(const auto& points) {
-    return gnomon::estimate_planes(points, one_segment(points.size()), noise).at(0);
+    return gnomon::estimate_planes(points, whole_segment(points.size()), noise_of_patch).at(0);
 }
 plane_estimate estimate_from(const clouds::cloud& points, const Eigen::Vector3d& eye) {
     return estimate(gnomon::with_viewpoint(points, eye));
@@ -57,7 +57,7 @@ TEST(plane_estimate, agrees_with_a_dense_weighted_fit) {
         const patch p{.center = {4.0, 1.0, 0.0}, .side = {3.0, 1.0, 0.0}};
         const auto points = p.points(seed);
         const auto found = gnomon::estimate_planes(gnomon::with_viewpoint(points, p.eye),
-                                                   one_segment(points.size()), growing)
+                                                   whole_segment(points.size()), growing)
                                .at(0);
         ASSERT_EQ(found.points, points.size()) << "all are on it";
         Eigen::VectorXd w(points.size());
@@ -175,7 +175,8 @@ TEST(plane_estimate, without_view_points_noise_is_isotropic) {
     const patch oblique{
         .center = {2.0, 0.0, -1.0}, .side = {1.0, 0.0, 0.0}, .other_side = {0.0, 1.0, 0.0}};
     clouds::cloud points = oblique.points(2);
-    const double variance = sigma * sigma + gnomon::detail::flatness * gnomon::detail::flatness;
+    const double variance =
+        sigma_of_patch * sigma_of_patch + gnomon::detail::flatness * gnomon::detail::flatness;
     const Eigen::Vector3d nowhere(clouds::nan, clouds::nan, clouds::nan);
     const plane_estimate unknown = estimate_from(points, nowhere), none = estimate(points),
                          seen = estimate_from(points, oblique.eye);
@@ -256,12 +257,12 @@ TEST(plane_estimate, is_one_for_each_segment) {
             labels.push_back(s % 7 == 3 ? gnomon::unlabeled : s);
         }
     }
-    const auto all = gnomon::estimate_planes(points, segments(labels), noise);
+    const auto all = gnomon::estimate_planes(points, segments(labels), noise_of_patch);
     ASSERT_EQ(all.size(), 50u);
     for (std::size_t s = 0; s < 50; ++s) EXPECT_EQ(all[s].is_flat, s % 7 != 3);
     for (const unsigned t : {1u, 3u}) {
         const auto again =
-            gnomon::estimate_planes(points, segments(labels), noise, gnomon::threads{t});
+            gnomon::estimate_planes(points, segments(labels), noise_of_patch, gnomon::threads{t});
         for (std::size_t s = 0; s < 50; ++s) {
             EXPECT_EQ(again[s].plane.normal, all[s].plane.normal);
             EXPECT_EQ(again[s].covariance, all[s].covariance);
@@ -271,8 +272,9 @@ TEST(plane_estimate, is_one_for_each_segment) {
 
 TEST(plane_estimate, refuses_other_numbers_of_points) {
     const auto points = clouds::in_cube(10, 1);
-    EXPECT_THROW((void)gnomon::estimate_planes(points, segments(), noise), std::invalid_argument);
-    EXPECT_THROW((void)gnomon::estimate_planes(points, one_segment(11), noise),
+    EXPECT_THROW((void)gnomon::estimate_planes(points, segments(), noise_of_patch),
+                 std::invalid_argument);
+    EXPECT_THROW((void)gnomon::estimate_planes(points, whole_segment(11), noise_of_patch),
                  std::invalid_argument);
 }
 

@@ -20,11 +20,11 @@ namespace {
 
 using gnomon::split_outliers, gnomon::segments, gnomon::unlabeled;
 
-constexpr double sigma = 0.005;
-const gnomon::noise_curve noise = gnomon::constant_noise{sigma};
+constexpr double sigma_of_seat = 0.005;
+const gnomon::noise_curve noise_of_seat = gnomon::constant_noise{sigma_of_seat};
 const Eigen::Vector3d eye_before_seat(-1.6, 0.2, 0.8);
 
-std::vector<std::int32_t> one_segment(std::size_t n) { return std::vector<std::int32_t>(n, 0); }
+std::vector<std::int32_t> labels_of_one(std::size_t n) { return std::vector<std::int32_t>(n, 0); }
 
 /// A seat, 40 cm wide, and the front of its board, 4 cm high, as a sensor in front of it sees them:
 /// rays a degree apart, with noise along them. All in one segment, which is flat: fewer than 30
@@ -48,7 +48,7 @@ struct seat {
                 const bool hits_front = front.z() <= 0.0 && front.z() > -height;
                 const Eigen::Vector3d& hit = hits_front ? front : top;
                 if (hit.x() < -1e-9 || hit.x() > 0.4 || hit.y() < 0.0 || hit.y() > 0.4) continue;
-                points.emplace_back(hit + sigma * random.gaussian() * ray);
+                points.emplace_back(hit + sigma_of_seat * random.gaussian() * ray);
                 is_of_front.push_back(hits_front);
             }
         }
@@ -63,7 +63,7 @@ struct seat {
         }
         return off / all;
     }
-    [[nodiscard]] segments parts() const { return segments(one_segment(points.size())); }
+    [[nodiscard]] segments parts() const { return segments(labels_of_one(points.size())); }
     [[nodiscard]] auto seen() const { return gnomon::with_viewpoint(points, eye_before_seat); }
 };
 
@@ -72,7 +72,7 @@ TEST(split_outliers, splits_off_the_rim_and_keeps_the_plane) {
     constexpr int seeds = 10;
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
         const seat s(seed);
-        const segments left = split_outliers(s.seen(), s.parts(), noise);
+        const segments left = split_outliers(s.seen(), s.parts(), noise_of_seat);
         of_rim += s.split(true, left) / seeds;
         EXPECT_LE(s.split(false, left), 0.05) << seed;
     }
@@ -82,8 +82,8 @@ TEST(split_outliers, splits_off_the_rim_and_keeps_the_plane) {
 /// Without view points noise is the same in all directions: what is off by less may be noise.
 TEST(split_outliers, splits_off_fewer_points_without_view_points) {
     const seat s(1);
-    EXPECT_LT(s.split(true, split_outliers(s.points, s.parts(), noise)),
-              s.split(true, split_outliers(s.seen(), s.parts(), noise)) - 0.2);
+    EXPECT_LT(s.split(true, split_outliers(s.points, s.parts(), noise_of_seat)),
+              s.split(true, split_outliers(s.seen(), s.parts(), noise_of_seat)) - 0.2);
 }
 
 /// Law: a plane, seen from anywhere, keeps 99 % of its points; the points of an object next to it
@@ -96,13 +96,13 @@ TEST(split_outliers, keeps_planes) {
         clouds::cloud points;
         for (int i = 0; i < 2000; ++i) {
             const Eigen::Vector3d p(random.uniform(), random.uniform(), 0.0);
-            points.emplace_back(p + sigma * random.gaussian() * (p - from).normalized());
+            points.emplace_back(p + sigma_of_seat * random.gaussian() * (p - from).normalized());
         }
         for (int i = 0; i < 20; ++i)
             points.emplace_back(random.uniform(), -0.05, 0.1 + 0.05 * random.uniform());
-        const auto labels =
-            split_outliers(gnomon::with_viewpoint(points, from), segments(one_segment(2020)), noise)
-                .labels();
+        const auto labels = split_outliers(gnomon::with_viewpoint(points, from),
+                                           segments(labels_of_one(2020)), noise_of_seat)
+                                .labels();
         EXPECT_GE(std::count(labels.begin(), labels.end() - 20, 0), 1980) << round;
         EXPECT_EQ(std::count(labels.end() - 20, labels.end(), unlabeled), 20) << round;
     }
@@ -112,10 +112,10 @@ TEST(split_outliers, keeps_planes) {
 TEST(split_outliers, splits_off_what_is_beyond_three_deviations) {
     clouds::cloud points;
     for (int i = 0; i < 400; ++i) points.emplace_back(0.01 * (i % 20), 0.01 * (i / 20), 0.0);
-    const double deviation = std::hypot(sigma, gnomon::detail::flatness);
+    const double deviation = std::hypot(sigma_of_seat, gnomon::detail::flatness);
     points[210].z() = 2.9 * deviation;
     points[215].z() = -3.1 * deviation;
-    const segments left = split_outliers(points, segments(one_segment(400)), noise);
+    const segments left = split_outliers(points, segments(labels_of_one(400)), noise_of_seat);
     EXPECT_EQ(left.labels()[210], 0);
     EXPECT_EQ(left.labels()[215], unlabeled);
     EXPECT_EQ(left[0].size(), 399u);
@@ -138,22 +138,22 @@ TEST(split_outliers, segments_that_are_not_flat_are_kept) {
         labels.push_back(2);
     }
     const segments parts(labels);
-    EXPECT_EQ(split_outliers(points, parts, noise), parts);
+    EXPECT_EQ(split_outliers(points, parts, noise_of_seat), parts);
 }
 
 /// The largest may be another after it.
 TEST(split_outliers, segments_are_largest_first) {
     const seat s(1);
     clouds::cloud points = s.points;
-    std::vector<std::int32_t> labels = one_segment(points.size());
+    std::vector<std::int32_t> labels = labels_of_one(points.size());
     const std::size_t first = points.size();
     for (std::size_t i = 0; i + 5 < first; ++i) {  // elsewhere, flat, 5 fewer
         points.emplace_back(0.01 * static_cast<double>(i % 40),
                             3.0 + 0.01 * static_cast<double>(i / 40), 0.0);
         labels.push_back(1);
     }
-    const segments left =
-        split_outliers(gnomon::with_viewpoint(points, eye_before_seat), segments(labels), noise);
+    const segments left = split_outliers(gnomon::with_viewpoint(points, eye_before_seat),
+                                         segments(labels), noise_of_seat);
     EXPECT_EQ(left.labels()[first], 0);
     EXPECT_EQ(*std::max_element(left.labels().begin(), left.labels().end()), 1);
 }
@@ -171,21 +171,21 @@ TEST(split_outliers, depends_on_no_order_place_or_thread) {
     }
     const auto points = gnomon::with_viewpoints(all, gnomon::viewpoint_table(eyes));
     const segments parts(labels);
-    const auto expected = split_outliers(points, parts, noise);
+    const auto expected = split_outliers(points, parts, noise_of_seat);
     EXPECT_GT(std::ranges::count(expected.labels(), unlabeled), 0);
     for (const unsigned n : {1u, 2u, 3u})
-        EXPECT_EQ(split_outliers(points, parts, noise, gnomon::threads{n}), expected);
+        EXPECT_EQ(split_outliers(points, parts, noise_of_seat, gnomon::threads{n}), expected);
 
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const seat s(seed);
-        const auto here = split_outliers(s.seen(), s.parts(), noise).labels();
+        const auto here = split_outliers(s.seen(), s.parts(), noise_of_seat).labels();
         const Eigen::Matrix3d r = clouds::random_rotation(seed);
         const Eigen::Vector3d by(6e5, 4.8e6, 100.0);
         auto moved = clouds::moved(s.points, r, by);
         std::reverse(moved.begin(), moved.end());
         auto there =
             split_outliers(gnomon::with_viewpoint(moved, Eigen::Vector3d(r * eye_before_seat + by)),
-                           s.parts(), noise)
+                           s.parts(), noise_of_seat)
                 .labels();
         std::reverse(there.begin(), there.end());
         EXPECT_EQ(there, here);
@@ -196,8 +196,8 @@ TEST(split_outliers, depends_on_no_order_place_or_thread) {
 TEST(split_outliers, is_nearly_idempotent) {
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         const seat s(seed);
-        const segments left = split_outliers(s.seen(), s.parts(), noise);
-        const segments again = split_outliers(s.seen(), left, noise);
+        const segments left = split_outliers(s.seen(), s.parts(), noise_of_seat);
+        const segments again = split_outliers(s.seen(), left, noise_of_seat);
         EXPECT_LE(s.split(false, again) - s.split(false, left), 0.01);
         EXPECT_LE(s.split(true, again) - s.split(true, left), 0.05);
     }
@@ -208,37 +208,38 @@ TEST(split_outliers, takes_a_projection) {
     std::vector<std::pair<int, Eigen::Vector3d>> named;
     for (const Eigen::Vector3d& p : s.points) named.emplace_back(7, p);
     const auto place = [](const auto& n) -> const Eigen::Vector3d& { return n.second; };
-    EXPECT_EQ(split_outliers(named, s.parts(), noise, gnomon::sequential{}, place),
-              split_outliers(s.points, s.parts(), noise));
+    EXPECT_EQ(split_outliers(named, s.parts(), noise_of_seat, gnomon::sequential{}, place),
+              split_outliers(s.points, s.parts(), noise_of_seat));
 }
 
 TEST(split_outliers, accepts_degenerate_input) {
     const clouds::cloud one_place(50, Eigen::Vector3d(1, 2, 3));
-    const segments one(one_segment(50));
-    EXPECT_EQ(split_outliers(one_place, one, noise), one);
-    EXPECT_EQ(split_outliers(gnomon::with_viewpoint(one_place, one_place[0]), one, noise), one);
+    const segments one(labels_of_one(50));
+    EXPECT_EQ(split_outliers(one_place, one, noise_of_seat), one);
+    EXPECT_EQ(split_outliers(gnomon::with_viewpoint(one_place, one_place[0]), one, noise_of_seat),
+              one);
     std::vector<std::int32_t> labels(50, unlabeled);
     labels[7] = 0, labels[8] = 2;  // and 1 is empty
-    EXPECT_EQ(split_outliers(one_place, segments(labels), noise).size(), 2u);
+    EXPECT_EQ(split_outliers(one_place, segments(labels), noise_of_seat).size(), 2u);
     // What is nowhere stays where it is, though it is off every plane.
     clouds::cloud slope;
     for (int i = 0; i < 400; ++i)
         slope.emplace_back(0.01 * (i % 20), 0.01 * (i / 20), 0.01 * (i % 20));
     slope.emplace_back(0.0, 0.0, std::numeric_limits<double>::infinity());
-    const segments of_slope(one_segment(401));
-    EXPECT_EQ(split_outliers(slope, of_slope, noise), of_slope);
+    const segments of_slope(labels_of_one(401));
+    EXPECT_EQ(split_outliers(slope, of_slope, noise_of_seat), of_slope);
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
-        const segments all(one_segment(points.size()));
-        EXPECT_EQ(split_outliers(points, all, noise).labels().size(), points.size());
+        const segments all(labels_of_one(points.size()));
+        EXPECT_EQ(split_outliers(points, all, noise_of_seat).labels().size(), points.size());
     }
 }
 
 TEST(split_outliers, refuses_other_numbers_of_points) {
     const seat s(1);
-    EXPECT_THROW((void)split_outliers(s.points, segments(one_segment(1)), noise),
+    EXPECT_THROW((void)split_outliers(s.points, segments(labels_of_one(1)), noise_of_seat),
                  std::invalid_argument);
-    EXPECT_THROW((void)split_outliers(s.points, segments(), noise), std::invalid_argument);
+    EXPECT_THROW((void)split_outliers(s.points, segments(), noise_of_seat), std::invalid_argument);
 }
 
 }  // namespace
