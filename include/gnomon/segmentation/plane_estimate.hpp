@@ -33,8 +33,8 @@ namespace gnomon {
 
 /// A plane with its covariance.
 struct plane_estimate {
-    /// In Hesse normal form, towards the view point where one is known; without a normal if the
-    /// points do not determine one.
+    /// In Hesse normal form, towards the view point of the points, or else the origin; without a
+    /// normal if the points do not determine one.
     gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
     Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
     /// Unit columns: the directions of largest and second largest variance in the plane, and its
@@ -141,12 +141,9 @@ template <class Cloud>
     e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
     if (!fit.is_determined) return e;
     const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    // That of a point that is not finite is not known.
-    const auto seen = std::find_if(members.begin(), members.end(), [&](point_index i) {
-        return cloud.is_finite(i) && cloud.noise[i].has_ray();
-    });
-    const bool is_away =
-        seen != members.end() && dot(fit.plane.normal, cloud.noise[*seen].ray) > 0.0;
+    const auto first_finite =
+        std::ranges::find_if(members, [&](point_index i) { return cloud.is_finite(i); });
+    const bool is_away = dot(fit.plane.normal, cloud.ray(*first_finite)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
     const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
     for (int i = 0; i < 3; ++i) {

@@ -46,6 +46,10 @@ class planar_cloud {
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
     [[nodiscard]] std::size_t size() const { return offsets.size(); }
+    /// From the view point of point i, or else the origin of the coordinates, to the point [m].
+    [[nodiscard]] Eigen::Vector3d ray(std::size_t i) const {
+        return difference(index_[i], index_.viewpoints[i]);
+    }
     void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i]); }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
