@@ -61,14 +61,20 @@ struct noise_knn {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far
     /// Errors: those of operator().
     template <execution X>
-    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
+               auto&& make_visitor_of_all) const {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, make_visitor()); });
+            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
+    }
+    template <execution X>
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        sweep(index, run, make_visitor, [] { return [](std::size_t, const auto&) {}; });
     }
 
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -84,16 +90,20 @@ struct noise_knn {
         return deviations * deviations * noise.variance_along(ray);
     }
 
-    /// Shows a visitor those of the k nearest that are near enough.
-    template <class Visit>
+    /// Shows a visitor those of the k nearest that are near enough, and another one all.
+    template <class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index, Visit visit)
-            : policy_(policy), index_(index), visit_(std::move(visit)) {}
+        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
+            : policy_(policy),
+              index_(index),
+              visit_(std::move(visit)),
+              visit_all_(std::move(visit_all)) {}
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             const detail::leaf_tree& tree = index_.tree();
             const point_index i = tree.index()[place];
+            visit_all_(i, detail::found_neighbors(tree, place, places));
             const double within = policy_.squared_reach(index_, i);
             near_.assign(places.begin(), places.end());
             const auto key = [&](std::uint32_t at) {
@@ -114,12 +124,14 @@ struct noise_knn {
 
         void finish() {
             if constexpr (requires { visit_.finish(); }) visit_.finish();
+            if constexpr (requires { visit_all_.finish(); }) visit_all_.finish();
         }
 
       private:
         const noise_knn& policy_;
         const spatial_index& index_;
         Visit visit_;
+        VisitAll visit_all_;
         detail::scratch<std::uint32_t> near_;
     };
 };

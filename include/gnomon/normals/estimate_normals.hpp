@@ -44,22 +44,32 @@ template <class N>
         return {};
 }
 
+/// The surface elements of the points of an index, from what a sweep finds.
+/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+template <estimator E, execution X>
+void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
+                    const E& estimate, const X& run, auto&& sweep) {
+    resize_touched(surface, index.size(), run);
+    sweep([&] { return sweep_visitor(estimate, index, surface); });
+    for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (index.is_finite(i)) continue;
+            surface[i] = {};
+            surface[i].trust = trust::not_finite;
+        }
+    });
+}
+
 /// The surface elements of the points of an index, by an indexed neighborhood.
 template <indexed_neighborhood N, estimator E, execution X>
 void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
                       const N& policy, const E& estimate, const X& run) {
     require_valid(policy);
-    resize_touched(surface, index.size(), run);
     if constexpr (sweeping_neighborhood<N>) {
-        policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); });
-        for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (index.is_finite(i)) continue;
-                surface[i] = {};
-                surface[i].trust = trust::not_finite;
-            }
-        });
+        estimate_swept(surface, index, estimate, run,
+                       [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
     } else {
+        resize_touched(surface, index.size(), run);
         estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
                     found_neighborhoods(policy, index), estimate, surface);
     }

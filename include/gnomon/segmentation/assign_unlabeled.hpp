@@ -55,10 +55,11 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                             "assign_unlabeled: the graph has an index out of range");
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
+    auto is_border = detail::borders_of(graph, parts.labels(), team);
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
-        auto labels =
-            detail::labels_after_competition(cloud, graph, regions, result.labels(), team);
+        const auto labels = detail::labels_after_competition(cloud, graph, regions,
+                                                             result.labels(), is_border, team);
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }

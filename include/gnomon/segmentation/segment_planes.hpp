@@ -61,9 +61,7 @@ template <neighborhood_graph G, normal_range S, execution X>
     constexpr angle wider = degrees(35);  // chosen: where the noise blends normals
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
     regions.grow(surface, min_cosine(max_angle), run);
-    regions.settle(run);
     regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);
-    regions.settle(run);
     return regions;
 }
 

@@ -55,25 +55,17 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
     return adjacency(std::move(memory));
 }
 
-/// `knn` of some points only; the other points have no neighbors in the graph.
-struct knn_of_some {
-    nearest_wanted wanted;
-
-    template <execution X>
-    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
-        sweep_nearest(index.tree(), wanted, run, make_visitor);
-    }
-};
-
-/// The graph with the k nearest neighbors of the points i for which wanted(i) holds, nearest first.
-/// O(n / 32), and O(k log k) for each of them.
+/// The graph with the k nearest neighbors of the points i for which wanted(i) holds, nearest first;
+/// the other points have none. O(n / 32), and O(k log k) for each of them.
 template <execution X>
 [[nodiscard]] scratch_graph graph_of_some(std::size_t k, auto&& wanted, const spatial_index& index,
                                           const X& run) {
     place_set some;
     some.assign_if(index.tree(), wanted);
     scratch_graph::arrays graph;
-    sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, graph);
+    sweep_any_sizes(index.size(), run, graph, [&](auto&& make_visitor) {
+        sweep_nearest(index.tree(), {.k = k, .of = &some}, run, make_visitor);
+    });
     return scratch_graph(std::move(graph));
 }
 

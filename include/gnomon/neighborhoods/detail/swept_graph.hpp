@@ -108,15 +108,16 @@ class neighborhood_recorder {
     typename recorded_neighborhoods<Sizes>::part seen_;
 };
 
-/// The arrays of the graph of a policy whose neighborhoods differ in size. While building, the
-/// indices exist twice.
+/// The arrays of the graph of n neighborhoods that differ in size. While building, the indices
+/// exist twice.
 /// @param graph  arrays of an `adjacency` or a `scratch_graph`
-template <class Policy, execution X>
-void sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run, auto& graph) {
+/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+template <execution X>
+void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
     auto& begin = graph.begin;
-    begin.assign(index.size() + 1, 0);
+    begin.assign(n + 1, 0);
     recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
-    policy.sweep(index, run, [&] { return neighborhood_recorder(all); });
+    sweep([&] { return neighborhood_recorder(all); });
 
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = graph.indices;
@@ -142,7 +143,8 @@ void sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
             return sweep_equal_sizes(policy, *k, index, run, graph);
     }
-    return sweep_any_sizes(policy, index, run, graph);
+    sweep_any_sizes(index.size(), run, graph,
+                    [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
 }
 
 }  // namespace gnomon::detail

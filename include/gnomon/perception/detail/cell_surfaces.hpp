@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <concepts>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,7 @@
 #include <gnomon/neighborhoods/detail/scratch_graph.hpp>
 #include <gnomon/neighborhoods/detail/swept_graph.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
@@ -67,15 +69,27 @@ class cell_surfaces {
         if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
     }
 
-    /// The normals of the cells, and which are neighbors.
+    /// The normals of the cells, and the graph of their nearest neighbors.
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
-        estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-        orient_normals(index_, surface_, run);
-        constexpr std::size_t neighbors = 30;  // as for normals
         scratch_graph::arrays graph;
-        sweep_any_sizes(knn{.k = neighbors}, index_, run, graph);
+        const auto record = [&](auto&& sweep) {
+            sweep_any_sizes(index_.size(), run, graph, sweep);
+        };
+        if constexpr (std::same_as<N, noise_knn>) {
+            record([&](auto&& make_recorder) {  // one search for both
+                estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
+                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
+                });
+            });
+        } else {
+            estimate_normals_into(surface_, index_, neighborhood, estimator, run);
+            record([&](auto&& make_recorder) {
+                knn{.k = noise_knn{}.k}.sweep(index_, run, make_recorder);
+            });
+        }
         graph_.emplace(std::move(graph));
+        orient_normals(index_, surface_, run);
     }
 
     /// The planes, and in what is left the smooth surfaces.

@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -23,50 +25,49 @@
 
 namespace gnomon::detail {
 
-inline constexpr int most_rounds = 6;  // of the competition; chosen
+inline const int most_rounds = getenv("RD")?atoi(getenv("RD")):6;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
 class label_competition {
   public:
-    /// Begins with the labels of the neighbors of a point.
+    /// Begins with the labels of the neighbors of a point, and its own.
     template <class Neighbors>
     void begin(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
-        around_.clear();
+        candidates_.clear();
+        if (own != unlabeled) candidates_.push_back({own, 0.0});
         for (const point_index j : neighbors)
-            if (labels[j] != unlabeled) around_.push_back(labels[j]);
-        if (own != unlabeled) around_.push_back(own);
-        std::sort(around_.begin(), around_.end());
-        own_ = own;
+            if (labels[j] != unlabeled) ++candidate_of(labels[j]).agreeing;
         neighbors_ = static_cast<double>(std::max<std::size_t>(neighbors.size(), 1));
     }
 
-    /// The best label; unlabeled if none is possible.
+    /// The best label, of equal ones the smallest; unlabeled if none is possible.
     /// @param misfit  misfit(label): the square of the deviation of the point, in variances of its
     ///                region; negative if it is impossible
     [[nodiscard]] std::int32_t winner(auto&& misfit) const {
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
-        std::int32_t best = unlabeled;
-        double least = 0.0;
-        for (auto first = around_.begin(); first != around_.end();) {
-            const auto last = std::upper_bound(first, around_.end(), *first);
-            const std::int32_t label = *first;
-            const double agree = static_cast<double>(last - first) - (label == own_ ? 1.0 : 0.0);
-            first = last;
-            const double squared = misfit(label);
+        std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
+        for (const candidate& c : candidates_) {
+            const double squared = misfit(c.label);
             if (squared < 0.0) continue;
-            const double cost = 0.5 * squared + potts * (1.0 - agree / neighbors_);
-            if (best == unlabeled || cost < least) {
-                best = label;
-                least = cost;
-            }
+            const double cost = 0.5 * squared + potts * (1.0 - c.agreeing / neighbors_);
+            best = std::min(best, std::pair(cost, c.label));
         }
-        return best;
+        return best.second;
     }
 
   private:
-    scratch<std::int32_t> around_;  // sorted
-    std::int32_t own_ = unlabeled;
+    struct candidate {
+        std::int32_t label;
+        double agreeing;  // neighbors
+    };
+
+    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+        const auto found = std::ranges::find(candidates_, label, &candidate::label);
+        return found != candidates_.end() ? *found : candidates_.emplace_back(candidate{label, 0.0});
+    }
+
+    scratch<candidate> candidates_;  // few
     double neighbors_ = 1.0;
 };
 
@@ -93,20 +94,28 @@ class label_competition {
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
 
-/// Whether all neighbors have the label of the point itself, as most have: performance only.
-template <class Neighbors>
-[[nodiscard]] bool is_alone(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
-    for (const point_index j : neighbors)
-        if (labels[j] != own) return false;
-    return true;
+/// The points that have a neighbor with another label: only these compete.
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<char> borders_of(const G& graph, const auto& labels, const X& run) {
+    scratch<char> is_border(labels.size(), false);
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            is_border[i] = std::ranges::any_of(
+                graph[i], [&](point_index j) { return labels[j] != labels[i]; });
+    });
+    return is_border;
 }
 
-/// The labels of the points of a cloud after one round.
+/// The labels of the points of a cloud after one round. Points that are no border keep their label
+/// if they are on the plane.
+/// @param is_border  as borders_of; becomes true where that may have changed
 template <neighborhood_graph G, execution X>
 [[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
                                                              const G& graph,
                                                              const scratch<planar_region>& regions,
-                                                             const auto& labels, const X& run) {
+                                                             const auto& labels,
+                                                             scratch<char>& is_border,
+                                                             const X& run) {
     scratch<std::int32_t> next(labels.size(), unlabeled);
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
@@ -115,14 +124,19 @@ template <neighborhood_graph G, execution X>
             const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
             };
-            if (const std::int32_t own = labels[i]; is_alone(graph[i], labels, own)) {
-                if (own != unlabeled && misfit(own) >= 0.0) next[i] = own;
-                continue;
+            if (is_border[i] != 0) {
+                competition.begin(graph[i], labels, labels[i]);
+                next[i] = competition.winner(misfit);
+            } else if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) {
+                next[i] = labels[i];
             }
-            competition.begin(graph[i], labels, labels[i]);
-            next[i] = competition.winner(misfit);
         }
     });
+    for (std::size_t i = 0; i < next.size(); ++i) {
+        if (next[i] == labels[i]) continue;
+        is_border[i] = true;
+        for (const point_index j : graph[i]) is_border[j] = true;
+    }
     return next;
 }
 

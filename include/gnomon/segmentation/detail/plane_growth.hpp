@@ -29,32 +29,28 @@ namespace gnomon::detail {
 template <neighborhood_graph G, normal_range S>
 class plane_growth {
   public:
-    /// @param labels  those of the regions; grown ones are added
+    /// @param min_cosine  of the angle between normals of points and planes
+    /// @param labels      those of the regions; grown ones are added
     plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
-                 std::size_t min_points, scratch<std::int32_t>& labels)
+                 std::size_t min_points, double min_cosine, scratch<std::int32_t>& labels)
         : cloud_(cloud),
           graph_(graph),
           surface_(surface),
           min_points_(min_points),
+          min_cosine_(min_cosine),
           labels_(labels),
-          visit_(cloud.size(), 0) {}
+          visit_(cloud.size(), no_seed) {}
 
-    /// Grows regions of unlabeled points.
-    /// @param min_cosine  of the angle between normals of points and planes
-    /// @param next        the label of the first new region
+    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// @param next  the label of the first new region
     template <execution X>
-    void operator()(double min_cosine, std::int32_t next, const X& run) {
-        min_cosine_ = min_cosine;
-        scratch<char> was_tried(cloud_.size(), false);
+    void operator()(std::int32_t next, const X& run) {
         for (const point_index seed : flattest_first(run)) {
-            if (was_tried[seed] != 0 || !is_free(seed)) continue;
-            const plane_sums sums = grown_from(seed);
-            if (sums.count >= min_points_) {
-                for (const point_index i : members_) labels_[i] = next;
-                ++next;
-            } else {
-                for (const point_index i : members_) was_tried[i] = true;
-            }
+            if (visit_[seed] != no_seed || !is_free(seed)) continue;
+            grow_from(seed);
+            if (members_.size() < min_points_) continue;
+            for (const point_index i : members_) labels_[i] = next;
+            ++next;
         }
     }
 
@@ -97,56 +93,35 @@ class plane_growth {
         return (sum / count - mean * mean) / (dev * dev);
     }
 
-    /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
-    /// twice again with the final plane, which corrects the decisions of early planes.
-    plane_sums grown_from(point_index seed) {
-        constexpr int passes = 3;
-        region_plane to = start_at(seed);
+    /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
+    /// has doubled.
+    void grow_from(point_index seed) {
+        plane to = plane_about(seed);
         plane_sums sums;
-        members_.clear();
-        if (!fits(seed, to)) return sums;
-        members_.push_back(seed);
-        for (int pass = 0; pass < passes; ++pass) {
-            if (pass > 0) std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
-            sums = spread(to, pass == 0);
-            const region_plane next = sums.fit();
-            if (!next.is_determined) return sums;
-            to = next;
-        }
-        return sums;
-    }
-
-    /// Adds to members_ what fits a plane and is connected with them.
-    /// @param follows  whether the plane is fit again each time that their number has doubled
-    plane_sums spread(region_plane& to, bool follows) {
-        ++stamp_;
-        for (const point_index i : members_) visit_[i] = stamp_;
-        plane_sums sums;
-        std::size_t refit_at = follows ? 8 : std::numeric_limits<std::size_t>::max();
+        std::size_t refit_at = 8;  // performance only: fewer turn the plane about
+        members_.assign(1, seed);
+        visit_[seed] = seed;
         for (std::size_t next = 0; next < members_.size(); ++next) {
             const point_index i = members_[next];
             cloud_.add(i, sums);
             for (const point_index j : graph_[i]) {
-                if (visit_[j] == stamp_ || !fits(j, to)) continue;
-                visit_[j] = stamp_;
+                if (visit_[j] == seed || !fits(j, to)) continue;
+                visit_[j] = seed;
                 members_.push_back(j);
             }
             if (sums.count < refit_at) continue;
-            const double excess = to.chi2;
-            if (const region_plane f = sums.fit(); f.is_determined) to = f;
-            to.chi2 = excess;  // that of a part is of little precision
+            if (const region_plane f = sums.fit(); f.is_determined) to = f.plane;
             refit_at *= 2;
         }
-        return sums;
     }
 
-    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
-        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
-               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+    [[nodiscard]] bool fits(std::size_t i, const plane& to) const {
+        return is_free(i) && std::abs(dot(to.normal, normal(i))) >= min_cosine_ &&
+               cloud_.deviations(i, to) <= most_deviations;
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.
-    [[nodiscard]] region_plane start_at(point_index seed) const {
+    [[nodiscard]] plane plane_about(point_index seed) const {
         const Eigen::Vector3d n = normal(seed);
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
@@ -155,19 +130,18 @@ class plane_growth {
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }
-        region_plane start;
-        start.plane = {n, dot(n, sum) / count};
-        return start;
+        return {n, dot(n, sum) / count};
     }
+
+    static constexpr point_index no_seed = std::numeric_limits<point_index>::max();
 
     const planar_cloud& cloud_;
     const G& graph_;
     const S& surface_;
     std::size_t min_points_;
+    double min_cosine_;
     scratch<std::int32_t>& labels_;
-    double min_cosine_ = 1.0;
-    scratch<std::size_t> visit_;  // by which spreading
-    std::size_t stamp_ = 0;
+    scratch<point_index> visit_;  // the seed of the last region that a point was in
     scratch<point_index> members_;
 };
 

@@ -52,14 +52,19 @@ class plane_regions {
         }
     }
 
-    /// Grows new regions in what is unlabeled.
+    /// Grows new regions in what is unlabeled; then rounds of merging and competition, until
+    /// nothing changes.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
-        plane_growth grow(cloud_, graph_, surface, min_points_, labels_);
-        grow(min_cosine, static_cast<std::int32_t>(regions_.size()), run);
+        plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
+            static_cast<std::int32_t>(regions_.size()), run);
         refit();
+        is_border_ = borders_of(graph_, labels_, run);
+        merge_neighbors();
+        for (int round = 0; round < most_rounds && compete(run); ++round) merge_neighbors();
     }
 
+  private:
     /// Merges regions next to each other that one plane explains.
     void merge_neighbors() {
         union_find sets = agglomeration(regions_)(
@@ -68,10 +73,12 @@ class plane_regions {
                 return unlikeness_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; }, [](point_index, point_index) {});
+        for (std::size_t r = 0; r < regions_.size(); ++r)
+            if (sets.find(static_cast<point_index>(r)) != r) regions_[r] = {};
         for (std::int32_t& label : labels_)
             if (label != unlabeled)
                 label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-        refit();
+        drop_small();
     }
 
     /// Each point goes to the region, among those of its neighbors and its own, that explains it
@@ -80,22 +87,14 @@ class plane_regions {
     template <execution X>
     bool compete(const X& run) {
         scratch<std::int32_t> next =
-            labels_after_competition(cloud_, graph_, regions_, labels_, run);
-        const bool has_changed = next != labels_;
+            labels_after_competition(cloud_, graph_, regions_, labels_, is_border_, run);
         labels_.swap(next);
+        if (labels_ == next) return false;
         refit();
-        return has_changed;
+        return true;
     }
 
-    /// Rounds of competition and merging, until nothing changes.
-    template <execution X>
-    void settle(const X& run) {
-        merge_neighbors();
-        for (int round = 0; round < most_rounds && compete(run); ++round) merge_neighbors();
-    }
-
-  private:
-    /// Sums and planes of the labels; regions that are too small, or no planes, are none.
+    /// Sums and planes of the labels.
     void refit() {
         std::int32_t most = unlabeled;
         for (const std::int32_t label : labels_) most = std::max(most, label);
@@ -103,39 +102,38 @@ class plane_regions {
         for (std::size_t i = 0; i < labels_.size(); ++i)
             if (labels_[i] != unlabeled)
                 cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
+        for (planar_region& r : regions_) r.fit = r.sums.fit();
+        drop_small();
+    }
+
+    /// Regions that are too small, or no planes, are none; the others are numbered again.
+    void drop_small() {
         scratch<std::int32_t> number(regions_.size(), unlabeled);
         std::size_t kept = 0;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            regions_[r].fit = regions_[r].sums.fit();
             if (regions_[r].sums.count < min_points_ || !regions_[r].fit.is_determined) continue;
             number[r] = static_cast<std::int32_t>(kept);
             regions_[kept++] = regions_[r];
         }
+        if (kept == regions_.size()) return;
         regions_.resize(kept);
         for (std::int32_t& label : labels_)
             if (label != unlabeled) label = number[static_cast<std::size_t>(label)];
     }
 
-    /// Pairs of regions with at least five pairs of neighboring points.
+    /// Pairs of regions that have neighboring points.
     [[nodiscard]] scratch<region_pair> touching() const {
-        constexpr std::ptrdiff_t fewest = 5;  // chosen
-        scratch<region_pair> links;
+        scratch<region_pair> pairs;
         for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] == unlabeled) continue;
+            if (is_border_[i] == 0 || labels_[i] == unlabeled) continue;
             for (const point_index j : graph_[i]) {
                 if (labels_[j] == unlabeled || labels_[j] == labels_[i]) continue;
-                const auto pair = std::minmax(labels_[i], labels_[j]);
-                links.emplace_back(static_cast<point_index>(pair.first),
-                                   static_cast<point_index>(pair.second));
+                const auto [a, b] = std::minmax(labels_[i], labels_[j]);
+                const region_pair pair(a, b);
+                if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
             }
         }
-        std::sort(links.begin(), links.end());
-        scratch<region_pair> pairs;
-        for (auto first = links.begin(); first != links.end();) {
-            const auto last = std::upper_bound(first, links.end(), *first);
-            if (last - first >= fewest) pairs.push_back(*first);
-            first = last;
-        }
+        make_unique(pairs);
         return pairs;
     }
 
@@ -144,6 +142,7 @@ class plane_regions {
     std::size_t min_points_;
     scratch<std::int32_t> labels_;
     scratch<planar_region> regions_;
+    scratch<char> is_border_;  // as borders_of, or more
 };
 
 }  // namespace gnomon::detail
