@@ -54,18 +54,19 @@ class noise_meter {
     noise_meter(const spatial_index& index, const X& run)
         : index_(index), run_(run), sample_(index) {}
 
-    [[nodiscard]] measured_noise operator()() {
+    /// @param many   planes; the more, the less the noise of the result
+    /// @param least  a noise that that of the points is not less than
+    [[nodiscard]] measured_noise operator()(std::size_t many = 3000,
+                                            const noise_curve& least = constant_noise{0.0}) {
         constexpr std::size_t fewest_points = 500;
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
-        const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
-        constexpr std::size_t many = 3000;  // planes; the more, the less the noise of the result
-        std::size_t few = 1000;             // performance only
-        scratch<sampled_plane> planes = sample_(few, run_, nothing);
+        std::size_t few = 1000;  // performance only
+        scratch<sampled_plane> planes = sample_(few, run_, half_length(least));
         if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
             few = many;
-            planes = sample_(few, run_, nothing);
+            planes = sample_(few, run_, half_length(least));
         }
         if (!fit(planes)) return without_fit();
         // Longer segments find more of the noise, until they hold all of it.
@@ -73,11 +74,11 @@ class noise_meter {
         constexpr int most_passes = 8;
         for (int pass = 0; pass < most_passes; ++pass) {
             const double before = typical();
-            planes = sample_(few, run_, half_length());
+            planes = sample_(few, run_, half_length(curve()));
             if (!fit(planes)) return without_fit();
             if (std::abs(typical() - before) <= converged * before) break;
         }
-        planes = sample_(many, run_, half_length());
+        planes = sample_(many, run_, half_length(curve()));
         if (!fit(planes)) return without_fit();
         if (!is_quantized_) prefer_depth(planes);
         if (!is_of_planes()) return {{}, too_little_flat};
@@ -170,9 +171,9 @@ class noise_meter {
         return noise_curve(variance, quantized_.coefficients(), coordinate_.axis);
     }
 
-    [[nodiscard]] auto half_length() const {
+    [[nodiscard]] static auto half_length(const noise_curve& noise) {
         constexpr double all = 4.0;  // standard deviations: 99.99 % of the noise
-        return [noise = curve()](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
+        return [noise](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
     }
 
     const spatial_index& index_;

@@ -37,7 +37,7 @@ template <class X>
         range += length(difference(index[i], index.viewpoints[i]));
     }
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
-    const measured_noise wide = measure_noise(sparse, run);
+    const measured_noise wide = noise_meter(sparse, run)(1000, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
     return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
 }

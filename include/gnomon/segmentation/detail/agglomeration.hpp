@@ -11,17 +11,10 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 
 namespace gnomon::detail {
-
-using region_pair = std::pair<point_index, point_index>;
-
-/// Sorts pairs, and leaves each once.
-void make_unique(auto& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-}
 
 /// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
 /// they have become is still alike.

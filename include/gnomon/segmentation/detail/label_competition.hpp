@@ -14,6 +14,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/thread_team.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
@@ -25,7 +26,8 @@
 
 namespace gnomon::detail {
 
-inline const int most_rounds = getenv("RD")?atoi(getenv("RD")):6;
+/// Of the competition: performance only, as later ones change hardly a label.
+inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
@@ -54,6 +56,12 @@ class label_competition {
             best = std::min(best, std::pair(cost, c.label));
         }
         return best.second;
+    }
+
+    /// Calls each(label) for all labels but this one.
+    void for_each_other(std::int32_t label, auto&& each) const {
+        for (const candidate& c : candidates_)
+            if (c.label != label) each(c.label);
     }
 
   private:
@@ -106,38 +114,62 @@ template <neighborhood_graph G, execution X>
     return is_border;
 }
 
-/// The labels of the points of a cloud after one round. Points that are no border keep their label
-/// if they are on the plane.
+/// Two regions, the smaller number first.
+using region_pair = std::pair<point_index, point_index>;
+
+/// Sorts pairs, and leaves each once.
+void make_unique(auto& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// The labels of a cloud after one round of the competition.
+struct competition_result {
+    scratch<std::int32_t> labels;
+    scratch<region_pair> touching = {};  ///< regions that have neighboring points, each pair once
+};
+
+/// One round. Points that are no border keep their label if they are on the plane.
 /// @param is_border  as borders_of; becomes true where that may have changed
 template <neighborhood_graph G, execution X>
-[[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
-                                                             const G& graph,
-                                                             const scratch<planar_region>& regions,
-                                                             const auto& labels,
-                                                             scratch<char>& is_border,
-                                                             const X& run) {
-    scratch<std::int32_t> next(labels.size(), unlabeled);
+[[nodiscard]] competition_result compete(const planar_cloud& cloud, const G& graph,
+                                         const scratch<planar_region>& regions, const auto& labels,
+                                         scratch<char>& is_border, const X& run) {
+    competition_result after{scratch<std::int32_t>(labels.size(), unlabeled)};
+    mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
+        scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
             const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
             };
-            if (is_border[i] != 0) {
-                competition.begin(graph[i], labels, labels[i]);
-                next[i] = competition.winner(misfit);
-            } else if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) {
-                next[i] = labels[i];
+            std::int32_t& next = after.labels[i];
+            if (is_border[i] == 0) {
+                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) next = labels[i];
+                continue;
             }
+            competition.begin(graph[i], labels, labels[i]);
+            next = competition.winner(misfit);
+            if (next == unlabeled) continue;
+            competition.for_each_other(next, [&](std::int32_t other) {
+                const region_pair pair = std::minmax(static_cast<point_index>(next),
+                                                     static_cast<point_index>(other));
+                if (touching.empty() || touching.back() != pair) touching.push_back(pair);
+            });
         }
+        make_unique(touching);
+        const guard_of locked(guard);
+        after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
-    for (std::size_t i = 0; i < next.size(); ++i) {
-        if (next[i] == labels[i]) continue;
+    make_unique(after.touching);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (after.labels[i] == labels[i]) continue;
         is_border[i] = true;
         for (const point_index j : graph[i]) is_border[j] = true;
     }
-    return next;
+    return after;
 }
 
 }  // namespace gnomon::detail

@@ -52,49 +52,54 @@ class plane_regions {
         }
     }
 
-    /// Grows new regions in what is unlabeled; then rounds of merging and competition, until
-    /// nothing changes.
+    /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
+    /// goes to the region, among those of its neighbors and its own, that explains it best, or to
+    /// none if all are too far; and regions next to each other that one plane explains are merged.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
             static_cast<std::int32_t>(regions_.size()), run);
         refit();
-        is_border_ = borders_of(graph_, labels_, run);
-        merge_neighbors();
-        for (int round = 0; round < most_rounds && compete(run); ++round) merge_neighbors();
+        scratch<char> is_border = borders_of(graph_, labels_, run);
+        merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
+        for (int round = 0; round < most_rounds; ++round) {
+            competition_result after =
+                compete(cloud_, graph_, regions_, labels_, is_border, run);
+            const bool rests = labels_ == after.labels;
+            labels_.swap(after.labels);
+            refit();
+            if (!merge(std::move(after.touching)) && rests) break;
+        }
+        compact();
     }
 
   private:
-    /// Merges regions next to each other that one plane explains.
-    void merge_neighbors() {
+    /// Merges regions that one plane explains.
+    /// @param pairs  those next to each other
+    /// @return whether there were any
+    bool merge(scratch<region_pair> pairs) {
+        std::erase_if(pairs, [this](const region_pair& p) {
+            return is_empty(p.first) || is_empty(p.second);
+        });
         union_find sets = agglomeration(regions_)(
-            touching(),
+            std::move(pairs),
             [](const planar_region& a, const planar_region& b) {
                 return unlikeness_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; }, [](point_index, point_index) {});
-        for (std::size_t r = 0; r < regions_.size(); ++r)
-            if (sets.find(static_cast<point_index>(r)) != r) regions_[r] = {};
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled)
-                label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-        drop_small();
+        bool any = false;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (sets.find(static_cast<point_index>(r)) == r) continue;
+            regions_[r] = {};
+            any = true;
+        }
+        relabel([&](std::int32_t label) {
+            return static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+        });
+        return any;
     }
 
-    /// Each point goes to the region, among those of its neighbors and its own, that explains it
-    /// best; to none if all are too far. Planes are fit again.
-    /// @return whether a label has changed
-    template <execution X>
-    bool compete(const X& run) {
-        scratch<std::int32_t> next =
-            labels_after_competition(cloud_, graph_, regions_, labels_, is_border_, run);
-        labels_.swap(next);
-        if (labels_ == next) return false;
-        refit();
-        return true;
-    }
-
-    /// Sums and planes of the labels.
+    /// Sums and planes of the labels; regions that are too small, or no planes, become empty.
     void refit() {
         std::int32_t most = unlabeled;
         for (const std::int32_t label : labels_) most = std::max(most, label);
@@ -102,39 +107,35 @@ class plane_regions {
         for (std::size_t i = 0; i < labels_.size(); ++i)
             if (labels_[i] != unlabeled)
                 cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
-        for (planar_region& r : regions_) r.fit = r.sums.fit();
-        drop_small();
+        for (planar_region& r : regions_) {
+            r.fit = r.sums.fit();
+            if (r.sums.count < min_points_ || !r.fit.is_determined) r = {};
+        }
+        relabel([this](std::int32_t label) {
+            return is_empty(static_cast<std::size_t>(label)) ? unlabeled : label;
+        });
     }
 
-    /// Regions that are too small, or no planes, are none; the others are numbered again.
-    void drop_small() {
+    /// Numbers the regions anew, without the empty ones.
+    void compact() {
         scratch<std::int32_t> number(regions_.size(), unlabeled);
         std::size_t kept = 0;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            if (regions_[r].sums.count < min_points_ || !regions_[r].fit.is_determined) continue;
+            if (is_empty(r)) continue;
             number[r] = static_cast<std::int32_t>(kept);
             regions_[kept++] = regions_[r];
         }
-        if (kept == regions_.size()) return;
         regions_.resize(kept);
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled) label = number[static_cast<std::size_t>(label)];
+        relabel([&](std::int32_t label) { return number[static_cast<std::size_t>(label)]; });
     }
 
-    /// Pairs of regions that have neighboring points.
-    [[nodiscard]] scratch<region_pair> touching() const {
-        scratch<region_pair> pairs;
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (is_border_[i] == 0 || labels_[i] == unlabeled) continue;
-            for (const point_index j : graph_[i]) {
-                if (labels_[j] == unlabeled || labels_[j] == labels_[i]) continue;
-                const auto [a, b] = std::minmax(labels_[i], labels_[j]);
-                const region_pair pair(a, b);
-                if (pairs.empty() || pairs.back() != pair) pairs.push_back(pair);
-            }
-        }
-        make_unique(pairs);
-        return pairs;
+    [[nodiscard]] bool is_empty(std::size_t region) const {
+        return regions_[region].sums.count == 0;
+    }
+
+    void relabel(auto&& number_of) {
+        for (std::int32_t& label : labels_)
+            if (label != unlabeled) label = number_of(label);
     }
 
     const planar_cloud& cloud_;
@@ -142,7 +143,6 @@ class plane_regions {
     std::size_t min_points_;
     scratch<std::int32_t> labels_;
     scratch<planar_region> regions_;
-    scratch<char> is_border_;  // as borders_of, or more
 };
 
 }  // namespace gnomon::detail
