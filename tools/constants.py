@@ -11,7 +11,8 @@ Read are the headers of FOLDERS. Every numeric literal other than 0, 1 and 2 has
     numerical    a guard against "rounding" or "overflow", or "numerical"
     formula      "formula", "quantile", or a significance level in %
     thesis       a section, an equation or a symbol of Klasing 2010, or another publication
-- a unit in square brackets in the comment ("[m]"), unless it has none; an angle has that of degrees().
+- a unit in square brackets in the comment ("[m]"), unless it has none or is only a part of the value;
+  an angle has that of degrees().
 
 A number of a formula needs no name, and neither name nor source if FORMULAS has it.
 
@@ -130,7 +131,7 @@ class Header:
         if is_plain and not (name and is_whole and kind == "chosen"):
             return None
         unit = UNIT.search(f"{beside} {above}")
-        unit = unit[1] if unit else ""
+        unit = unit[1] if unit and is_whole else ""
         if re.search(r"\bdegrees\(\s*$", before):
             unit = "degrees"
         column = literal.start() - before.rfind("\n")

@@ -63,9 +63,10 @@ class Constants(TreeTest):
             constexpr double a = 0.5;  // [m]; chosen
             constexpr angle b = degrees(15);  // chosen
             constexpr double c = 0.5;  // of all, chosen
+            constexpr double d = c / 36;  // [rad]; chosen
             """
         self.assertEqual([(c["unit"], c["path"], c["line"], c["column"]) for c in self.found(text)],
-                         [("m", PATH, 1, 22), ("degrees", PATH, 2, 29), ("", PATH, 3, 22)])
+                         [("m", PATH, 1, 22), ("degrees", PATH, 2, 29), ("", PATH, 3, 22), ("", PATH, 4, 26)])
 
     def test_numbers_without_name_or_source(self):
         text = """\
