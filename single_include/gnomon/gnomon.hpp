@@ -11658,6 +11658,10 @@ class planar_cloud {
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
     [[nodiscard]] std::size_t size() const { return offsets.size(); }
+    /// From the view point of point i, or else the origin of the coordinates, to the point [m].
+    [[nodiscard]] Eigen::Vector3d ray(std::size_t i) const {
+        return difference(index_[i], index_.viewpoints[i]);
+    }
     void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i]); }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
@@ -12035,8 +12039,8 @@ namespace gnomon {
 
 /// A plane with its covariance.
 struct plane_estimate {
-    /// In Hesse normal form, towards the view point where one is known; without a normal if the
-    /// points do not determine one.
+    /// In Hesse normal form, towards the view point of the points, or else the origin; without a
+    /// normal if the points do not determine one.
     gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
     Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
     /// Unit columns: the directions of largest and second largest variance in the plane, and its
@@ -12143,12 +12147,9 @@ template <class Cloud>
     e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
     if (!fit.is_determined) return e;
     const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    // That of a point that is not finite is not known.
-    const auto seen = std::find_if(members.begin(), members.end(), [&](point_index i) {
-        return cloud.is_finite(i) && cloud.noise[i].has_ray();
-    });
-    const bool is_away =
-        seen != members.end() && dot(fit.plane.normal, cloud.noise[*seen].ray) > 0.0;
+    const auto first_finite =
+        std::ranges::find_if(members, [&](point_index i) { return cloud.is_finite(i); });
+    const bool is_away = dot(fit.plane.normal, cloud.ray(*first_finite)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
     const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
     for (int i = 0; i < 3; ++i) {
@@ -12297,13 +12298,14 @@ class component_walk {
     using subtree = typename Tree::subtree;
     using lane_set = std::uint32_t;  // points of a leaf: bit l is for its l-th
 
-    /// How far other orders of summation, or fused ones, may be from the canonical distance, and
-    /// below which square [m^2] that is no longer a matter of proportion.
-    static constexpr double margin = 1e-12, least = 1e-290;
+    /// How far other orders of summation, or fused ones, may be from the canonical distance, by
+    /// rounding, in proportion to it.
+    static constexpr double margin = 1e-12;
+    static constexpr double least = 1e-290;  // [m^2]; rounding of less is not in proportion
 
     /// Cuts a subtree into parts for the threads.
     void cut(const subtree& t) {
-        constexpr std::size_t enough = 64;
+        constexpr std::size_t enough = 64;  // parts (performance only)
         if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
             parts_.push_back(t);
         } else {
@@ -12713,8 +12715,9 @@ struct floor_fit {
                                                            const Eigen::Vector3d& origin,
                                                            const plane& about) {
     if (m.count < 3) return std::nullopt;
+    constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
     const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
-    if (!(e.values[1] > 1e-12 * e.values[0])) return std::nullopt;
+    if (!(e.values[1] > least_ratio * e.values[0])) return std::nullopt;
     floor_fit fit{{column(e.vectors, 2), 0.0}, origin, e, m.count, 0.0};
     if (dot(fit.plane.normal, about.normal) < 0.0)
         fit.plane.normal = scaled(-1.0, fit.plane.normal);
@@ -12738,13 +12741,14 @@ class floor_search {
     /// most frequent one.
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
+        constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
         if (heights.bins().empty()) return std::nullopt;
         const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins()) {
             if (2 * lower > heights.points()) break;  // what is higher is above most points
             lower += count;
-            if (4 * count < most) continue;
+            if (fewer * count < most) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -12778,24 +12782,29 @@ class floor_search {
     // The share of the points of a floor that may be below it, and of the points of a clear cell
     // that may be above; chosen. In real scans of floors up to 3.4 % are below.
     static constexpr double few = 0.04;
+    static constexpr double bands = 3.0;  // from the plane, within which cells extend; chosen
 
     /// The plane through the points in a band about itself; nothing if it turns away from the
     /// guess.
     [[nodiscard]] std::optional<floor_fit> settled(const auto& points, const plane& guess,
                                                    double band) {
+        constexpr int most_refits = 50;     // performance only: a handful is enough
+        constexpr double converged = 1e-6;  // [m], and of unit vectors; numerical
+        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        constexpr double narrowest = 0.1;   // of the widest band; chosen
         std::optional<floor_fit> fit;
         plane floor = guess;
-        for (int refit = 0; refit < 50; ++refit) {
+        for (int refit = 0; refit < most_refits; ++refit) {
             fit = fitted(points, floor, band);
             if (!fit || is_steep(fit->plane, guess)) return std::nullopt;
             // Narrow the band to three robust standard deviations of the points of the floor
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(3.0 * 1.4826 * *median, 0.1 * widest_, widest_);
-            const bool rests = length(difference(fit->plane.normal, floor.normal)) < 1e-6 &&
-                               std::abs(floor.signed_distance(fit->centroid)) < 1e-6 &&
-                               std::abs(fit->band - band) < 1e-6;
+            fit->band = std::clamp(deviations * 1.4826 * *median, narrowest * widest_, widest_);
+            const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
+                               std::abs(floor.signed_distance(fit->centroid)) < converged &&
+                               std::abs(fit->band - band) < converged;
             floor = fit->plane;
             band = fit->band;
             if (rests) break;
@@ -12846,8 +12855,8 @@ class floor_search {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
-            if (!all_finite(p) || d > 3.0 * fit.band) continue;
-            if (d < -3.0 * fit.band) {
+            if (!all_finite(p) || d > bands * fit.band) continue;
+            if (d < -bands * fit.band) {
                 ++below;
                 continue;
             }
@@ -12882,9 +12891,10 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         std::uint64_t hash = 0;
         for (int a = 0; a < 2; ++a) {
-            // Up to 1e15, whole numbers are exact; farther outliers share cells.
+            // numerical: up to here whole numbers are exact; farther outliers share cells.
+            constexpr double exact = 1e15;
             const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
-            const double number = std::floor(std::clamp(sides, -1e15, 1e15));
+            const double number = std::floor(std::clamp(sides, -exact, exact));
             // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
             hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
                    0x9E3779B97F4A7C15u;
@@ -12916,21 +12926,21 @@ namespace gnomon {
 
 /// What counts as the floor.
 struct find_floor_options {
-    double band = 0.1;       ///< half the height of the band about a first guess [m]
+    double band = 0.1;       ///< half the height of the band about a first guess [m]; chosen
     double min_width = 1.4;  ///< in both directions [m]; chosen: table tops are up to 1.2 m wide
 };
 
 /// Where to look for the ceiling, in heights above the floor.
 struct find_ceiling_options {
-    double min_height = 1.8;  ///< [m]
-    double bin = 0.02;        ///< of the histogram of heights [m]
-    double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one
+    double min_height = 1.8;  ///< [m]; chosen
+    double bin = 0.02;        ///< of the histogram of heights [m]; chosen
+    double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one; chosen
 };
 
 /// Which heights above the floor to leave out.
 struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]
+    double floor = 0.05;    ///< up to this height [m]; chosen
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; chosen
 };
 
 /// A rigid motion after which the floor is the plane z = 0.
@@ -12953,7 +12963,8 @@ namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+    constexpr double tolerance = 1e-6;  // of unit vectors; numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < tolerance && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
@@ -13017,12 +13028,13 @@ template <class R, class Proj = std::identity>
         return std::nullopt;
     }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
+    constexpr double half_width = 1.5;  // of three bins (formula)
     double sum = 0.0;
     std::size_t near = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (std::abs(height - peak) > 1.5 * search.bin) continue;
+        if (std::abs(height - peak) > half_width * search.bin) continue;
         sum += height;
         ++near;
     }
@@ -13114,8 +13126,8 @@ concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) 
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
 struct two_thresholds {
-    double radius = 0.05;          ///< r [m]
-    angle max_angle = degrees(5);  ///< alpha_max
+    double radius = 0.05;          ///< r [m]; chosen, as Fig. 4.2 has no value
+    angle max_angle = degrees(5);  ///< alpha_max, Sec. 4.4.1
 
     /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
     [[nodiscard]] auto criterion() const {
@@ -13129,7 +13141,7 @@ struct two_thresholds {
 /// The Euclidean distance of the six features [p n] is at most r. Mixes metres with unit vectors,
 /// as the thesis points out; needs oriented normals.
 struct joint_distance {
-    double radius = 0.14;  ///< r, of no unit
+    double radius = 0.14;  ///< r, of no unit, Sec. 4.2.4
 
     [[nodiscard]] auto criterion() const {
         const double limit = radius * radius;
@@ -13142,7 +13154,7 @@ struct joint_distance {
 
 /// What remains to choose, with the values of Fig. 4.2.
 struct segment_oriented_points_options {
-    std::size_t min_points = 40;  ///< n_min, smaller groups are noise
+    std::size_t min_points = 40;  ///< n_min, Sec. 4.2.4; smaller groups are noise
     /// As in `euclidean_clusters_options`. Twice as fast at best, where many points are within the
     /// radius.
     bool greedy = false;
@@ -13762,7 +13774,7 @@ class smooth_link {
     /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
         if (is_missing(surface_[i].normal)) return no_search;
-        constexpr double margin = 1.0 + 1e-9;
+        constexpr double margin = 1.0 + 1e-9;  // rounding
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);
     }
@@ -14049,10 +14061,11 @@ struct image_axes {
         const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
         require(all_finite(pole) && has_direction,
                 "range_image: the pole must be a finite direction");
+        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
         axes.z = direction_of(pole);
         const Eigen::Vector3d start =
-            std::abs(axes.z[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
         const Eigen::Vector3d y = cross(axes.z, start);
         const double across = std::sqrt(dot(y, y));
         axes.y = Eigen::Vector3d(y[0] / across, y[1] / across, y[2] / across);
@@ -14096,8 +14109,8 @@ struct image_axes {
     }
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
-    // Where z is as good as any, it is z.
-    sum(2, 2) *= 1.0 - 1e-9;
+    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
+    sum(2, 2) *= 1.0 - tie;
     return column(symmetric_eigen(sum).vectors, 2);
 }
 
@@ -14116,8 +14129,8 @@ namespace gnomon {
 
 /// How large the image is and how it is turned.
 struct range_image_options {
-    std::size_t width = 720;   ///< pixels from azimuth -pi to pi
-    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2
+    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
+    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
     /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
     /// the z-axis the image is that of Eq. (2.1).
     std::optional<Eigen::Vector3d> pole = std::nullopt;
@@ -14217,7 +14230,7 @@ class range_image {
     range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
         : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
         detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        constexpr std::size_t most = std::size_t{1} << 31;
+        constexpr std::size_t most = std::size_t{1} << 31;  // their numbers do not overflow
         detail::require(width_ <= most && height_ <= most,
                         "range_image: at most 2^31 pixels in a row or column");
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
@@ -14556,7 +14569,7 @@ struct sensor_place {
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
                                                      const viewpoint_table& viewpoints,
                                                      double sigma) {
-    constexpr double exact = 1e-6;  // [m]: below, each view point is one
+    constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Eigen::Vector3d least(infinity, infinity, infinity);
     for (const Eigen::Vector3d& v : viewpoints.positions())
@@ -14606,9 +14619,11 @@ namespace detail {
 
 /// As good as random, of a direction by a microradian: the same wherever the cloud lies.
 [[nodiscard]] inline std::uint64_t drawn_number(const Eigen::Vector3d& direction) {
+    constexpr double steps = 1e6;  // of a microradian; numerical: more than rounding
+    constexpr int bits = 21;       // for all steps from -1 to 1 (formula)
     std::int64_t all = 0;
     for (int a = 0; a < 3; ++a)
-        all = all << 21 | static_cast<std::int64_t>((direction[a] + 1.0) * 1e6 + 0.5);
+        all = all << bits | static_cast<std::int64_t>((direction[a] + 1.0) * steps + 0.5);
     return random_stream(static_cast<std::uint64_t>(all)).bits();
 }
 
@@ -14616,7 +14631,7 @@ namespace detail {
 class cubes_of_seeds {
   public:
     /// @param reach  how far away rays are near [rad]
-    explicit cubes_of_seeds(double reach) : reach_(reach + 1e-9) {}
+    explicit cubes_of_seeds(double reach) : reach_(reach + margin) {}
 
     /// Adds seed number s, of up to 32, to all cubes with directions in its reach.
     void add(std::size_t s, const Eigen::Vector3d& d) {
@@ -14638,11 +14653,14 @@ class cubes_of_seeds {
     }
 
   private:
-    static constexpr std::size_t side = 21;  // cubes (performance only)
+    static constexpr double margin = 1e-9;      // [rad]; rounding
+    static constexpr std::size_t side = 21;     // cubes (performance only)
+    static constexpr double per_unit = 10.0;    // cubes (performance only)
+    static constexpr double from_start = 1.05;  // rounding leaves -1 and 1 within the cubes
 
-    /// Of a coordinate from -1 to 1, with a margin for rounding.
+    /// Of a coordinate from -1 to 1.
     [[nodiscard]] static std::size_t place(double x) {
-        return static_cast<std::size_t>((x + 1.05) * 10.0);
+        return static_cast<std::size_t>((x + from_start) * per_unit);
     }
 
     double reach_;
@@ -14666,6 +14684,8 @@ class rays_of_cloud {
     }
 
     [[nodiscard]] angle spacing() const {
+        constexpr double nearby = 1.0 / 16.0;   // of the squared reach (performance only)
+        constexpr double three_of_four = 0.75;  // of the rays are no farther apart; chosen
         if (directions_.empty()) return radians(most);
         scratch<double> squared;
         const auto add = [&squared](scratch<double>& near) {
@@ -14674,7 +14694,7 @@ class rays_of_cloud {
         };
         // Most seeds have enough rays nearby; those of the others are looked for farther away.
         const scratch<std::size_t> seeds = drawn();
-        scratch<scratch<double>> found = near_seeds(seeds, reach2 / 16.0);
+        scratch<scratch<double>> found = near_seeds(seeds, reach2 * nearby);
         scratch<std::size_t> others;
         for (std::size_t s = 0; s < seeds.size(); ++s) {
             if (found[s].size() > neighbors)
@@ -14689,14 +14709,18 @@ class rays_of_cloud {
             else
                 squared.push_back(reach2);
         }
-        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 3 / 4);
+        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(
+                                              three_of_four * static_cast<double>(squared.size()));
         std::nth_element(squared.begin(), at, squared.end());
         return radians(std::clamp(std::sqrt(*at * std::numbers::pi / neighbors), least, most));
     }
 
   private:
-    static constexpr std::size_t neighbors = 16, seed_count = 32;
-    static constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    static constexpr std::size_t neighbors = 16;   // of a seed; chosen
+    static constexpr std::size_t seed_count = 32;  // a sample (performance only)
+    /// [rad] (performance only): an image has 26 million pixels.
+    static constexpr double least = std::numbers::pi / 3600;
+    static constexpr double most = std::numbers::pi / 36;  // [rad]; chosen: 5 degrees
     // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart.
     static constexpr double reach2 = most * most * neighbors / std::numbers::pi;
 
@@ -14810,7 +14834,8 @@ namespace detail {
 /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian
 ///                                to 90 degrees, or a pole that is not finite or of no length
 inline void require_valid(const visibility_options& options) {
-    constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+    constexpr double least = 1e-6;  // [rad]; the number of pixels does not overflow
+    constexpr double most = 0.5 * std::numbers::pi;  // [rad]
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
@@ -14926,7 +14951,7 @@ class visibility {
 
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
-        constexpr std::size_t enough = 1000;
+        constexpr std::size_t enough = 1000;  // a sample (performance only)
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));

@@ -34,8 +34,8 @@ namespace gnomon {
 
 /// How large the image is and how it is turned.
 struct range_image_options {
-    std::size_t width = 720;   ///< pixels from azimuth -pi to pi
-    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2
+    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
+    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
     /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
     /// the z-axis the image is that of Eq. (2.1).
     std::optional<Eigen::Vector3d> pole = std::nullopt;
@@ -135,7 +135,7 @@ class range_image {
     range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
         : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
         detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        constexpr std::size_t most = std::size_t{1} << 31;
+        constexpr std::size_t most = std::size_t{1} << 31;  // their numbers do not overflow
         detail::require(width_ <= most && height_ <= most,
                         "range_image: at most 2^31 pixels in a row or column");
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");

@@ -29,9 +29,11 @@ namespace detail {
 
 /// As good as random, of a direction by a microradian: the same wherever the cloud lies.
 [[nodiscard]] inline std::uint64_t drawn_number(const Eigen::Vector3d& direction) {
+    constexpr double steps = 1e6;  // of a microradian; numerical: more than rounding
+    constexpr int bits = 21;       // for all steps from -1 to 1 (formula)
     std::int64_t all = 0;
     for (int a = 0; a < 3; ++a)
-        all = all << 21 | static_cast<std::int64_t>((direction[a] + 1.0) * 1e6 + 0.5);
+        all = all << bits | static_cast<std::int64_t>((direction[a] + 1.0) * steps + 0.5);
     return random_stream(static_cast<std::uint64_t>(all)).bits();
 }
 
@@ -39,7 +41,7 @@ namespace detail {
 class cubes_of_seeds {
   public:
     /// @param reach  how far away rays are near [rad]
-    explicit cubes_of_seeds(double reach) : reach_(reach + 1e-9) {}
+    explicit cubes_of_seeds(double reach) : reach_(reach + margin) {}
 
     /// Adds seed number s, of up to 32, to all cubes with directions in its reach.
     void add(std::size_t s, const Eigen::Vector3d& d) {
@@ -61,11 +63,14 @@ class cubes_of_seeds {
     }
 
   private:
-    static constexpr std::size_t side = 21;  // cubes (performance only)
+    static constexpr double margin = 1e-9;      // [rad]; rounding
+    static constexpr std::size_t side = 21;     // cubes (performance only)
+    static constexpr double per_unit = 10.0;    // cubes (performance only)
+    static constexpr double from_start = 1.05;  // rounding leaves -1 and 1 within the cubes
 
-    /// Of a coordinate from -1 to 1, with a margin for rounding.
+    /// Of a coordinate from -1 to 1.
     [[nodiscard]] static std::size_t place(double x) {
-        return static_cast<std::size_t>((x + 1.05) * 10.0);
+        return static_cast<std::size_t>((x + from_start) * per_unit);
     }
 
     double reach_;
@@ -89,6 +94,8 @@ class rays_of_cloud {
     }
 
     [[nodiscard]] angle spacing() const {
+        constexpr double nearby = 1.0 / 16.0;   // of the squared reach (performance only)
+        constexpr double three_of_four = 0.75;  // of the rays are no farther apart; chosen
         if (directions_.empty()) return radians(most);
         scratch<double> squared;
         const auto add = [&squared](scratch<double>& near) {
@@ -97,7 +104,7 @@ class rays_of_cloud {
         };
         // Most seeds have enough rays nearby; those of the others are looked for farther away.
         const scratch<std::size_t> seeds = drawn();
-        scratch<scratch<double>> found = near_seeds(seeds, reach2 / 16.0);
+        scratch<scratch<double>> found = near_seeds(seeds, reach2 * nearby);
         scratch<std::size_t> others;
         for (std::size_t s = 0; s < seeds.size(); ++s) {
             if (found[s].size() > neighbors)
@@ -112,14 +119,18 @@ class rays_of_cloud {
             else
                 squared.push_back(reach2);
         }
-        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() * 3 / 4);
+        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(
+                                              three_of_four * static_cast<double>(squared.size()));
         std::nth_element(squared.begin(), at, squared.end());
         return radians(std::clamp(std::sqrt(*at * std::numbers::pi / neighbors), least, most));
     }
 
   private:
-    static constexpr std::size_t neighbors = 16, seed_count = 32;
-    static constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    static constexpr std::size_t neighbors = 16;   // of a seed; chosen
+    static constexpr std::size_t seed_count = 32;  // a sample (performance only)
+    /// [rad] (performance only): an image has 26 million pixels.
+    static constexpr double least = std::numbers::pi / 3600;
+    static constexpr double most = std::numbers::pi / 36;  // [rad]; chosen: 5 degrees
     // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart.
     static constexpr double reach2 = most * most * neighbors / std::numbers::pi;
 

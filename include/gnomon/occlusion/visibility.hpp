@@ -51,7 +51,8 @@ namespace detail {
 /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a microradian
 ///                                to 90 degrees, or a pole that is not finite or of no length
 inline void require_valid(const visibility_options& options) {
-    constexpr double least = 1e-6, most = 0.5 * std::numbers::pi;  // [rad]
+    constexpr double least = 1e-6;  // [rad]; the number of pixels does not overflow
+    constexpr double most = 0.5 * std::numbers::pi;  // [rad]
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
@@ -167,7 +168,7 @@ class visibility {
 
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
-        constexpr std::size_t enough = 1000;
+        constexpr std::size_t enough = 1000;  // a sample (performance only)
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));

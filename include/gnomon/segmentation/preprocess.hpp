@@ -29,21 +29,21 @@ namespace gnomon {
 
 /// What counts as the floor.
 struct find_floor_options {
-    double band = 0.1;       ///< half the height of the band about a first guess [m]
+    double band = 0.1;       ///< half the height of the band about a first guess [m]; chosen
     double min_width = 1.4;  ///< in both directions [m]; chosen: table tops are up to 1.2 m wide
 };
 
 /// Where to look for the ceiling, in heights above the floor.
 struct find_ceiling_options {
-    double min_height = 1.8;  ///< [m]
-    double bin = 0.02;        ///< of the histogram of heights [m]
-    double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one
+    double min_height = 1.8;  ///< [m]; chosen
+    double bin = 0.02;        ///< of the histogram of heights [m]; chosen
+    double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one; chosen
 };
 
 /// Which heights above the floor to leave out.
 struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]
+    double floor = 0.05;    ///< up to this height [m]; chosen
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; chosen
 };
 
 /// A rigid motion after which the floor is the plane z = 0.
@@ -66,7 +66,8 @@ namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < 1e-6 && std::isfinite(p.offset),
+    constexpr double tolerance = 1e-6;  // of unit vectors; numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < tolerance && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
@@ -130,12 +131,13 @@ template <class R, class Proj = std::identity>
         return std::nullopt;
     }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
+    constexpr double half_width = 1.5;  // of three bins (formula)
     double sum = 0.0;
     std::size_t near = 0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (std::abs(height - peak) > 1.5 * search.bin) continue;
+        if (std::abs(height - peak) > half_width * search.bin) continue;
         sum += height;
         ++near;
     }

@@ -41,8 +41,8 @@ concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) 
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
 struct two_thresholds {
-    double radius = 0.05;          ///< r [m]
-    angle max_angle = degrees(5);  ///< alpha_max
+    double radius = 0.05;          ///< r [m]; chosen, as Fig. 4.2 has no value
+    angle max_angle = degrees(5);  ///< alpha_max, Sec. 4.4.1
 
     /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
     [[nodiscard]] auto criterion() const {
@@ -56,7 +56,7 @@ struct two_thresholds {
 /// The Euclidean distance of the six features [p n] is at most r. Mixes metres with unit vectors,
 /// as the thesis points out; needs oriented normals.
 struct joint_distance {
-    double radius = 0.14;  ///< r, of no unit
+    double radius = 0.14;  ///< r, of no unit, Sec. 4.2.4
 
     [[nodiscard]] auto criterion() const {
         const double limit = radius * radius;
@@ -69,7 +69,7 @@ struct joint_distance {
 
 /// What remains to choose, with the values of Fig. 4.2.
 struct segment_oriented_points_options {
-    std::size_t min_points = 40;  ///< n_min, smaller groups are noise
+    std::size_t min_points = 40;  ///< n_min, Sec. 4.2.4; smaller groups are noise
     /// As in `euclidean_clusters_options`. Twice as fast at best, where many points are within the
     /// radius.
     bool greedy = false;

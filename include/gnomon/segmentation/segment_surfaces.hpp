@@ -72,7 +72,7 @@ class smooth_link {
     /// cloud changes nothing.
     [[nodiscard]] double radius(std::size_t i) const {
         if (is_missing(surface_[i].normal)) return no_search;
-        constexpr double margin = 1.0 + 1e-9;
+        constexpr double margin = 1.0 + 1e-9;  // rounding
         return std::min(margin * static_cast<double>(surface_[i].mean_distance),
                         options_.max_distance);
     }

@@ -37,10 +37,11 @@ struct image_axes {
         const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
         require(all_finite(pole) && has_direction,
                 "range_image: the pole must be a finite direction");
+        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
         axes.z = direction_of(pole);
         const Eigen::Vector3d start =
-            std::abs(axes.z[0]) < 0.9 ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
         const Eigen::Vector3d y = cross(axes.z, start);
         const double across = std::sqrt(dot(y, y));
         axes.y = Eigen::Vector3d(y[0] / across, y[1] / across, y[2] / across);
@@ -84,8 +85,8 @@ struct image_axes {
     }
     for (int r = 0; r < 3; ++r)
         for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
-    // Where z is as good as any, it is z.
-    sum(2, 2) *= 1.0 - 1e-9;
+    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
+    sum(2, 2) *= 1.0 - tie;
     return column(symmetric_eigen(sum).vectors, 2);
 }
 

@@ -44,7 +44,7 @@ struct sensor_place {
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
                                                      const viewpoint_table& viewpoints,
                                                      double sigma) {
-    constexpr double exact = 1e-6;  // [m]: below, each view point is one
+    constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
     Eigen::Vector3d least(infinity, infinity, infinity);
     for (const Eigen::Vector3d& v : viewpoints.positions())

@@ -58,13 +58,14 @@ class component_walk {
     using subtree = typename Tree::subtree;
     using lane_set = std::uint32_t;  // points of a leaf: bit l is for its l-th
 
-    /// How far other orders of summation, or fused ones, may be from the canonical distance, and
-    /// below which square [m^2] that is no longer a matter of proportion.
-    static constexpr double margin = 1e-12, least = 1e-290;
+    /// How far other orders of summation, or fused ones, may be from the canonical distance, by
+    /// rounding, in proportion to it.
+    static constexpr double margin = 1e-12;
+    static constexpr double least = 1e-290;  // [m^2]; rounding of less is not in proportion
 
     /// Cuts a subtree into parts for the threads.
     void cut(const subtree& t) {
-        constexpr std::size_t enough = 64;
+        constexpr std::size_t enough = 64;  // parts (performance only)
         if (t.is_leaf() || enough * (t.last - t.first) <= tree_.leaves()) {
             parts_.push_back(t);
         } else {

@@ -41,8 +41,9 @@ struct floor_fit {
                                                            const Eigen::Vector3d& origin,
                                                            const plane& about) {
     if (m.count < 3) return std::nullopt;
+    constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
     const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
-    if (!(e.values[1] > 1e-12 * e.values[0])) return std::nullopt;
+    if (!(e.values[1] > least_ratio * e.values[0])) return std::nullopt;
     floor_fit fit{{column(e.vectors, 2), 0.0}, origin, e, m.count, 0.0};
     if (dot(fit.plane.normal, about.normal) < 0.0)
         fit.plane.normal = scaled(-1.0, fit.plane.normal);
@@ -66,13 +67,14 @@ class floor_search {
     /// most frequent one.
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
+        constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
         if (heights.bins().empty()) return std::nullopt;
         const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins()) {
             if (2 * lower > heights.points()) break;  // what is higher is above most points
             lower += count;
-            if (4 * count < most) continue;
+            if (fewer * count < most) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -106,24 +108,29 @@ class floor_search {
     // The share of the points of a floor that may be below it, and of the points of a clear cell
     // that may be above; chosen. In real scans of floors up to 3.4 % are below.
     static constexpr double few = 0.04;
+    static constexpr double bands = 3.0;  // from the plane, within which cells extend; chosen
 
     /// The plane through the points in a band about itself; nothing if it turns away from the
     /// guess.
     [[nodiscard]] std::optional<floor_fit> settled(const auto& points, const plane& guess,
                                                    double band) {
+        constexpr int most_refits = 50;     // performance only: a handful is enough
+        constexpr double converged = 1e-6;  // [m], and of unit vectors; numerical
+        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        constexpr double narrowest = 0.1;   // of the widest band; chosen
         std::optional<floor_fit> fit;
         plane floor = guess;
-        for (int refit = 0; refit < 50; ++refit) {
+        for (int refit = 0; refit < most_refits; ++refit) {
             fit = fitted(points, floor, band);
             if (!fit || is_steep(fit->plane, guess)) return std::nullopt;
             // Narrow the band to three robust standard deviations of the points of the floor
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(3.0 * 1.4826 * *median, 0.1 * widest_, widest_);
-            const bool rests = length(difference(fit->plane.normal, floor.normal)) < 1e-6 &&
-                               std::abs(floor.signed_distance(fit->centroid)) < 1e-6 &&
-                               std::abs(fit->band - band) < 1e-6;
+            fit->band = std::clamp(deviations * 1.4826 * *median, narrowest * widest_, widest_);
+            const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
+                               std::abs(floor.signed_distance(fit->centroid)) < converged &&
+                               std::abs(fit->band - band) < converged;
             floor = fit->plane;
             band = fit->band;
             if (rests) break;
@@ -174,8 +181,8 @@ class floor_search {
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
-            if (!all_finite(p) || d > 3.0 * fit.band) continue;
-            if (d < -3.0 * fit.band) {
+            if (!all_finite(p) || d > bands * fit.band) continue;
+            if (d < -bands * fit.band) {
                 ++below;
                 continue;
             }
@@ -210,9 +217,10 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         std::uint64_t hash = 0;
         for (int a = 0; a < 2; ++a) {
-            // Up to 1e15, whole numbers are exact; farther outliers share cells.
+            // numerical: up to here whole numbers are exact; farther outliers share cells.
+            constexpr double exact = 1e15;
             const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
-            const double number = std::floor(std::clamp(sides, -1e15, 1e15));
+            const double number = std::floor(std::clamp(sides, -exact, exact));
             // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
             hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
                    0x9E3779B97F4A7C15u;
