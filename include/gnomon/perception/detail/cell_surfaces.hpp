@@ -97,6 +97,7 @@ class cell_surfaces {
     void find(const segment_planes_options& planes,
               const std::optional<segment_surfaces_options>& remainder, const X& run) {
         cloud_.emplace(index_, noise_, run);
+        cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
         if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));

@@ -30,6 +30,7 @@ struct cells {
     scratch<Eigen::Vector3d> means;  ///< [m]
     viewpoint_table viewpoints;      ///< the means of those of the points
     scratch<point_index> first;      ///< the first point of each
+    scratch<point_index> counts;     ///< of the points of each
     scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
 
     /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
@@ -40,7 +41,6 @@ struct cells {
         const std::size_t slots = std::bit_ceil(std::max<std::size_t>(2 * index.finite(), 16));
         scratch<point_index> slot(slots, no_cell);
         scratch<key> keys;
-        scratch<double> counts;
         scratch<Eigen::Vector3d> seen_from;
         const bool has_many = index.viewpoints.positions().size() > 1;
         for (std::size_t i = 0; i < index.size(); ++i) {
@@ -53,12 +53,12 @@ struct cells {
                 slot[at] = static_cast<point_index>(keys.size());
                 keys.push_back(own);
                 means.push_back(p);
-                counts.push_back(0.0);
+                counts.push_back(0);
                 first.push_back(static_cast<point_index>(i));
                 if (has_many) seen_from.push_back(index.viewpoints[i]);
             }
             const point_index c = of_point[i] = slot[at];
-            const double share = 1.0 / ++counts[c];
+            const double share = 1.0 / static_cast<double>(++counts[c]);
             means[c] = combined(1.0 - share, means[c], share, p);
             if (has_many)
                 seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);

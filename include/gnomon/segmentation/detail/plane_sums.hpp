@@ -39,8 +39,9 @@ struct plane_sums {
     Eigen::Matrix3d rays = diagonal(0.0, 0.0, 0.0);  ///< weighted; lower triangle only
     std::size_t count = 0;                           ///< of the points
 
-    void add(const Eigen::Vector3d& offset, const point_noise& noise) {
-        const double w = 1.0 / (noise.sigma * noise.sigma);
+    /// @param points  of which `offset` is the mean
+    void add(const Eigen::Vector3d& offset, const point_noise& noise, std::size_t points = 1) {
+        const double w = static_cast<double>(points) / (noise.sigma * noise.sigma);
         positions.add(offset, w);
         if (noise.has_ray()) {
             for (int j = 0; j < 3; ++j)
@@ -48,7 +49,7 @@ struct plane_sums {
         } else {
             for (int j = 0; j < 3; ++j) rays(j, j) += w;
         }
-        ++count;
+        count += points;
     }
 
     void add(const plane_sums& more) {
