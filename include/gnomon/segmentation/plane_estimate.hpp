@@ -65,7 +65,7 @@ struct plane_of_members {
     plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
         region = sums_of(cloud, members, [](point_index) { return true; });
         const std::size_t all = region.sums.count;
-        constexpr int most_passes = 5;
+        constexpr int most_passes = 5;  // performance only
         for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
             const planar_region on =
                 sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });

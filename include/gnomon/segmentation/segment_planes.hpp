@@ -11,7 +11,7 @@
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, by a wider angle. All lengths are multiples of the noise,
+/// All three once more in what is left, whatever the normals, which edges and noise blend. All lengths are multiples of the noise,
 /// so that no distance need be set.
 #pragma once
 
@@ -42,7 +42,7 @@ namespace gnomon {
 /// Parameters of `segment_planes`.
 struct segment_planes_options {
     noise_curve noise = constant_noise{};  ///< along the rays
-    angle max_angle = degrees(15);         ///< between a point's normal and its plane's, to grow
+    angle max_angle = degrees(15);         ///< rho_a, between a point's normal and its plane's
     std::size_t min_points = 30;           ///< n_min, smaller segments are noise
 };
 
@@ -58,10 +58,9 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    constexpr angle wider = degrees(35);  // chosen: where the noise blends normals
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
     regions.grow(surface, min_cosine(max_angle), run);
-    regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);
+    regions.grow(surface, 0.0, run);
     return regions;
 }
 

@@ -57,7 +57,7 @@ template <class Frame = std::identity>
                                                                             std::size_t wanted,
                                                                             auto&& is_flat,
                                                                             Frame&& frame = {}) {
-    constexpr std::size_t not_many = 300, few = 20;
+    constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {

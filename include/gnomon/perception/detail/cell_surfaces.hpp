@@ -61,7 +61,7 @@ class cell_surfaces {
           index_(index),
           surface_(surface),
           cells_(points, [&](std::size_t i) {
-              constexpr double least = 1e-6;  // [m]: at no noise, a cell is a point
+              constexpr double least = 1e-6;  // [m]; numerical: at no noise, a cell is a point
               const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
               return std::max(noise.of_planes.along(ray), least);
           }) {

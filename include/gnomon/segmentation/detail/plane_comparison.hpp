@@ -27,11 +27,10 @@ namespace gnomon::detail {
 /// if they may be one: the deviations of either from the common plane are at most half as large
 /// again as those from their own.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
-    constexpr double tolerated = 1.5 * 1.5;  // chosen
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
-    return worst / (tolerated * std::max(a.fit.excess(), b.fit.excess()));
+    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
 
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
@@ -39,8 +38,8 @@ namespace gnomon::detail {
 /// own must be nearly parallel to that of both.
 [[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
-    // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(degrees(15));
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    const double nearly = min_cosine(max_angle);
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);

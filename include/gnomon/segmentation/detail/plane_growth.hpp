@@ -98,7 +98,8 @@ class plane_growth {
     void grow_from(point_index seed) {
         plane to = plane_about(seed);
         plane_sums sums;
-        std::size_t refit_at = 8;  // performance only: fewer turn the plane about
+        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
+        std::size_t refit_at = first_refit;
         members_.assign(1, seed);
         visit_[seed] = seed;
         for (std::size_t next = 0; next < members_.size(); ++next) {

@@ -109,7 +109,7 @@ class plane_regions {
                 cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
         for (planar_region& r : regions_) {
             r.fit = r.sums.fit();
-            if (r.sums.count < min_points_ || !r.fit.is_determined) r = {};
+            if (r.sums.summands < min_points_ || !r.fit.is_determined) r = {};
         }
         relabel([this](std::int32_t label) {
             return is_empty(static_cast<std::size_t>(label)) ? unlabeled : label;

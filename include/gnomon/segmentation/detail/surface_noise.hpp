@@ -28,11 +28,12 @@ namespace gnomon::detail {
 /// normal distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it: one of two million by chance.
+/// A point that is farther than this is certainly not of it: the 99.99994 % quantile.
 inline constexpr double certain_deviations = 5.0;
 
-inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
-inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
+inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
+/// Of the angle of incidence: three deviations are at least the noise along the ray.
+inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
 /// The cosine of the angle between a ray and the normal of a surface, below which the surface was
 /// not seen: planes of less are those of scan lines, which contain their view point.
 inline constexpr double edge_on = 0.02;  // chosen: one degree
