@@ -56,16 +56,6 @@ template <merge_policy M>
     return 2 * in_favor > pixels;
 }
 
-/// The segments, where those of a set of a `union_find` are one, largest first.
-[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
-    std::vector<std::vector<point_index>> groups(parts.size());
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-        auto& group = groups[sets.find(static_cast<point_index>(s))];
-        group.insert(group.end(), parts[s].begin(), parts[s].end());
-    }
-    return segments_of_groups(parts.labels().size(), groups);
-}
-
 }  // namespace detail
 
 /// Parameters of Alg. 4.3, with the thesis's values (Sec. 4.4.1).
@@ -126,15 +116,18 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
-        const auto lines =
-            detail::boundary_pairs(p, parts[i], parts[j], {frames[i].centroid, frames[j].centroid},
-                                   options.boundary_pairs);
+        std::vector<detail::boundary_pair> lines;
+        detail::append_boundary_pairs(lines, p, parts[i], parts[j],
+                                      {frames[i].centroid, frames[j].centroid},
+                                      options.boundary_pairs);
         const auto occluded = std::count_if(lines.begin(), lines.end(), is_occluded);
         if (detail::coplanar_distance(lines) < options.max_gap ||
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    return detail::united_segments(parts, sets);
+    segments result;
+    detail::unite_segments(result, parts, sets);
+    return result;
 }
 
 }  // namespace gnomon

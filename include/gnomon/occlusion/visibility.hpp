@@ -91,8 +91,24 @@ class visibility {
                         Proj projection = {})
         : noise_(options.noise) {
         detail::require_valid(options);
+        const position_view<R, Proj> p(points, projection);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            observe(points, viewpoints, options, run, projection);
+            const double wanted = options.pixel.radians() > 0.0
+                                      ? options.pixel.radians()
+                                      : detail::ray_spacing(p, viewpoints).radians();
+            const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
+            pixel_ = std::numbers::pi / height;
+            const auto rows = static_cast<std::size_t>(height);
+            const range_image_options format{2 * rows, rows, options.pole};
+            const auto places =
+                detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
+            detail::scratch<std::optional<range_image>> images(places.size());
+            run(places.size(), [&](std::size_t i) {
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
+                                  projection);
+            });
+            images_.reserve(images.size());
+            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
         });
     }
 
@@ -125,11 +141,9 @@ class visibility {
                                             const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
-        const Eigen::Vector3d across = detail::cross(to_p, to_q);
         const double angle =
-            std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
-        const double near = std::sqrt(detail::dot(to_p, to_p));
-        const double far = std::sqrt(detail::dot(to_q, to_q));
+            std::atan2(detail::length(detail::cross(to_p, to_q)), detail::dot(to_p, to_q));
+        const double near = detail::length(to_p), far = detail::length(to_q);
         observation_count count;
         if (!std::isfinite(angle)) return count;
         const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
@@ -143,37 +157,13 @@ class visibility {
     }
 
   private:
-    /// Makes the images.
-    template <class R, execution X, class Proj>
-    void observe(const R& points, const viewpoint_table& viewpoints,
-                 const visibility_options& options, const X& run, const Proj& projection) {
-        const position_view<R, Proj> p(points, projection);
-        const angle pixel = options.pixel.radians() > 0.0
-                                ? options.pixel
-                                : detail::rays_of_cloud(p, viewpoints).spacing();
-        const auto height =
-            static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
-        pixel_ = std::numbers::pi / static_cast<double>(height);
-        const range_image_options format{2 * height, height, options.pole};
-
-        const auto places = detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
-        detail::scratch<std::optional<range_image>> images(places.size());
-        run(places.size(), [&](std::size_t i) {
-            images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
-        });
-        images_.reserve(images.size());
-        for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
-    }
-
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
-            if (!std::isfinite(variance)) continue;
-            sum += variance;
-            count += 1.0;
+            if (std::isfinite(variance)) sum += variance, count += 1.0;
         }
         return count > 0.0 ? std::sqrt(sum / count) : 0.0;
     }

@@ -6,9 +6,8 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
-#include <cstdlib>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 
 namespace gnomon::detail {
@@ -17,27 +16,18 @@ namespace gnomon::detail {
 /// 0 to 1.
 inline void for_each_pixel_between(const range_image& image, const range_image::pixel& from,
                                    const range_image::pixel& to, auto&& visit) {
-    const auto width = static_cast<std::int64_t>(image.width());
-    auto across = static_cast<std::int64_t>(to.azimuth) - static_cast<std::int64_t>(from.azimuth);
-    if (2 * across > width) across -= width;
-    if (2 * across < -width) across += width;
-    const auto up =
-        static_cast<std::int64_t>(to.elevation) - static_cast<std::int64_t>(from.elevation);
-    const std::int64_t steps = std::max(std::abs(across), std::abs(up));
-    // Rounded to the nearest, halves away from the start.
-    const auto at = [steps](std::int64_t way, std::int64_t step) {
-        if (steps == 0) return std::int64_t{0};
-        const std::int64_t twice = 2 * std::abs(way) * step + steps;
-        return (way < 0 ? -1 : 1) * (twice / (2 * steps));
-    };
-    for (std::int64_t s = 0; s <= steps; ++s) {
-        const std::int64_t azimuth =
-            (static_cast<std::int64_t>(from.azimuth) + at(across, s) + width) % width;
-        const std::int64_t elevation = static_cast<std::int64_t>(from.elevation) + at(up, s);
-        const double share = steps == 0 ? 0.0 : static_cast<double>(s) / static_cast<double>(steps);
-        visit(range_image::pixel{static_cast<std::size_t>(azimuth),
+    const auto column = static_cast<double>(from.azimuth),
+               row = static_cast<double>(from.elevation);
+    const auto width = static_cast<double>(image.width());
+    const double across = std::remainder(static_cast<double>(to.azimuth) - column, width);
+    const double up = static_cast<double>(to.elevation) - row;
+    const double steps = std::max(std::abs(across), std::abs(up)), most = std::max(steps, 1.0);
+    for (double s = 0.0; s <= steps; s += 1.0) {
+        const double azimuth = column + std::round(across * s / most) + width;
+        const double elevation = row + std::round(up * s / most);
+        visit(range_image::pixel{static_cast<std::size_t>(azimuth) % image.width(),
                                  static_cast<std::size_t>(elevation)},
-              share);
+              s / most);
     }
 }
 

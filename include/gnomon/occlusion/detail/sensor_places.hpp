@@ -7,7 +7,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <functional>
 #include <limits>
+#include <map>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -37,47 +40,33 @@ struct sensor_place {
 };
 
 /// The finite points by their view points, as far as these are finite, in cubes of size sigma [m],
-/// the first about the least of them.
-/// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
-/// anything to sort or to look up.
+/// the first about the least of them. O(n log v) for v cubes; those of a scan line are in one.
 /// @param points  a position_view
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
                                                      const viewpoint_table& viewpoints,
                                                      double sigma) {
     constexpr double exact = 1e-6;  // [m]: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d least(infinity, infinity, infinity);
+    Eigen::Vector3d least(infinity, infinity, infinity), before = least;
     for (const Eigen::Vector3d& v : viewpoints.positions())
         for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
-    const auto cube_of = [&](const Eigen::Vector3d& v) {
-        if (sigma < exact) return std::array{v[0], v[1], v[2]};
-        const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
-        return std::array{cell(0), cell(1), cell(2)};
-    };
-    scratch<std::array<double, 3>> cubes;
-    if (viewpoints.empty()) {
-        least = Eigen::Vector3d(0.0, 0.0, 0.0);
-        cubes.push_back(cube_of(least));
-    }
-    for (const Eigen::Vector3d& v : viewpoints.positions())
-        if (is_finite(v) && (cubes.empty() || cubes.back() != cube_of(v)))
-            cubes.push_back(cube_of(v));
-    std::sort(cubes.begin(), cubes.end());
-    cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
-    scratch<sensor_place> places(cubes.size());
-    std::size_t latest = 0;
-    std::array<double, 3> before{infinity, infinity, infinity};
+    using cube = std::array<double, 3>;
+    std::map<cube, sensor_place, std::less<>, pooled<std::pair<const cube, sensor_place>>> cubes;
+    sensor_place* latest = nullptr;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d v = viewpoints[i];
         if (!is_finite(points[i]) || !is_finite(v)) continue;
-        if (const std::array own{v[0], v[1], v[2]}; own != before) {
-            latest = static_cast<std::size_t>(
-                std::lower_bound(cubes.begin(), cubes.end(), cube_of(v)) - cubes.begin());
-            before = own;
+        if (v != before) {
+            cube own;
+            for (int a = 0; a < 3; ++a)
+                own[a] = sigma < exact ? v[a] : std::round((v[a] - least[a]) / sigma);
+            latest = &cubes[own];
+            before = v;
         }
-        places[latest].add(static_cast<point_index>(i), v);
+        latest->add(static_cast<point_index>(i), v);
     }
-    std::erase_if(places, [](const sensor_place& place) { return place.seen.empty(); });
+    scratch<sensor_place> places;
+    for (auto& [own, place] : cubes) places.push_back(std::move(place));
     return places;
 }
 
