@@ -78,13 +78,14 @@ TEST(segments, assigning_reuses_the_memory) {
     EXPECT_EQ(reused[0].data(), members);
 }
 
-/// Numbered by size, equal ones by their smallest point; labels without points are removed.
+/// Numbered by size, equal ones by their smallest point; labels without points are removed, and
+/// those of few.
 TEST(number_by_size, renumbers) {
     std::vector<std::int32_t> labels{4, 2, -1, 2, 7, 0, 4, 4};
-    const auto before = gnomon::detail::number_by_size(labels);
+    gnomon::detail::number_by_size(labels);
     EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, -1, 1, 2, 3, 0, 0}));
-    EXPECT_EQ((std::vector<std::int32_t>{before.begin(), before.end()}),
-              (std::vector<std::int32_t>{4, 2, 7, 0}));
+    gnomon::detail::number_by_size(labels, 2);
+    EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, -1, 1, -1, -1, 0, 0}));
 }
 
 }  // namespace
