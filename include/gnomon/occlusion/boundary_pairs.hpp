@@ -16,8 +16,9 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 

@@ -122,16 +122,10 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        observation most = observation::unobserved;
-        std::size_t votes = 0;
-        for (const observation s :
-             {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] > votes) {
-                most = s;
-                votes = count[s];
-            }
-        }
-        return most;
+        const observation most = std::ranges::max(
+            {observation::free_space, observation::on_surface, observation::occluded}, {},
+            [&count](observation s) { return count[s]; });  // the first of equally frequent ones
+        return count[most] > 0 ? most : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -200,23 +194,19 @@ class visibility {
     /// occluded.
     [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
                                                 const range_image& image, const auto& told_by) {
-        observation about = observation::unobserved;
+        observation_count about;
         for (std::size_t e = at.elevation - std::min(at.elevation, reach);
              e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - reach;
-                 a <= at.azimuth + image.width() + reach; ++a) {
-                const observation s = told_by({a % image.width(), e});
-                if (s == observation::unobserved) continue;
-                if (about == observation::unobserved || s == about) {
-                    about = s;
-                } else if (s == observation::free_space || about == observation::free_space) {
-                    return observation::unobserved;
-                } else {
-                    about = observation::on_surface;
-                }
-            }
+                 a <= at.azimuth + image.width() + reach; ++a)
+                about.add(told_by({a % image.width(), e}));
         }
-        return about;
+        const std::size_t free = about[observation::free_space];
+        const std::size_t on = about[observation::on_surface];
+        const std::size_t hidden = about[observation::occluded];
+        if (free > 0) return on + hidden > 0 ? observation::unobserved : observation::free_space;
+        if (on > 0) return observation::on_surface;
+        return hidden > 0 ? observation::occluded : observation::unobserved;
     }
 
     noise_curve noise_;

@@ -14,7 +14,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -161,15 +160,13 @@ class component_walk {
 
     /// Those of some points of a leaf that are within the radius of point p.
     [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
-        const std::size_t first = first_of(leaf);
-        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
-        const pack px(x[p]), py(y[p]), pz(z[p]);
         lane_set within = 0, certain = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
-            const pack dx = pack(x + first + l) - px;
-            const pack dy = pack(y + first + l) - py;
-            const pack dz = pack(z + first + l) - pz;
-            const pack d2 = dx * dx + dy * dy + dz * dz;
+            pack d2(0.0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const pack d = pack(tree_.at(a) + first_of(leaf) + l) - tree_.at(a)[p];
+                d2 += d * d;
+            }
             within |= at_most(d2, possible_) << l;
             certain |= at_most(d2, certain_) << l;
         }
