@@ -83,8 +83,7 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    /// microradian to 90
-    ///                                degrees, or a pole of no length
+    ///                                microradian to 90 degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
@@ -104,8 +103,7 @@ class visibility {
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
             run(places.size(), [&](std::size_t i) {
-                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
-                                  projection);
+                images[i].emplace(points, places[i].seen, places[i].viewpoint, format, projection);
             });
             images_.reserve(images.size());
             for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
@@ -157,7 +155,9 @@ class visibility {
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
             const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
-            if (std::isfinite(variance)) sum += variance, count += 1.0;
+            if (!std::isfinite(variance)) continue;
+            sum += variance;
+            count += 1.0;
         }
         return count > 0.0 ? std::sqrt(sum / count) : 0.0;
     }

@@ -109,7 +109,7 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     } else {
         linker.link_all(radius_of, similar, team);
     }
-    return linker.result(options.min_points);
+    return detail::segments_of(linker.labels(options.min_points));
 }
 
 }  // namespace gnomon

@@ -157,10 +157,10 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
     return labels;
 }
 
-/// The segments of these sets; see labels_of_sets.
-[[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
+/// The segments of these labels.
+[[nodiscard]] inline segments segments_of(std::span<const std::int32_t> labels) {
     segments result;
-    result.assign(labels_of_sets(sets, min_points, counts));
+    result.assign(labels);
     return result;
 }
 

@@ -22,21 +22,10 @@
 
 namespace gnomon::detail {
 
-/// View points of a cube, and what was seen from there.
+/// What was seen from the view points in a cube, and their mean [m].
 struct sensor_place {
-    scratch<point_index> seen = {};
-    Eigen::Vector3d first{0.0, 0.0, 0.0};    // view point [m]
-    Eigen::Vector3d from_it{0.0, 0.0, 0.0};  // the sum of the ways to the others [m]
-
-    void add(point_index i, const Eigen::Vector3d& v) {
-        if (seen.empty()) first = v;
-        from_it = combined(1.0, from_it, 1.0, difference(v, first));
-        seen.push_back(i);
-    }
-    /// The mean.
-    [[nodiscard]] Eigen::Vector3d viewpoint() const {
-        return combined(1.0, first, 1.0 / static_cast<double>(seen.size()), from_it);
-    }
+    scratch<point_index> seen;
+    Eigen::Vector3d viewpoint;
 };
 
 /// The finite points by their view points, as far as these are finite, in cubes of size sigma [m],
@@ -51,8 +40,9 @@ struct sensor_place {
     for (const Eigen::Vector3d& v : viewpoints.positions())
         for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
     using cube = std::array<double, 3>;
-    std::map<cube, sensor_place, std::less<>, pooled<std::pair<const cube, sensor_place>>> cubes;
-    sensor_place* latest = nullptr;
+    using seen_from_cube = std::pair<const cube, scratch<point_index>>;
+    std::map<cube, scratch<point_index>, std::less<>, pooled<seen_from_cube>> cubes;
+    scratch<point_index>* latest = nullptr;
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d v = viewpoints[i];
         if (!is_finite(points[i]) || !is_finite(v)) continue;
@@ -63,10 +53,17 @@ struct sensor_place {
             latest = &cubes[own];
             before = v;
         }
-        latest->add(static_cast<point_index>(i), v);
+        latest->push_back(static_cast<point_index>(i));
     }
     scratch<sensor_place> places;
-    for (auto& [own, place] : cubes) places.push_back(std::move(place));
+    for (auto& [own, seen] : cubes) {
+        const Eigen::Vector3d first = viewpoints[seen.front()];
+        Eigen::Vector3d ways(0.0, 0.0, 0.0);  // the sum of those to the others
+        for (const point_index i : seen)
+            ways = combined(1.0, ways, 1.0, difference(viewpoints[i], first));
+        const auto count = static_cast<double>(seen.size());
+        places.push_back({std::move(seen), combined(1.0, first, 1.0 / count, ways)});
+    }
     return places;
 }
 

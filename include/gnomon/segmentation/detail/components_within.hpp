@@ -9,8 +9,7 @@
 ///  - whose points are all in one component already, as most are where points are dense.
 ///
 /// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
-/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
-/// box whose diagonal is at most r are one piece as they are.
+/// it: one edge joins two pieces, and no other edge between them need be looked for.
 #pragma once
 
 #include <algorithm>
@@ -25,6 +24,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -81,14 +81,10 @@ class component_walk {
     }
 
     void join(const subtree& a, const subtree& b) {
+        if (a.last - a.first < b.last - b.first) return join(b, a);
         if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
-        if (a.is_leaf() && b.is_leaf()) {
-            join_leaves(a, b);
-        } else if (a.last - a.first >= b.last - b.first) {
-            for (const subtree& child : a.children()) join(child, b);
-        } else {
-            for (const subtree& child : b.children()) join(a, child);
-        }
+        if (a.is_leaf()) return join_leaves(a, b);
+        for (const subtree& child : a.children()) join(child, b);
     }
 
     /// Whether all points of both are known to be in the same component.
@@ -197,19 +193,19 @@ class component_walk {
     scratch<subtree> parts_;
 };
 
-/// The connected components of the finite points, where points at most `radius` [m] apart are
-/// joined; others stay on their own. Nearly O(n), unless many points
-/// are hardly farther than the radius from many of another component. Precondition: the radius is
-/// not negative.
+/// A label for each point: the connected components of the finite points, where points at most
+/// `radius` [m] apart are joined; others are unlabeled. Nearly O(n), unless many points are hardly
+/// farther than the radius from many of another component. Precondition: the radius is not
+/// negative.
 template <execution X>
-[[nodiscard]] union_find components_within(const leaf_tree& tree, double radius, const X& run) {
+[[nodiscard]] scratch<std::int32_t> components_within(const leaf_tree& tree, double radius,
+                                                      const X& run) {
     union_find places = component_walk(tree, radius)(run);
-    union_find sets(tree.points());
-    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
-    });
-    return sets;
+    scratch<std::int32_t> labels(tree.points(), unlabeled);
+    for (std::size_t p = 0; p < tree.size(); ++p)
+        labels[tree.index()[p]] =
+            static_cast<std::int32_t>(places.find(static_cast<point_index>(p)));
+    return labels;
 }
 
 }  // namespace GNOMON_LANES

@@ -104,10 +104,6 @@ class linker {
         return labels_of_sets(sets_, min_points,
                               [&](std::size_t i) { return is_finite(points_[i]); });
     }
-    /// The segments of at least `min_points` points.
-    [[nodiscard]] segments result(std::size_t min_points) {
-        return segments_of(sets_, min_points, [&](std::size_t i) { return is_finite(points_[i]); });
-    }
 
   private:
     const Points& points_;
