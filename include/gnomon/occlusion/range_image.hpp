@@ -12,10 +12,10 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
-#include <map>
 #include <numbers>
 #include <optional>
 #include <span>
+#include <tuple>
 #include <utility>
 
 #include <Eigen/Core>
@@ -39,16 +39,6 @@ struct range_image_options {
     /// the z-axis the image is that of Eq. (2.1).
     std::optional<Eigen::Vector3d> pole = std::nullopt;
 };
-
-namespace detail {
-
-/// What a pixel shows; by default nothing.
-struct pixel_view {
-    double range = -1.0;  ///< [m]
-    point_index index = 0;
-};
-
-}  // namespace detail
 
 /// The nearest return of each pixel.
 class range_image {
@@ -122,7 +112,10 @@ class range_image {
     }
 
   private:
-    using view = detail::pixel_view;
+    struct view {
+        double range = nothing;
+        point_index index = 0;
+    };
 
     /// A point that is seen, and the place of its pixel, row by row.
     struct sight {
@@ -177,15 +170,28 @@ class range_image {
     }
 
     /// Stores the nearest point of each pixel, between two rows.
-    void keep(const auto& visible, std::size_t lowest, std::size_t highest) {
+    void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
         const std::size_t pixels = (highest - lowest + 1) * width_;
-        const bool are_few = pixels / few > visible.size();
-        first_ = lowest * width_;
-        if (!are_few) seen_.resize(pixels);
+        if (pixels / few <= visible.size()) {
+            first_ = lowest * width_;
+            seen_.resize(pixels);
+            for (const sight& s : visible) {
+                view& v = seen_[s.place - first_];
+                if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+            }
+            return;
+        }
+        std::sort(visible.begin(), visible.end(), [](const sight& a, const sight& b) {
+            const auto key = [](const sight& s) {
+                return std::tuple(s.place, s.what.range, s.what.index);
+            };
+            return key(a) < key(b);
+        });
         for (const sight& s : visible) {
-            view& v = are_few ? alone_[s.place] : seen_[s.place - first_];
-            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+            if (!places_.empty() && places_.back() == s.place) continue;
+            places_.push_back(s.place);
+            seen_.push_back(s.what);
         }
     }
 
@@ -194,9 +200,12 @@ class range_image {
     }
 
     [[nodiscard]] view view_of(const pixel& at) const {
-        if (const auto found = alone_.find(place_of(at)); found != alone_.end())
-            return found->second;
-        const std::uint64_t number = place_of(at) - first_;  // large for what is before the first
+        std::uint64_t number = place_of(at) - first_;  // large for what is before the first
+        if (!places_.empty()) {
+            const auto found = std::lower_bound(places_.begin(), places_.end(), place_of(at));
+            if (found == places_.end() || *found != place_of(at)) return {};
+            number = static_cast<std::uint64_t>(found - places_.begin());
+        }
         return number < seen_.size() ? seen_[number] : view{};
     }
 
@@ -204,10 +213,9 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     detail::image_axes axes_;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
-    std::uint64_t first_ = 0;     // the place of the first row in which something is seen
-    detail::scratch<view> seen_;  // from there on, row by row, or
-    std::map<std::uint64_t, view, std::less<>, detail::pooled<std::pair<const std::uint64_t, view>>>
-        alone_;  // of few points in many pixels, these alone, by their places
+    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
+    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
+    detail::scratch<std::uint64_t> places_;  // of these
 };
 
 }  // namespace gnomon

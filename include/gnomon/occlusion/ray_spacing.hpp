@@ -7,9 +7,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
-#include <iterator>
-#include <map>
 #include <numbers>
 #include <tuple>
 #include <utility>
@@ -42,20 +39,27 @@ struct cloud_ray {
 
 /// Some of the rays, of different directions, drawn by their numbers: the same in whatever order
 /// the points are stored, which may well be as regular as any other way to draw them.
-[[nodiscard]] auto drawn_rays(const scratch<cloud_ray>& rays, std::size_t count, const auto& points,
-                              const viewpoint_table& viewpoints) {
+[[nodiscard]] scratch<cloud_ray> drawn_rays(const scratch<cloud_ray>& rays, std::size_t count,
+                                            const auto& points, const viewpoint_table& viewpoints) {
     const auto key = [&](const cloud_ray& r) {
         const Eigen::Vector3d v = viewpoints[r.point];
         return std::tuple(squared_distance(points[r.point], v), v[0], v[1], v[2]);
     };
-    using numbered = std::pair<const std::uint64_t, cloud_ray>;
-    std::map<std::uint64_t, cloud_ray, std::less<>, pooled<numbered>> drawn;
+    scratch<std::uint64_t> numbers;  // ascending
+    scratch<cloud_ray> drawn;
     for (const cloud_ray& r : rays) {
         const std::uint64_t number = drawn_number(r.direction);
-        if (drawn.size() == count && number > drawn.rbegin()->first) continue;
-        const auto [at, is_new] = drawn.try_emplace(number, r);
-        if (!is_new && key(r) < key(at->second)) at->second = r;
-        if (drawn.size() > count) drawn.erase(std::prev(drawn.end()));
+        if (drawn.size() == count && number > numbers.back()) continue;
+        const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
+        const auto place = drawn.begin() + (at - numbers.begin());
+        if (at != numbers.end() && *at == number) {
+            if (key(r) < key(*place)) *place = r;
+            continue;
+        }
+        numbers.insert(at, number);
+        drawn.insert(place, r);
+        numbers.resize(std::min(numbers.size(), count));
+        drawn.resize(numbers.size());
     }
     return drawn;
 }
@@ -82,7 +86,7 @@ struct cloud_ray {
         std::array<double, neighbors + 1> nearest;
     };
     scratch<seed> drawn;
-    for (const auto& [number, r] : drawn_rays(rays, seeds, points, viewpoints))
+    for (const cloud_ray& r : drawn_rays(rays, seeds, points, viewpoints))
         drawn.emplace_back(seed{r, {}}).nearest.fill(most * most * neighbors / std::numbers::pi);
     for (const cloud_ray& r : rays) {
         for (auto& [s, nearest] : drawn) {
@@ -101,7 +105,9 @@ struct cloud_ray {
         }
     }
     const auto at = drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() * 3 / 4);
-    std::ranges::nth_element(drawn, at, {}, [](const seed& s) { return s.nearest.back(); });
+    std::nth_element(drawn.begin(), at, drawn.end(), [](const seed& a, const seed& b) {
+        return a.nearest.back() < b.nearest.back();
+    });
     return radians(
         std::clamp(std::sqrt(at->nearest.back() * std::numbers::pi / neighbors), least, most));
 }

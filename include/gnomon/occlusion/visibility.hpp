@@ -103,7 +103,8 @@ class visibility {
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
             run(places.size(), [&](std::size_t i) {
-                images[i].emplace(points, places[i].seen, places[i].viewpoint, format, projection);
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
+                                  projection);
             });
             images_.reserve(images.size());
             for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
@@ -120,10 +121,15 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        const observation most = std::ranges::max(
-            {observation::free_space, observation::on_surface, observation::occluded}, {},
-            [&count](observation s) { return count[s]; });  // the first of equally frequent ones
-        return count[most] > 0 ? most : observation::unobserved;
+        observation most = observation::unobserved;
+        std::size_t votes = 0;
+        for (const observation s :
+             {observation::free_space, observation::on_surface, observation::occluded}) {
+            if (count[s] <= votes) continue;
+            most = s;
+            votes = count[s];
+        }
+        return most;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:

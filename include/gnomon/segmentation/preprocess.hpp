@@ -142,7 +142,7 @@ template <class R, class Proj = std::identity>
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::height_histogram heights(p, floor, search.bin, search.min_height);
     if (heights.bins.empty()) return std::nullopt;
-    const auto [peak, count] = heights.fullest();
+    const auto [peak, count] = detail::fullest(heights);
     if (static_cast<double>(count) < search.min_share * static_cast<double>(heights.points))
         return std::nullopt;
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.

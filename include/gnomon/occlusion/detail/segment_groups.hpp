@@ -12,7 +12,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -20,6 +19,18 @@
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
+
+/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
+/// (A template, so that only its users compile a search.)
+/// @param number  what to call each point in the pairs
+void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
+    const spatial_index index(points);
+    scratch<neighbor> nearest;
+    for (std::size_t f = 0; f < points.size(); ++f) {
+        knn{.k = k}.find(index, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
+    }
+}
 
 /// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
 /// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
@@ -46,20 +57,16 @@ template <class Frame = std::identity>
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    const spatial_index index(centroids);
-    scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < flat.size(); ++f) {
-        knn{.k = wanted}.find(index, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
-    }
+    append_nearest_pairs(pairs, centroids, wanted, flat);
     std::sort(pairs.begin(), pairs.end());
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
     return pairs;
 }
 
 /// The segments of which those of a set of a `union_find` are one, largest first.
+/// (A template, so that only its users compile a sort.)
 /// @param result  may be `parts`
-inline void unite_segments(segments& result, const segments& parts, union_find& sets) {
+void unite_segments(segments& result, const segments& parts, auto& sets) {
     scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
     for (std::int32_t& label : labels)
         if (label != unlabeled)

@@ -7,10 +7,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
-#include <functional>
 #include <limits>
-#include <map>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -22,48 +19,65 @@
 
 namespace gnomon::detail {
 
-/// What was seen from the view points in a cube, and their mean [m].
+/// View points of a cube, and what was seen from there.
 struct sensor_place {
-    scratch<point_index> seen;
-    Eigen::Vector3d viewpoint;
+    scratch<point_index> seen = {};
+    Eigen::Vector3d first{0.0, 0.0, 0.0};    // view point [m]
+    Eigen::Vector3d from_it{0.0, 0.0, 0.0};  // the sum of the ways to the others [m]
+
+    void add(point_index i, const Eigen::Vector3d& v) {
+        if (seen.empty()) first = v;
+        from_it = combined(1.0, from_it, 1.0, difference(v, first));
+        seen.push_back(i);
+    }
+    /// The mean.
+    [[nodiscard]] Eigen::Vector3d viewpoint() const {
+        return combined(1.0, first, 1.0 / static_cast<double>(seen.size()), from_it);
+    }
 };
 
 /// The finite points by their view points, as far as these are finite, in cubes of size sigma [m],
-/// the first about the least of them. O(n log v) for v cubes; those of a scan line are in one.
+/// the first about the least of them.
+/// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
+/// anything to sort or to look up.
 /// @param points  a position_view
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
                                                      const viewpoint_table& viewpoints,
                                                      double sigma) {
     constexpr double exact = 1e-6;  // [m]: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d least(infinity, infinity, infinity), before = least;
+    Eigen::Vector3d least(infinity, infinity, infinity);
     for (const Eigen::Vector3d& v : viewpoints.positions())
         for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
-    using cube = std::array<double, 3>;
-    using seen_from_cube = std::pair<const cube, scratch<point_index>>;
-    std::map<cube, scratch<point_index>, std::less<>, pooled<seen_from_cube>> cubes;
-    scratch<point_index>* latest = nullptr;
+    const auto cube_of = [&](const Eigen::Vector3d& v) {
+        if (sigma < exact) return std::array{v[0], v[1], v[2]};
+        const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
+        return std::array{cell(0), cell(1), cell(2)};
+    };
+    scratch<std::array<double, 3>> cubes;
+    if (viewpoints.empty()) {
+        least = Eigen::Vector3d(0.0, 0.0, 0.0);
+        cubes.push_back(cube_of(least));
+    }
+    for (const Eigen::Vector3d& v : viewpoints.positions())
+        if (is_finite(v) && (cubes.empty() || cubes.back() != cube_of(v)))
+            cubes.push_back(cube_of(v));
+    std::sort(cubes.begin(), cubes.end());
+    cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
+    scratch<sensor_place> places(cubes.size());
+    std::size_t latest = 0;
+    std::array<double, 3> before{infinity, infinity, infinity};
     for (std::size_t i = 0; i < points.size(); ++i) {
         const Eigen::Vector3d v = viewpoints[i];
         if (!is_finite(points[i]) || !is_finite(v)) continue;
-        if (v != before) {
-            cube own;
-            for (int a = 0; a < 3; ++a)
-                own[a] = sigma < exact ? v[a] : std::round((v[a] - least[a]) / sigma);
-            latest = &cubes[own];
-            before = v;
+        if (const std::array own{v[0], v[1], v[2]}; own != before) {
+            latest = static_cast<std::size_t>(
+                std::lower_bound(cubes.begin(), cubes.end(), cube_of(v)) - cubes.begin());
+            before = own;
         }
-        latest->push_back(static_cast<point_index>(i));
+        places[latest].add(static_cast<point_index>(i), v);
     }
-    scratch<sensor_place> places;
-    for (auto& [own, seen] : cubes) {
-        const Eigen::Vector3d first = viewpoints[seen.front()];
-        Eigen::Vector3d ways(0.0, 0.0, 0.0);  // the sum of those to the others
-        for (const point_index i : seen)
-            ways = combined(1.0, ways, 1.0, difference(viewpoints[i], first));
-        const auto count = static_cast<double>(seen.size());
-        places.push_back({std::move(seen), combined(1.0, first, 1.0 / count, ways)});
-    }
+    std::erase_if(places, [](const sensor_place& place) { return place.seen.empty(); });
     return places;
 }
 

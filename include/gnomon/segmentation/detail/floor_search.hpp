@@ -9,12 +9,9 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
-#include <functional>
 #include <iterator>
 #include <limits>
-#include <map>
 #include <optional>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -31,29 +28,39 @@ namespace gnomon::detail {
 
 /// How many points lie at which height above a plane.
 struct height_histogram {
-    using bin = std::pair<const double, std::size_t>;  ///< height in its middle [m], and points
-
-    std::map<double, std::size_t, std::less<>, pooled<bin>> bins;  ///< those that hold a point
-    std::size_t points = 0;                                        ///< all finite ones
+    struct bin {
+        double height;  ///< in its middle [m]
+        std::size_t count;
+    };
+    scratch<bin> bins;       ///< from the lowest up; only those that hold a point
+    std::size_t points = 0;  ///< all finite ones, however low
 
     /// Counts the finite points whose height is at least `from`, in bins of `width` metres, one of
     /// them about the plane itself. An outlier at a distance of kilometers costs no memory.
     /// O(n log n).
     height_histogram(const auto& positions, const plane& ground, double width,
                      double from = -std::numeric_limits<double>::infinity()) {
+        scratch<double> numbers;
+        numbers.reserve(positions.size());
         for (std::size_t i = 0; i < positions.size(); ++i) {
             if (!is_finite(positions[i])) continue;
             ++points;
             const double height = ground.signed_distance(positions[i]);
-            if (height >= from) ++bins[width * std::round(height / width)];
+            if (height >= from) numbers.push_back(std::round(height / width));
+        }
+        std::sort(numbers.begin(), numbers.end());
+        for (auto first = numbers.begin(); first != numbers.end();) {
+            const auto last = std::upper_bound(first, numbers.end(), *first);
+            bins.push_back({width * *first, static_cast<std::size_t>(last - first)});
+            first = last;
         }
     }
-
-    /// The lowest bin of those that hold most. Precondition: there are bins.
-    [[nodiscard]] const bin& fullest() const {
-        return *std::ranges::max_element(bins, {}, &bin::second);
-    }
 };
+
+/// The lowest bin of those that hold most. Precondition: there are bins.
+[[nodiscard]] const auto& fullest(const auto& histogram) {
+    return *std::ranges::max_element(histogram.bins, {}, &height_histogram::bin::count);
+}
 
 /// A plane through points of a floor, and their principal axes.
 struct floor_fit {
@@ -83,7 +90,7 @@ class floor_search {
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (4 * count < heights.fullest().second) continue;
+            if (4 * count < fullest(heights).count) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
