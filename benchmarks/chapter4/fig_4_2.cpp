@@ -74,8 +74,8 @@ json boxes(const effort& much) {
             const gnomon::segments parts = gnomon::segment_oriented_points(
                 truth.scan, surface, gnomon::joint_distance{}, {.greedy = true});
             joint.add(truth, parts);
-            thresholds.add(truth, gnomon::segment_oriented_points(truth.scan, surface,
-                                                                  gnomon::two_thresholds{}));
+            thresholds.add(truth, gnomon::segment_oriented_points(
+                                      truth.scan, surface, gnomon::two_thresholds{.radius = 0.05}));
             if (rows.empty() && seed == 1)
                 draw(truth.scan.points, normals_of(surface), parts, truth.scan.viewpoints[0],
                      much.out / "fig_4_2.png");
@@ -122,11 +122,11 @@ json strips() {
                 surface.emplace_back().normal = Eigen::Vector3d(-std::sin(t), 0.0, std::cos(t));
             }
         }
-        rows.push_back(
-            {{"scene", p.name},
-             {"segments",
-              gnomon::segment_oriented_points(points, surface, gnomon::two_thresholds{}).size()},
-             {"in the thesis", p.in_the_thesis}});
+        rows.push_back({{"scene", p.name},
+                        {"segments", gnomon::segment_oriented_points(
+                                         points, surface, gnomon::two_thresholds{.radius = 0.05})
+                                         .size()},
+                        {"in the thesis", p.in_the_thesis}});
     }
     return rows;
 }

@@ -153,8 +153,9 @@ inline std::vector<gnomon::point_index> chains_of_occluded_gaps(const sim::bvh_c
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t j = i + 1; j < parts.size(); ++j) {
             if (!is_coplanar(i, j)) continue;
-            const auto lines = gnomon::detail::boundary_pairs(places, parts[i], parts[j],
-                                                              {centroids[i], centroids[j]});
+            std::vector<gnomon::detail::boundary_pair> lines;
+            gnomon::detail::append_boundary_pairs(lines, places, parts[i], parts[j],
+                                                  {centroids[i], centroids[j]});
             if (is_occluded_between(lines, places, truth.scan.viewpoints, caster))
                 together.unite(static_cast<gnomon::point_index>(i),
                                static_cast<gnomon::point_index>(j));

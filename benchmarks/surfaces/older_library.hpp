@@ -24,8 +24,11 @@ using namespace gnomon;
 }
 namespace detail {
 using gnomon::boundary_pair;
-using gnomon::boundary_pairs;
 using gnomon::union_find;
+void append_boundary_pairs(auto& found, const auto& points, const auto& first, const auto& second,
+                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids) {
+    found = gnomon::boundary_pairs(points, first, second, centroids);
+}
 }  // namespace detail
 }  // namespace gnomon
 #endif

@@ -5164,15 +5164,16 @@ class neighborhood_recorder {
     typename recorded_neighborhoods<Sizes>::part seen_;
 };
 
-/// The arrays of the graph of a policy whose neighborhoods differ in size. While building, the
-/// indices exist twice.
+/// The arrays of the graph of n neighborhoods that differ in size. While building, the indices
+/// exist twice.
 /// @param graph  arrays of an `adjacency` or a `scratch_graph`
-template <class Policy, execution X>
-void sweep_any_sizes(const Policy& policy, const spatial_index& index, const X& run, auto& graph) {
+/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+template <execution X>
+void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
     auto& begin = graph.begin;
-    begin.assign(index.size() + 1, 0);
+    begin.assign(n + 1, 0);
     recorded_neighborhoods<std::remove_reference_t<decltype(begin)>> all{begin};
-    policy.sweep(index, run, [&] { return neighborhood_recorder(all); });
+    sweep([&] { return neighborhood_recorder(all); });
 
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = graph.indices;
@@ -5198,7 +5199,8 @@ void sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
             return sweep_equal_sizes(policy, *k, index, run, graph);
     }
-    return sweep_any_sizes(policy, index, run, graph);
+    sweep_any_sizes(index.size(), run, graph,
+                    [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
 }
 
 }  // namespace gnomon::detail
@@ -5243,25 +5245,17 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
     return adjacency(std::move(memory));
 }
 
-/// `knn` of some points only; the other points have no neighbors in the graph.
-struct knn_of_some {
-    nearest_wanted wanted;
-
-    template <execution X>
-    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
-        sweep_nearest(index.tree(), wanted, run, make_visitor);
-    }
-};
-
-/// The graph with the k nearest neighbors of the points i for which wanted(i) holds, nearest first.
-/// O(n / 32), and O(k log k) for each of them.
+/// The graph with the k nearest neighbors of the points i for which wanted(i) holds, nearest first;
+/// the other points have none. O(n / 32), and O(k log k) for each of them.
 template <execution X>
 [[nodiscard]] scratch_graph graph_of_some(std::size_t k, auto&& wanted, const spatial_index& index,
                                           const X& run) {
     place_set some;
     some.assign_if(index.tree(), wanted);
     scratch_graph::arrays graph;
-    sweep_any_sizes(knn_of_some{{.k = k, .of = &some}}, index, run, graph);
+    sweep_any_sizes(index.size(), run, graph, [&](auto&& make_visitor) {
+        sweep_nearest(index.tree(), {.k = k, .of = &some}, run, make_visitor);
+    });
     return scratch_graph(std::move(graph));
 }
 
@@ -6140,14 +6134,20 @@ struct noise_knn {
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far
     /// Errors: those of operator().
     template <execution X>
-    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
+               auto&& make_visitor_of_all) const {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, make_visitor()); });
+            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
+    }
+    template <execution X>
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        sweep(index, run, make_visitor, [] { return [](std::size_t, const auto&) {}; });
     }
 
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -6163,16 +6163,20 @@ struct noise_knn {
         return deviations * deviations * noise.variance_along(ray);
     }
 
-    /// Shows a visitor those of the k nearest that are near enough.
-    template <class Visit>
+    /// Shows a visitor those of the k nearest that are near enough, and another one all.
+    template <class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index, Visit visit)
-            : policy_(policy), index_(index), visit_(std::move(visit)) {}
+        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
+            : policy_(policy),
+              index_(index),
+              visit_(std::move(visit)),
+              visit_all_(std::move(visit_all)) {}
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             const detail::leaf_tree& tree = index_.tree();
             const point_index i = tree.index()[place];
+            visit_all_(i, detail::found_neighbors(tree, place, places));
             const double within = policy_.squared_reach(index_, i);
             near_.assign(places.begin(), places.end());
             const auto key = [&](std::uint32_t at) {
@@ -6193,12 +6197,14 @@ struct noise_knn {
 
         void finish() {
             if constexpr (requires { visit_.finish(); }) visit_.finish();
+            if constexpr (requires { visit_all_.finish(); }) visit_all_.finish();
         }
 
       private:
         const noise_knn& policy_;
         const spatial_index& index_;
         Visit visit_;
+        VisitAll visit_all_;
         detail::scratch<std::uint32_t> near_;
     };
 };
@@ -7253,22 +7259,32 @@ template <class N>
         return {};
 }
 
+/// The surface elements of the points of an index, from what a sweep finds.
+/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+template <estimator E, execution X>
+void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
+                    const E& estimate, const X& run, auto&& sweep) {
+    resize_touched(surface, index.size(), run);
+    sweep([&] { return sweep_visitor(estimate, index, surface); });
+    for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i) {
+            if (index.is_finite(i)) continue;
+            surface[i] = {};
+            surface[i].trust = trust::not_finite;
+        }
+    });
+}
+
 /// The surface elements of the points of an index, by an indexed neighborhood.
 template <indexed_neighborhood N, estimator E, execution X>
 void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
                       const N& policy, const E& estimate, const X& run) {
     require_valid(policy);
-    resize_touched(surface, index.size(), run);
     if constexpr (sweeping_neighborhood<N>) {
-        policy.sweep(index, run, [&] { return sweep_visitor(estimate, index, surface); });
-        for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (index.is_finite(i)) continue;
-                surface[i] = {};
-                surface[i].trust = trust::not_finite;
-            }
-        });
+        estimate_swept(surface, index, estimate, run,
+                       [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
     } else {
+        resize_touched(surface, index.size(), run);
         estimate_at(run, index.size(), std::identity{}, index, index.viewpoints, index.epsilon(),
                     found_neighborhoods(policy, index), estimate, surface);
     }
@@ -8864,6 +8880,9 @@ struct measured_noise {
 
 namespace detail {
 
+/// The planes that a noise is measured on: the more, the less its own noise.
+inline constexpr std::size_t sampled_planes = 3000;
+
 /// Measures the noise of an index.
 template <execution X>
 class noise_meter {
@@ -8871,18 +8890,19 @@ class noise_meter {
     noise_meter(const spatial_index& index, const X& run)
         : index_(index), run_(run), sample_(index) {}
 
-    [[nodiscard]] measured_noise operator()() {
+    /// @param many   planes; the more, the less the noise of the result
+    /// @param least  a noise that that of the points is not less than
+    [[nodiscard]] measured_noise operator()(std::size_t many = sampled_planes,
+                                            const noise_curve& least = constant_noise{0.0}) {
         constexpr std::size_t fewest_points = 500;
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};
-        const auto nothing = [](const Eigen::Vector3d&) { return 0.0; };
-        constexpr std::size_t many = 3000;  // planes; the more, the less the noise of the result
-        std::size_t few = 1000;             // performance only
-        scratch<sampled_plane> planes = sample_(few, run_, nothing);
+        std::size_t few = 1000;  // performance only
+        scratch<sampled_plane> planes = sample_(few, run_, half_length(least));
         if (are_parallel(planes)) return {{}, no_view_point};
         find_quantization(planes);
         if (is_quantized_) {  // few of the planes cross steps
             few = many;
-            planes = sample_(few, run_, nothing);
+            planes = sample_(few, run_, half_length(least));
         }
         if (!fit(planes)) return without_fit();
         // Longer segments find more of the noise, until they hold all of it.
@@ -8890,11 +8910,11 @@ class noise_meter {
         constexpr int most_passes = 8;
         for (int pass = 0; pass < most_passes; ++pass) {
             const double before = typical();
-            planes = sample_(few, run_, half_length());
+            planes = sample_(few, run_, half_length(curve()));
             if (!fit(planes)) return without_fit();
             if (std::abs(typical() - before) <= converged * before) break;
         }
-        planes = sample_(many, run_, half_length());
+        planes = sample_(many, run_, half_length(curve()));
         if (!fit(planes)) return without_fit();
         if (!is_quantized_) prefer_depth(planes);
         if (!is_of_planes()) return {{}, too_little_flat};
@@ -8987,9 +9007,9 @@ class noise_meter {
         return noise_curve(variance, quantized_.coefficients(), coordinate_.axis);
     }
 
-    [[nodiscard]] auto half_length() const {
+    [[nodiscard]] static auto half_length(const noise_curve& noise) {
         constexpr double all = 4.0;  // standard deviations: 99.99 % of the noise
-        return [noise = curve()](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
+        return [noise](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
     }
 
     const spatial_index& index_;
@@ -11445,11 +11465,12 @@ namespace gnomon::detail {
 /// normal distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it: one of two million by chance.
+/// A point that is farther than this is certainly not of it: the 99.99994 % quantile.
 inline constexpr double certain_deviations = 5.0;
 
-inline constexpr double flatness = 0.002;          // [m]; chosen: of walls and furniture
-inline constexpr double least_cosine = 1.0 / 3.0;  // chosen: of the angle of incidence
+inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
+/// Of the angle of incidence: three deviations are at least the noise along the ray.
+inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
 /// The cosine of the angle between a ray and the normal of a surface, below which the surface was
 /// not seen: planes of less are those of scan lines, which contain their view point.
 inline constexpr double edge_on = 0.02;  // chosen: one degree
@@ -11537,11 +11558,13 @@ struct region_plane {
     bool is_determined = false;
     bool is_seen = false;  ///< not edge-on, as the planes of scan lines are
 
-    /// The variance of points of the region, in variances of their noise: up to four times that,
-    /// where surfaces are rough.
+    /// The variance of points of the region, in variances of their noise: more than that where
+    /// surfaces are rough.
     [[nodiscard]] double excess() const { return std::clamp(chi2, 1.0, most_excess); }
 
-    static constexpr double most_excess = 4.0;  // chosen
+    /// Of the roughest surface; chosen on furnished rooms 20,001 to 20,008 and an office
+    /// (pcl_office1_kinect): by less, rough surfaces are several, by more, edges are lost.
+    static constexpr double most_excess = 2.5;
 };
 
 /// The sums, with positions relative to an origin [m] that is the same for all regions.
@@ -11549,9 +11572,11 @@ struct plane_sums {
     weighted_moments positions;                      ///< weight: 1 / sigma^2 [1 / m^2]
     Eigen::Matrix3d rays = diagonal(0.0, 0.0, 0.0);  ///< weighted; lower triangle only
     std::size_t count = 0;                           ///< of the points
+    std::size_t summands = 0;                        ///< points, or cells with several of them
 
-    void add(const Eigen::Vector3d& offset, const point_noise& noise) {
-        const double w = 1.0 / (noise.sigma * noise.sigma);
+    /// @param points  of which `offset` is the mean
+    void add(const Eigen::Vector3d& offset, const point_noise& noise, std::size_t points = 1) {
+        const double w = static_cast<double>(points) / (noise.sigma * noise.sigma);
         positions.add(offset, w);
         if (noise.has_ray()) {
             for (int j = 0; j < 3; ++j)
@@ -11559,7 +11584,8 @@ struct plane_sums {
         } else {
             for (int j = 0; j < 3; ++j) rays(j, j) += w;
         }
-        ++count;
+        count += points;
+        ++summands;
     }
 
     void add(const plane_sums& more) {
@@ -11572,6 +11598,7 @@ struct plane_sums {
             }
         }
         count += more.count;
+        summands += more.summands;
     }
 
     /// The mean squared cosine of the angles of incidence on a plane.
@@ -11591,7 +11618,8 @@ struct plane_sums {
         f.centroid = positions.mean();
         if (count < 3) return f;
         const eigen_decomposition e = symmetric_eigen(positions.covariance());
-        if (!(e.values[1] > 1e-12 * e.values[0])) return f;
+        constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
+        if (!(e.values[1] > least_ratio * e.values[0])) return f;
         const Eigen::Vector3d n = column(e.vectors, 2);
         f.plane = {n, dot(n, f.centroid)};
         f.is_determined = true;
@@ -11654,6 +11682,7 @@ class planar_cloud {
 
     scratch<point_noise> noise;
     scratch<Eigen::Vector3d> offsets;  ///< of the points, from the origin [m]
+    scratch<point_index> counts;  ///< of the points that each is the mean of; empty for points
     Eigen::Vector3d origin{0.0, 0.0, 0.0};
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
@@ -11662,7 +11691,7 @@ class planar_cloud {
     [[nodiscard]] Eigen::Vector3d ray(std::size_t i) const {
         return difference(index_[i], index_.viewpoints[i]);
     }
-    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i]); }
+    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]); }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
         return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
@@ -11849,65 +11878,52 @@ class label_groups {
 };
 
 /// Renumbers labels from the most frequent one to the least frequent one, equally frequent ones by
-/// their smallest point index. O(n + largest label + s log s) for s labels. (A template, so that
-/// only its users compile a sort.)
-/// @return the previous numbers, in the new order
-template <class Labels>
-scratch<std::int32_t> number_by_size(Labels& labels) {
+/// their smallest point index; those of fewer than `min_points` points become `unlabeled`.
+/// O(n + largest label + s log s) for s labels. (A template, so that only its users compile a
+/// sort.)
+void number_by_size(auto& labels, std::size_t min_points = 0) {
     struct group {
-        std::size_t size = 0;
-        std::size_t first = 0;  // its smallest point index
+        point_index size = 0;
+        point_index first = 0;  // its smallest point index
     };
     scratch<group> groups;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] < 0) continue;
-        const auto l = static_cast<std::size_t>(labels[i]);
-        if (l >= groups.size()) groups.resize(l + 1);
-        if (groups[l].size++ == 0) groups[l].first = i;
+        if (labels[i] == unlabeled) continue;
+        const auto l = static_cast<point_index>(labels[i]);
+        if (l >= groups.size()) groups.resize(std::max(l + std::size_t{1}, labels.size()));
+        if (groups[l].size++ == 0) groups[l].first = static_cast<point_index>(i);
     }
-    scratch<std::int32_t> order;
+    scratch<point_index> order;
     for (std::size_t l = 0; l < groups.size(); ++l)
-        if (groups[l].size > 0) order.push_back(static_cast<std::int32_t>(l));
-    const auto of = [&groups](std::int32_t l) { return groups[static_cast<std::size_t>(l)]; };
-    std::sort(order.begin(), order.end(), [&of](std::int32_t a, std::int32_t b) {
-        return of(a).size != of(b).size ? of(a).size > of(b).size : of(a).first < of(b).first;
+        if (groups[l].size >= std::max<std::size_t>(min_points, 1))
+            order.push_back(static_cast<point_index>(l));
+    std::sort(order.begin(), order.end(), [&groups](point_index a, point_index b) {
+        return groups[a].size != groups[b].size ? groups[a].size > groups[b].size
+                                                : groups[a].first < groups[b].first;
     });
-    scratch<std::int32_t> number(groups.size(), unlabeled);
-    for (std::size_t s = 0; s < order.size(); ++s)
-        number[static_cast<std::size_t>(order[s])] = static_cast<std::int32_t>(s);
-    for (std::int32_t& label : labels)
-        if (label >= 0) label = number[static_cast<std::size_t>(label)];
-    return order;
+    scratch<std::int32_t> renumbered(groups.size(), unlabeled);
+    for (std::size_t r = 0; r < order.size(); ++r)
+        renumbered[order[r]] = static_cast<std::int32_t>(r);
+    for (auto& l : labels)
+        if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
-/// Labels the sets of a partition that have at least `min_points` members, from the largest to the
-/// smallest, where counts(i) returns whether element i is counted as a member. O(n log n).
+/// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
+/// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
                                                    auto&& counts) {
-    scratch<point_index> count(sets.size(), 0);
-    for (std::size_t i = 0; i < sets.size(); ++i)
-        if (counts(i)) ++count[sets.find(static_cast<point_index>(i))];
-
-    scratch<point_index> roots;
-    for (std::size_t i = 0; i < count.size(); ++i)
-        if (count[i] > 0 && count[i] >= min_points) roots.push_back(static_cast<point_index>(i));
-    std::sort(roots.begin(), roots.end(), [&count](point_index a, point_index b) {
-        return count[a] != count[b] ? count[a] > count[b] : a < b;
-    });
-
-    scratch<std::int32_t> label_of_root(sets.size(), unlabeled);
-    for (std::size_t r = 0; r < roots.size(); ++r)
-        label_of_root[roots[r]] = static_cast<std::int32_t>(r);
-    scratch<std::int32_t> labels(sets.size());
+    scratch<std::int32_t> labels(sets.size(), unlabeled);
     for (std::size_t i = 0; i < labels.size(); ++i)
-        labels[i] = label_of_root[sets.find(static_cast<point_index>(i))];
+        if (counts(i))
+            labels[i] = static_cast<std::int32_t>(sets.find(static_cast<point_index>(i)));
+    number_by_size(labels, min_points);
     return labels;
 }
 
-/// The segments of these sets; see labels_of_sets.
-[[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
+/// The segments of these labels.
+[[nodiscard]] inline segments segments_of(std::span<const std::int32_t> labels) {
     segments result;
-    result.assign(labels_of_sets(sets, min_points, counts));
+    result.assign(labels);
     return result;
 }
 
@@ -11922,50 +11938,56 @@ scratch<std::int32_t> number_by_size(Labels& labels) {
 
 namespace gnomon::detail {
 
-inline constexpr int most_rounds = 6;  // of the competition; chosen
+/// Of the competition: performance only, as later ones change hardly a label.
+inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
 class label_competition {
   public:
-    /// Begins with the labels of the neighbors of a point.
+    /// Begins with the labels of the neighbors of a point, and its own.
     template <class Neighbors>
     void begin(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
-        around_.clear();
+        candidates_.clear();
+        if (own != unlabeled) candidates_.push_back({own, 0.0});
         for (const point_index j : neighbors)
-            if (labels[j] != unlabeled) around_.push_back(labels[j]);
-        if (own != unlabeled) around_.push_back(own);
-        std::sort(around_.begin(), around_.end());
-        own_ = own;
+            if (labels[j] != unlabeled) ++candidate_of(labels[j]).agreeing;
         neighbors_ = static_cast<double>(std::max<std::size_t>(neighbors.size(), 1));
     }
 
-    /// The best label; unlabeled if none is possible.
+    /// The best label, of equal ones the smallest; unlabeled if none is possible.
     /// @param misfit  misfit(label): the square of the deviation of the point, in variances of its
     ///                region; negative if it is impossible
     [[nodiscard]] std::int32_t winner(auto&& misfit) const {
         constexpr double potts = 2.0;  // per share of neighbors with another label; chosen
-        std::int32_t best = unlabeled;
-        double least = 0.0;
-        for (auto first = around_.begin(); first != around_.end();) {
-            const auto last = std::upper_bound(first, around_.end(), *first);
-            const std::int32_t label = *first;
-            const double agree = static_cast<double>(last - first) - (label == own_ ? 1.0 : 0.0);
-            first = last;
-            const double squared = misfit(label);
+        std::pair best(std::numeric_limits<double>::infinity(), unlabeled);
+        for (const candidate& c : candidates_) {
+            const double squared = misfit(c.label);
             if (squared < 0.0) continue;
-            const double cost = 0.5 * squared + potts * (1.0 - agree / neighbors_);
-            if (best == unlabeled || cost < least) {
-                best = label;
-                least = cost;
-            }
+            const double cost = 0.5 * squared + potts * (1.0 - c.agreeing / neighbors_);
+            best = std::min(best, std::pair(cost, c.label));
         }
-        return best;
+        return best.second;
+    }
+
+    /// Calls each(label) for all labels but this one.
+    void for_each_other(std::int32_t label, auto&& each) const {
+        for (const candidate& c : candidates_)
+            if (c.label != label) each(c.label);
     }
 
   private:
-    scratch<std::int32_t> around_;  // sorted
-    std::int32_t own_ = unlabeled;
+    struct candidate {
+        std::int32_t label;
+        double agreeing;  // neighbors
+    };
+
+    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+        const auto found = std::ranges::find(candidates_, label, &candidate::label);
+        return found != candidates_.end() ? *found : candidates_.emplace_back(candidate{label, 0.0});
+    }
+
+    scratch<candidate> candidates_;  // few
     double neighbors_ = 1.0;
 };
 
@@ -11992,37 +12014,74 @@ class label_competition {
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
 
-/// Whether all neighbors have the label of the point itself, as most have: performance only.
-template <class Neighbors>
-[[nodiscard]] bool is_alone(const Neighbors& neighbors, const auto& labels, std::int32_t own) {
-    for (const point_index j : neighbors)
-        if (labels[j] != own) return false;
-    return true;
+/// The points that have a neighbor with another label: only these compete.
+template <neighborhood_graph G, execution X>
+[[nodiscard]] scratch<char> borders_of(const G& graph, const auto& labels, const X& run) {
+    scratch<char> is_border(labels.size(), false);
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        for (std::size_t i = begin; i < end; ++i)
+            is_border[i] = std::ranges::any_of(
+                graph[i], [&](point_index j) { return labels[j] != labels[i]; });
+    });
+    return is_border;
 }
 
-/// The labels of the points of a cloud after one round.
+/// Two regions, the smaller number first.
+using region_pair = std::pair<point_index, point_index>;
+
+/// Sorts pairs, and leaves each once.
+void make_unique(auto& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+/// The labels of a cloud after one round of the competition.
+struct competition_result {
+    scratch<std::int32_t> labels;
+    scratch<region_pair> touching = {};  ///< regions that have neighboring points, each pair once
+};
+
+/// One round. Points that are no border keep their label if they are on the plane.
+/// @param is_border  as borders_of; becomes true where that may have changed
 template <neighborhood_graph G, execution X>
-[[nodiscard]] scratch<std::int32_t> labels_after_competition(const planar_cloud& cloud,
-                                                             const G& graph,
-                                                             const scratch<planar_region>& regions,
-                                                             const auto& labels, const X& run) {
-    scratch<std::int32_t> next(labels.size(), unlabeled);
+[[nodiscard]] competition_result compete(const planar_cloud& cloud, const G& graph,
+                                         const scratch<planar_region>& regions, const auto& labels,
+                                         scratch<char>& is_border, const X& run) {
+    competition_result after{scratch<std::int32_t>(labels.size(), unlabeled)};
+    mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
         label_competition competition;
+        scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
             const auto misfit = [&](std::int32_t label) {
                 return misfit_of(cloud, i, regions[static_cast<std::size_t>(label)]);
             };
-            if (const std::int32_t own = labels[i]; is_alone(graph[i], labels, own)) {
-                if (own != unlabeled && misfit(own) >= 0.0) next[i] = own;
+            std::int32_t& next = after.labels[i];
+            if (is_border[i] == 0) {
+                if (labels[i] != unlabeled && misfit(labels[i]) >= 0.0) next = labels[i];
                 continue;
             }
             competition.begin(graph[i], labels, labels[i]);
-            next[i] = competition.winner(misfit);
+            next = competition.winner(misfit);
+            if (next == unlabeled) continue;
+            competition.for_each_other(next, [&](std::int32_t other) {
+                const region_pair pair = std::minmax(static_cast<point_index>(next),
+                                                     static_cast<point_index>(other));
+                if (touching.empty() || touching.back() != pair) touching.push_back(pair);
+            });
         }
+        make_unique(touching);
+        const guard_of locked(guard);
+        after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
-    return next;
+    make_unique(after.touching);
+    for (std::size_t i = 0; i < labels.size(); ++i) {
+        if (after.labels[i] == labels[i]) continue;
+        is_border[i] = true;
+        for (const point_index j : graph[i]) is_border[j] = true;
+    }
+    return after;
 }
 
 }  // namespace gnomon::detail
@@ -12071,7 +12130,7 @@ struct plane_of_members {
     plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
         region = sums_of(cloud, members, [](point_index) { return true; });
         const std::size_t all = region.sums.count;
-        constexpr int most_passes = 5;
+        constexpr int most_passes = 5;  // performance only
         for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
             const planar_region on =
                 sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
@@ -12081,8 +12140,7 @@ struct plane_of_members {
             if (rests) break;
         }
         is_planar = region.fit.is_determined && region.fit.is_seen &&
-                    region.fit.chi2 <= region_plane::most_excess &&
-                    4 * region.sums.count >= 3 * all;
+                    region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
         is_flat = is_planar && off_it(exact, members) < fewest_off;
     }
 
@@ -12174,9 +12232,9 @@ template <class Cloud>
 ///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
 /// @param noise   of the sensor
-/// @return an estimate for each segment. It is flat if three of four of its points are on the
-///         plane, within three standard deviations, fewer than 30 are farther from it than five,
-///         and the noise explains at least a quarter of the variance
+/// @return an estimate for each segment. It is flat if most of its points are on the plane,
+///         within three standard deviations, fewer than 30 are farther from it than five, and their
+///         variance is at most 2.5 times that of the noise
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -12237,10 +12295,11 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                             "assign_unlabeled: the graph has an index out of range");
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
+    auto is_border = detail::borders_of(graph, parts.labels(), team);
     for (int round = 0; round < detail::most_rounds; ++round) {
         const auto regions = detail::regions_of(cloud, result, team);
-        auto labels =
-            detail::labels_after_competition(cloud, graph, regions, result.labels(), team);
+        const auto labels =
+            detail::compete(cloud, graph, regions, result.labels(), is_border, team).labels;
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
@@ -12264,8 +12323,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
 ///  - whose points are all in one component already, as most are where points are dense.
 ///
 /// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
-/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
-/// box whose diagonal is at most r are one piece as they are.
+/// it: one edge joins two pieces, and no other edge between them need be looked for.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -12323,14 +12381,10 @@ class component_walk {
     }
 
     void join(const subtree& a, const subtree& b) {
+        if (a.last - a.first < b.last - b.first) return join(b, a);
         if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
-        if (a.is_leaf() && b.is_leaf()) {
-            join_leaves(a, b);
-        } else if (a.last - a.first >= b.last - b.first) {
-            for (const subtree& child : a.children()) join(child, b);
-        } else {
-            for (const subtree& child : b.children()) join(a, child);
-        }
+        if (a.is_leaf()) return join_leaves(a, b);
+        for (const subtree& child : a.children()) join(child, b);
     }
 
     /// Whether all points of both are known to be in the same component.
@@ -12342,65 +12396,47 @@ class component_walk {
     /// Finds the pieces of a leaf.
     void join_within_leaf(const subtree& leaf) {
         const lane_set all = lanes_of(leaf);
-        if (tree_.box(leaf).squared_diagonal() <= certain_) {
-            make_piece(leaf, all);
-        } else {
-            lane_set left = all;
-            while (left != 0) {
-                const lane_set before = left;
-                lane_set next = lowest(left);  // points of the piece whose neighbors are unknown
-                left ^= next;
-                while (next != 0 && left != 0) {
-                    const lane_set found = near(point_at(leaf, next), leaf, left);
-                    left ^= found;
-                    next ^= lowest(next) | found;
-                }
-                make_piece(leaf, before ^ left);
+        for (lane_set left = all; left != 0;) {
+            lane_set piece = lowest(left), next = piece;  // points whose neighbors are unknown
+            left ^= piece;
+            while (next != 0 && left != 0) {
+                const lane_set found = near(point_at(leaf, next), leaf, left);
+                next ^= lowest(next) | found;
+                piece |= found;
+                left ^= found;
+            }
+            for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
+                sets_.unite(point_at(leaf, piece), point_at(leaf, rest));
+                piece_[point_at(leaf, rest)] = piece;
             }
         }
         whole_[leaf.node] = piece_[first_of(leaf)] == all;
-    }
-
-    void make_piece(const subtree& leaf, lane_set piece) {
-        const point_index first = point_at(leaf, piece);
-        for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
-            sets_.unite(first, point_at(leaf, rest));
-            piece_[point_at(leaf, rest)] = piece;
-        }
     }
 
     /// Joins the pieces of two leaves.
     void join_leaves(const subtree& a, const subtree& b) {
         lane_set in_a = near(tree_.box(b), a);
         const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
-        while (in_a != 0 && in_b != 0) {
+        while (in_a != 0) {
             lane_set piece = in_a & piece_[point_at(a, in_a)];
             in_a ^= piece;
-            lane_set others = pieces_apart_from(point_at(a, piece), b, in_b);
+            // The points of pieces that are not known to be connected with this one.
+            lane_set others = in_b;
+            const point_index set = sets_.find(point_at(a, piece));
+            for (lane_set left = in_b; left != 0;) {
+                const point_index q = point_at(b, left);
+                left &= ~piece_[q];
+                if (sets_.find(q) == set) others &= ~piece_[q];
+            }
             for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
                 const point_index p = point_at(a, piece);
-                lane_set found = near(p, b, others);
-                while (found != 0) {
+                for (lane_set found = near(p, b, others); found != 0; found &= others) {
                     const point_index q = point_at(b, found);
                     sets_.unite(p, q);
-                    found &= ~piece_[q];
                     others &= ~piece_[q];
                 }
             }
         }
-    }
-
-    /// Those of some points of a leaf whose pieces are not known to be connected with point p.
-    [[nodiscard]] lane_set pieces_apart_from(point_index p, const subtree& leaf, lane_set some) {
-        const point_index set = sets_.find(p);
-        lane_set apart = 0;
-        while (some != 0) {
-            const point_index q = point_at(leaf, some);
-            const lane_set piece = some & piece_[q];
-            some ^= piece;
-            if (sets_.find(q) != set) apart |= piece;
-        }
-        return apart;
     }
 
     /// The points of a leaf that may be within the radius of a box.
@@ -12420,29 +12456,20 @@ class component_walk {
 
     /// Those of some points of a leaf that are within the radius of point p.
     [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
-        const std::size_t first = first_of(leaf);
-        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
-        const pack px(x[p]), py(y[p]), pz(z[p]);
-        std::array<pack, Tree::leaf_size / pack::size> d2;
-        lane_set possible = 0;
+        lane_set within = 0, certain = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
-            const pack dx = pack(x + first + l) - px;
-            const pack dy = pack(y + first + l) - py;
-            const pack dz = pack(z + first + l) - pz;
-            d2[l / pack::size] = dx * dx + dy * dy + dz * dz;
-            possible |= at_most(d2[l / pack::size], possible_) << l;
+            pack d2(0.0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const pack d = pack(tree_.at(a) + first_of(leaf) + l) - tree_.at(a)[p];
+                d2 += d * d;
+            }
+            within |= at_most(d2, possible_) << l;
+            certain |= at_most(d2, certain_) << l;
         }
-        possible &= some;
-        if (possible == 0) return 0;
-        lane_set certain = 0;
-        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size)
-            certain |= at_most(d2[l / pack::size], certain_) << l;
-        certain &= possible;
-        for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
-            if (tree_.squared_distance(p, point_at(leaf, doubt)) <= limit_)
-                certain |= lowest(doubt);
-        }
-        return certain;
+        within &= some;
+        for (lane_set doubt = within & ~certain; doubt != 0; doubt ^= lowest(doubt))
+            if (tree_.squared_distance(p, point_at(leaf, doubt)) > limit_) within ^= lowest(doubt);
+        return within;
     }
 
     [[nodiscard]] static point_index first_of(const subtree& t) {
@@ -12466,19 +12493,19 @@ class component_walk {
     scratch<subtree> parts_;
 };
 
-/// The connected components of the finite points, where points at most `radius` [m] apart are
-/// joined; others stay on their own. Nearly O(n), unless many points
-/// are hardly farther than the radius from many of another component. Precondition: the radius is
-/// not negative.
+/// A label for each point: the connected components of the finite points, where points at most
+/// `radius` [m] apart are joined; others are unlabeled. Nearly O(n), unless many points are hardly
+/// farther than the radius from many of another component. Precondition: the radius is not
+/// negative.
 template <execution X>
-[[nodiscard]] union_find components_within(const leaf_tree& tree, double radius, const X& run) {
+[[nodiscard]] scratch<std::int32_t> components_within(const leaf_tree& tree, double radius,
+                                                      const X& run) {
     union_find places = component_walk(tree, radius)(run);
-    union_find sets(tree.points());
-    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
-    });
-    return sets;
+    scratch<std::int32_t> labels(tree.points(), unlabeled);
+    for (std::size_t p = 0; p < tree.size(); ++p)
+        labels[tree.index()[p]] =
+            static_cast<std::int32_t>(places.find(static_cast<point_index>(p)));
+    return labels;
 }
 
 }  // namespace GNOMON_LANES
@@ -12507,15 +12534,13 @@ class linker {
     /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
     /// q being the neighbor j with its squared distance. Pairs that are joined already are not
     /// tested. Precondition: the points are an index.
-    /// @param among  joins only these points; all, if null
     template <execution X>
-    void link_all(auto&& radius_of, auto&& link, const X& run, const place_set* among = nullptr) {
+    void link_all(auto&& radius_of, auto&& link, const X& run) {
         const leaf_tree& tree = points_.tree();
-        const auto radius_of_place = [&](std::size_t place) {
-            if (among != nullptr && !among->contains(place)) return no_search;
-            return radius_of(tree.index()[place]);
+        const auto make_search = [&] {
+            return leaf_balls(tree,
+                              [&](std::size_t place) { return radius_of(tree.index()[place]); });
         };
-        const auto make_search = [&] { return leaf_balls(tree, radius_of_place, among); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
             const point_index i = tree.index()[place];
             point_index root = sets_.find(i);
@@ -12567,19 +12592,10 @@ class linker {
         });
     }
 
-    /// The smallest point that point i is joined with.
-    [[nodiscard]] point_index root_of(point_index i) { return sets_.find(i); }
-
     /// The labels of the segments of at least `min_points` points.
     [[nodiscard]] scratch<std::int32_t> labels(std::size_t min_points) {
         return labels_of_sets(sets_, min_points,
                               [&](std::size_t i) { return is_finite(points_[i]); });
-    }
-    /// The segments of at least `min_points` points.
-    [[nodiscard]] segments result(std::size_t min_points) {
-        segments found;
-        found.assign(labels(min_points));
-        return found;
     }
 
   private:
@@ -12628,11 +12644,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
         detail::linker linker(index);
         linker.link_greedily([&](std::size_t) { return options.radius; },
                              [](std::size_t, const neighbor&) { return true; });
-        return linker.result(options.min_points);
+        return detail::segments_of(linker.labels(options.min_points));
     }
-    detail::union_find sets = detail::components_within(index.tree(), options.radius, team);
-    return detail::segments_of(sets, options.min_points,
-                               [&index](std::size_t i) { return index.is_finite(i); });
+    auto labels = detail::components_within(index.tree(), options.radius, team);
+    detail::number_by_size(labels, options.min_points);
+    return detail::segments_of(labels);
 }
 
 }  // namespace gnomon
@@ -12644,49 +12660,40 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 namespace gnomon::detail {
 
-/// Counts the finite points whose height is at least `from`, in bins of `bin` metres, one of them
-/// about the plane itself. Keeps only bins that hold a point: an outlier at a distance of
-/// kilometers costs no memory. O(n log n).
-class height_histogram {
-  public:
+/// The bins of a histogram of heights.
+struct height_histogram {
     struct bin {
         double height;  ///< in its middle [m]
         std::size_t count;
     };
+    scratch<bin> bins;       ///< from the lowest up; only those that hold a point
+    std::size_t points = 0;  ///< all finite ones, however low
 
-    template <class Points>
-    height_histogram(const Points& points, const plane& ground, double width,
+    /// Counts the finite points whose height is at least `from`, in bins of `width` metres, one of
+    /// them about the plane itself. An outlier at a distance of kilometers costs no memory.
+    /// O(n log n).
+    height_histogram(const auto& positions, const plane& ground, double width,
                      double from = -std::numeric_limits<double>::infinity()) {
         scratch<double> numbers;
-        numbers.reserve(points.size());
-        for (std::size_t i = 0; i < points.size(); ++i) {
-            if (!is_finite(points[i])) continue;
-            ++points_;
-            const double height = ground.signed_distance(points[i]);
+        numbers.reserve(positions.size());
+        for (std::size_t i = 0; i < positions.size(); ++i) {
+            if (!is_finite(positions[i])) continue;
+            ++points;
+            const double height = ground.signed_distance(positions[i]);
             if (height >= from) numbers.push_back(std::round(height / width));
         }
         std::sort(numbers.begin(), numbers.end());
         for (auto first = numbers.begin(); first != numbers.end();) {
             const auto last = std::upper_bound(first, numbers.end(), *first);
-            bins_.push_back({width * *first, static_cast<std::size_t>(last - first)});
+            bins.push_back({width * *first, static_cast<std::size_t>(last - first)});
             first = last;
         }
     }
-
-    /// From the lowest up; empty if no point is high enough.
-    [[nodiscard]] const scratch<bin>& bins() const { return bins_; }
-    /// All finite points, however low.
-    [[nodiscard]] std::size_t points() const { return points_; }
-
-  private:
-    std::size_t points_ = 0;
-    scratch<bin> bins_;
 };
 
 /// The lowest bin of those that hold most. Precondition: there are bins.
-[[nodiscard]] const height_histogram::bin& fullest(const auto& histogram) {
-    return *std::max_element(histogram.bins().begin(), histogram.bins().end(),
-                             [](const auto& a, const auto& b) { return a.count < b.count; });
+[[nodiscard]] const auto& fullest(const auto& histogram) {
+    return *std::ranges::max_element(histogram.bins, {}, &height_histogram::bin::count);
 }
 
 }  // namespace gnomon::detail
@@ -12694,8 +12701,9 @@ class height_histogram {
 // -------- gnomon/segmentation/detail/floor_search.hpp --------------------------------------------
 
 /// @file
-/// Fits a plane to the floor, and examines whether it is one, by a grid in plan: which cells hold
-/// points of the plane, and above which of them something stands.
+/// Finds heights at which many points lie, fits a plane to a floor there, and examines whether it
+/// is one, by a grid in plan: which cells hold points of it, and above which of them something
+/// stands.
 
 namespace gnomon::detail {
 
@@ -12707,24 +12715,6 @@ struct floor_fit {
     std::size_t count;         ///< of points
     double band;               ///< half the height of the band about the plane [m]
 };
-
-/// @param m      moments about `origin`
-/// @param about  a plane whose normal is on the same side
-/// @return nothing where the points do not determine a plane
-[[nodiscard]] inline std::optional<floor_fit> floor_fit_of(const moments& m,
-                                                           const Eigen::Vector3d& origin,
-                                                           const plane& about) {
-    if (m.count < 3) return std::nullopt;
-    constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
-    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
-    if (!(e.values[1] > least_ratio * e.values[0])) return std::nullopt;
-    floor_fit fit{{column(e.vectors, 2), 0.0}, origin, e, m.count, 0.0};
-    if (dot(fit.plane.normal, about.normal) < 0.0)
-        fit.plane.normal = scaled(-1.0, fit.plane.normal);
-    for (int a = 0; a < 3; ++a) fit.centroid[a] += m.sum[a] / static_cast<double>(m.count);
-    fit.plane.offset = dot(fit.plane.normal, fit.centroid);
-    return fit;
-}
 
 /// The search for a floor among the points of a position_view.
 template <class Points>
@@ -12742,13 +12732,11 @@ class floor_search {
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
         constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
-        if (heights.bins().empty()) return std::nullopt;
-        const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
-        for (const auto& [height, count] : heights.bins()) {
-            if (2 * lower > heights.points()) break;  // what is higher is above most points
+        for (const auto& [height, count] : heights.bins) {
+            if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (fewer * count < most) continue;
+            if (fewer * count < fullest(heights).count) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -12762,8 +12750,7 @@ class floor_search {
         const auto clear = fitted(means_, fit->plane, fit->band);
         if (!clear || !is_wide(*clear)) return std::nullopt;
         const auto floor = settled(means_, clear->plane, fit->band);
-        if (!floor) return std::nullopt;
-        return floor->plane;
+        return floor ? std::optional(floor->plane) : std::nullopt;
     }
 
     /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
@@ -12771,11 +12758,6 @@ class floor_search {
     struct cell {
         std::uint32_t in_band = 0, above = 0, below = 0;
         Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
-
-        /// Noise is as often above as below: if more are above, something stands there.
-        [[nodiscard]] bool is_clear() const {
-            return in_band > 0 && above <= below + few * in_band;
-        }
     };
 
     static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
@@ -12790,8 +12772,7 @@ class floor_search {
                                                    double band) {
         constexpr int most_refits = 50;     // performance only: a handful is enough
         constexpr double converged = 1e-6;  // [m], and of unit vectors; numerical
-        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
-        constexpr double narrowest = 0.1;   // of the widest band; chosen
+        constexpr double narrowest = certain_deviations * flatness;  // [m]: no floor is flatter
         std::optional<floor_fit> fit;
         plane floor = guess;
         for (int refit = 0; refit < most_refits; ++refit) {
@@ -12801,18 +12782,20 @@ class floor_search {
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(deviations * 1.4826 * *median, narrowest * widest_, widest_);
+            fit->band = std::clamp(most_deviations * 1.4826 * *median,
+                                   std::min(narrowest, widest_), widest_);
             const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
                                std::abs(floor.signed_distance(fit->centroid)) < converged &&
                                std::abs(fit->band - band) < converged;
+            if (rests) break;
             floor = fit->plane;
             band = fit->band;
-            if (rests) break;
         }
         return fit;
     }
 
-    /// The plane through the points in a band about another one, and their distances from that.
+    /// The plane through the points in a band about another one, on the same side, and their
+    /// distances from that; nothing where they do not determine a plane.
     [[nodiscard]] std::optional<floor_fit> fitted(const auto& points, const plane& about,
                                                   double band) {
         // Moments about a point of the band, so that nothing is lost far from the origin.
@@ -12827,7 +12810,15 @@ class floor_search {
             m.add(difference(p, origin));
             distances_.push_back(d);
         }
-        return floor_fit_of(m, origin, about);
+        if (m.count < 3) return std::nullopt;
+        floor_fit fit{about, combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum),
+                      symmetric_eigen(m.covariance_of_neighbors()), m.count, band};
+        constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
+        if (!(fit.axes.values[1] > least_ratio * fit.axes.values[0])) return std::nullopt;
+        const Eigen::Vector3d normal = column(fit.axes.vectors, 2);
+        fit.plane.normal = scaled(dot(normal, about.normal) < 0.0 ? -1.0 : 1.0, normal);
+        fit.plane.offset = dot(fit.plane.normal, fit.centroid);
+        return fit;
     }
 
     /// Whether the level band about a guess does not contain a plane over the least width of a
@@ -12840,42 +12831,40 @@ class floor_search {
 
     /// Whether at most half of the view points, where they are known, are under the plane.
     [[nodiscard]] bool is_below_sensor(const plane& floor) const {
+        const auto is_under = [&](const auto& v) { return floor.signed_distance(v) < 0.0; };
         const auto& positions = seen_from_.positions();
-        const auto under =
-            std::count_if(positions.begin(), positions.end(),
-                          [&](const Eigen::Vector3d& v) { return floor.signed_distance(v) < 0.0; });
-        return 2 * under <= std::ssize(positions);
+        return 2 * std::ranges::count_if(positions, is_under) <= std::ssize(positions);
     }
 
     /// Lists the means of the points of clear cells, which count alike although most points are
     /// near the sensor. Whether hardly a point is below the plane.
     [[nodiscard]] bool examine(const floor_fit& fit) {
-        std::size_t in_band = 0, below = 0;
+        double in_band = 0.0, below = 0.0;
         cells_.assign(std::bit_ceil(fit.count), {});
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
             if (!all_finite(p) || d > bands * fit.band) continue;
             if (d < -bands * fit.band) {
-                ++below;
+                below += 1.0;
                 continue;
             }
             const Eigen::Vector3d from_centroid = difference(p, fit.centroid);
             cell& c = cells_[cell_of(fit, from_centroid)];
-            if (d > fit.band) {
-                ++c.above;
-            } else if (d < -fit.band) {
-                ++c.below;
+            if (std::abs(d) > fit.band) {
+                ++(d > 0.0 ? c.above : c.below);
             } else {
                 ++c.in_band;
-                ++in_band;
+                in_band += 1.0;
                 c.sum = combined(1.0, c.sum, 1.0, from_centroid);
             }
         }
         means_.clear();
+        // Noise is as often above as below: if more are above, something stands there.
         for (const cell& c : cells_)
-            if (c.is_clear()) means_.push_back(combined(1.0, fit.centroid, 1.0 / c.in_band, c.sum));
-        return static_cast<double>(below) <= few * static_cast<double>(in_band);
+            if (c.in_band > 0 && c.above <= c.below + few * c.in_band)
+                means_.push_back(combined(1.0, fit.centroid, 1.0 / c.in_band, c.sum));
+        return below <= few * in_band;
     }
 
     /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
@@ -12891,8 +12880,7 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         std::uint64_t hash = 0;
         for (int a = 0; a < 2; ++a) {
-            // numerical: up to here whole numbers are exact; farther outliers share cells.
-            constexpr double exact = 1e15;
+            constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
             const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
             const double number = std::floor(std::clamp(sides, -exact, exact));
             // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
@@ -12905,8 +12893,7 @@ class floor_search {
 
     const Points& points_;
     const viewpoint_table& seen_from_;
-    double widest_;
-    double min_width_;
+    double widest_, min_width_;  // [m]
     scratch<double> distances_;
     scratch<cell> cells_;
     scratch<Eigen::Vector3d> means_;
@@ -12939,8 +12926,8 @@ struct find_ceiling_options {
 
 /// Which heights above the floor to leave out.
 struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]; chosen
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; chosen
+    double floor = 0.05;    ///< up to this height [m]; rho_o
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
 };
 
 /// A rigid motion after which the floor is the plane z = 0.
@@ -12949,22 +12936,41 @@ struct leveling {
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        Eigen::Vector3d q(0.0, 0.0, lift);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
+        Eigen::Vector3d q = detail::product(rotation, p);
+        q[2] += lift;
         return q;
     }
 
     /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
-    [[nodiscard]] static leveling of(const plane& floor);
+    [[nodiscard]] static leveling of(const plane& floor) {
+        const Eigen::Vector3d& n = floor.normal;
+        leveling level;
+        level.lift = -floor.offset;
+        Eigen::Matrix3d& r = level.rotation;
+        // 1 + n_z, without cancellation where the scan is nearly upside down.
+        const double across = n[0] * n[0] + n[1] * n[1];
+        const double h = n[2] >= 0.0 ? 1.0 + n[2] : across / (1.0 - n[2]);
+        if (!(h > 0.0)) {  // upside down: half a turn about x
+            r(1, 1) = r(2, 2) = -1.0;
+            return level;
+        }
+        // Rodrigues' formula for the rotation about n x z.
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) r(i, j) -= n[i] * n[j] / h;
+            r(i, 2) = -n[i];
+            r(2, i) = n[i];
+        }
+        r(2, 2) = n[2];
+        return level;
+    }
 };
 
 namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    constexpr double tolerance = 1e-6;  // of unit vectors; numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < tolerance && std::isfinite(p.offset),
+    constexpr double rounding = 1e-6;  // numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
@@ -13021,49 +13027,21 @@ template <class R, class Proj = std::identity>
     detail::require_valid(search);
     detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
-    const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
-    if (histogram.bins().empty()) return std::nullopt;
-    const auto [peak, count] = detail::fullest(histogram);
-    if (static_cast<double>(count) < search.min_share * static_cast<double>(histogram.points())) {
+    const detail::height_histogram heights(p, floor, search.bin, search.min_height);
+    if (heights.bins.empty()) return std::nullopt;
+    const auto [peak, count] = detail::fullest(heights);
+    if (static_cast<double>(count) < search.min_share * static_cast<double>(heights.points))
         return std::nullopt;
-    }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
-    constexpr double half_width = 1.5;  // of three bins (formula)
-    double sum = 0.0;
-    std::size_t near = 0;
+    constexpr double half_width = 1.5;  // bins: half of three (formula)
+    double sum = 0.0, near = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (std::abs(height - peak) > half_width * search.bin) continue;
+        if (!(std::abs(height - peak) <= half_width * search.bin)) continue;
         sum += height;
-        ++near;
+        near += 1.0;
     }
-    if (near == 0) return std::nullopt;
-    return sum / static_cast<double>(near);
-}
-
-inline leveling leveling::of(const plane& floor) {
-    const Eigen::Vector3d& n = floor.normal;
-    leveling level;
-    level.lift = -floor.offset;
-    // 1 + n_z, without cancellation where the scan is nearly upside down.
-    const double across = n.x() * n.x() + n.y() * n.y();
-    const double h = n.z() >= 0.0 ? 1.0 + n.z() : across / (1.0 - n.z());
-    if (h > 0.0) {
-        // Rodrigues' formula for the rotation about n x z, row by row. (Not by Eigen's commas,
-        // which take compilers long.)
-        const double rows[3][3] = {{1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x()},
-                                   {-n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y()},
-                                   {n.x(), n.y(), n.z()}};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) level.rotation(i, j) = rows[i][j];
-        }
-    } else {
-        // Upside down: half a turn about x.
-        level.rotation(1, 1) = -1.0;
-        level.rotation(2, 2) = -1.0;
-    }
-    return level;
+    return sum / near;
 }
 
 namespace detail {
@@ -13126,7 +13104,7 @@ concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) 
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
 struct two_thresholds {
-    double radius = 0.05;          ///< r [m]; chosen, as Fig. 4.2 has no value
+    double radius;                 ///< r [m]: a few times the distance between neighbors
     angle max_angle = degrees(5);  ///< alpha_max, Sec. 4.4.1
 
     /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
@@ -13194,7 +13172,7 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     } else {
         linker.link_all(radius_of, similar, team);
     }
-    return linker.result(options.min_points);
+    return detail::segments_of(linker.labels(options.min_points));
 }
 
 }  // namespace gnomon
@@ -13212,32 +13190,28 @@ namespace gnomon::detail {
 template <neighborhood_graph G, normal_range S>
 class plane_growth {
   public:
-    /// @param labels  those of the regions; grown ones are added
+    /// @param min_cosine  of the angle between normals of points and planes
+    /// @param labels      those of the regions; grown ones are added
     plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
-                 std::size_t min_points, scratch<std::int32_t>& labels)
+                 std::size_t min_points, double min_cosine, scratch<std::int32_t>& labels)
         : cloud_(cloud),
           graph_(graph),
           surface_(surface),
           min_points_(min_points),
+          min_cosine_(min_cosine),
           labels_(labels),
-          visit_(cloud.size(), 0) {}
+          visit_(cloud.size(), no_seed) {}
 
-    /// Grows regions of unlabeled points.
-    /// @param min_cosine  of the angle between normals of points and planes
-    /// @param next        the label of the first new region
+    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// @param next  the label of the first new region
     template <execution X>
-    void operator()(double min_cosine, std::int32_t next, const X& run) {
-        min_cosine_ = min_cosine;
-        scratch<char> was_tried(cloud_.size(), false);
+    void operator()(std::int32_t next, const X& run) {
         for (const point_index seed : flattest_first(run)) {
-            if (was_tried[seed] != 0 || !is_free(seed)) continue;
-            const plane_sums sums = grown_from(seed);
-            if (sums.count >= min_points_) {
-                for (const point_index i : members_) labels_[i] = next;
-                ++next;
-            } else {
-                for (const point_index i : members_) was_tried[i] = true;
-            }
+            if (visit_[seed] != no_seed || !is_free(seed)) continue;
+            grow_from(seed);
+            if (members_.size() < min_points_) continue;
+            for (const point_index i : members_) labels_[i] = next;
+            ++next;
         }
     }
 
@@ -13280,47 +13254,31 @@ class plane_growth {
         return (sum / count - mean * mean) / (dev * dev);
     }
 
-    /// Sets members_ to the region of a seed: grown while its plane becomes more accurate, then
-    /// twice again with the final plane, which corrects the decisions of early planes.
-    plane_sums grown_from(point_index seed) {
-        constexpr int passes = 3;
-        region_plane to = start_at(seed);
+    /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
+    /// has doubled; then it grows on, as far as it is rougher than the noise.
+    void grow_from(point_index seed) {
+        region_plane to;
+        to.plane = plane_about(seed);
         plane_sums sums;
-        members_.clear();
-        if (!fits(seed, to)) return sums;
-        members_.push_back(seed);
-        for (int pass = 0; pass < passes; ++pass) {
-            if (pass > 0) std::erase_if(members_, [&](point_index i) { return !fits(i, to); });
-            sums = spread(to, pass == 0);
-            const region_plane next = sums.fit();
-            if (!next.is_determined) return sums;
-            to = next;
-        }
-        return sums;
-    }
-
-    /// Adds to members_ what fits a plane and is connected with them.
-    /// @param follows  whether the plane is fit again each time that their number has doubled
-    plane_sums spread(region_plane& to, bool follows) {
-        ++stamp_;
-        for (const point_index i : members_) visit_[i] = stamp_;
-        plane_sums sums;
-        std::size_t refit_at = follows ? 8 : std::numeric_limits<std::size_t>::max();
-        for (std::size_t next = 0; next < members_.size(); ++next) {
-            const point_index i = members_[next];
-            cloud_.add(i, sums);
-            for (const point_index j : graph_[i]) {
-                if (visit_[j] == stamp_ || !fits(j, to)) continue;
-                visit_[j] = stamp_;
-                members_.push_back(j);
+        members_.assign(1, seed);
+        visit_[seed] = seed;
+        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
+        std::size_t refit_at = first_refit;
+        for (const bool is_rough : {false, true}) {
+            for (std::size_t next = 0; next < members_.size(); ++next) {
+                const point_index i = members_[next];
+                if (next >= sums.summands) cloud_.add(i, sums);
+                for (const point_index j : graph_[i]) {
+                    if (visit_[j] == seed || !fits(j, to)) continue;
+                    visit_[j] = seed;
+                    members_.push_back(j);
+                }
+                if (is_rough || sums.summands < refit_at) continue;
+                if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
+                refit_at *= 2;
             }
-            if (sums.count < refit_at) continue;
-            const double excess = to.chi2;
             if (const region_plane f = sums.fit(); f.is_determined) to = f;
-            to.chi2 = excess;  // that of a part is of little precision
-            refit_at *= 2;
         }
-        return sums;
     }
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
@@ -13329,7 +13287,7 @@ class plane_growth {
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.
-    [[nodiscard]] region_plane start_at(point_index seed) const {
+    [[nodiscard]] plane plane_about(point_index seed) const {
         const Eigen::Vector3d n = normal(seed);
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
@@ -13338,19 +13296,18 @@ class plane_growth {
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }
-        region_plane start;
-        start.plane = {n, dot(n, sum) / count};
-        return start;
+        return {n, dot(n, sum) / count};
     }
+
+    static constexpr point_index no_seed = std::numeric_limits<point_index>::max();
 
     const planar_cloud& cloud_;
     const G& graph_;
     const S& surface_;
     std::size_t min_points_;
+    double min_cosine_;
     scratch<std::int32_t>& labels_;
-    double min_cosine_ = 1.0;
-    scratch<std::size_t> visit_;  // by which spreading
-    std::size_t stamp_ = 0;
+    scratch<point_index> visit_;  // the seed of the last region that a point was in
     scratch<point_index> members_;
 };
 
@@ -13372,14 +13329,13 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the deviations of either from the common plane are at most half as large
-/// again as those from their own.
+/// if they may be one: the variance of either about the common plane is at most 2.5 times that about
+/// their own.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
-    constexpr double tolerated = 1.5 * 1.5;  // chosen
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
-    return worst / (tolerated * std::max(a.fit.excess(), b.fit.excess()));
+    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
 
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
@@ -13387,8 +13343,8 @@ namespace gnomon::detail {
 /// own must be nearly parallel to that of both.
 [[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
-    // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(degrees(15));
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    const double nearly = min_cosine(max_angle);
     const region_plane both = plane_of_both(a, b);
     const auto statistic = [&](const auto& r) {
         const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
@@ -13411,14 +13367,6 @@ namespace gnomon::detail {
 /// become one (after Feng et al. 2014).
 
 namespace gnomon::detail {
-
-using region_pair = std::pair<point_index, point_index>;
-
-/// Sorts pairs, and leaves each once.
-void make_unique(auto& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
-}
 
 /// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
 /// they have become is still alike.
@@ -13534,50 +13482,54 @@ class plane_regions {
         }
     }
 
-    /// Grows new regions in what is unlabeled.
+    /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
+    /// goes to the region, among those of its neighbors and its own, that explains it best, or to
+    /// none if all are too far; and regions next to each other that one plane explains are merged.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
-        plane_growth grow(cloud_, graph_, surface, min_points_, labels_);
-        grow(min_cosine, static_cast<std::int32_t>(regions_.size()), run);
+        plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
+            static_cast<std::int32_t>(regions_.size()), run);
         refit();
+        scratch<char> is_border = borders_of(graph_, labels_, run);
+        merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
+        for (int round = 0; round < most_rounds; ++round) {
+            competition_result after =
+                compete(cloud_, graph_, regions_, labels_, is_border, run);
+            const bool rests = labels_ == after.labels;
+            labels_.swap(after.labels);
+            refit();
+            if (!merge(std::move(after.touching)) && rests) break;
+        }
+        compact();
     }
 
-    /// Merges regions next to each other that one plane explains.
-    void merge_neighbors() {
+  private:
+    /// Merges regions that one plane explains.
+    /// @param pairs  those next to each other
+    /// @return whether there were any
+    bool merge(scratch<region_pair> pairs) {
+        std::erase_if(pairs, [this](const region_pair& p) {
+            return is_empty(p.first) || is_empty(p.second);
+        });
         union_find sets = agglomeration(regions_)(
-            touching(),
+            std::move(pairs),
             [](const planar_region& a, const planar_region& b) {
                 return unlikeness_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; }, [](point_index, point_index) {});
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled)
-                label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-        refit();
+        bool any = false;
+        for (std::size_t r = 0; r < regions_.size(); ++r) {
+            if (sets.find(static_cast<point_index>(r)) == r) continue;
+            regions_[r] = {};
+            any = true;
+        }
+        relabel([&](std::int32_t label) {
+            return static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
+        });
+        return any;
     }
 
-    /// Each point goes to the region, among those of its neighbors and its own, that explains it
-    /// best; to none if all are too far. Planes are fit again.
-    /// @return whether a label has changed
-    template <execution X>
-    bool compete(const X& run) {
-        scratch<std::int32_t> next =
-            labels_after_competition(cloud_, graph_, regions_, labels_, run);
-        const bool has_changed = next != labels_;
-        labels_.swap(next);
-        refit();
-        return has_changed;
-    }
-
-    /// Rounds of competition and merging, until nothing changes.
-    template <execution X>
-    void settle(const X& run) {
-        merge_neighbors();
-        for (int round = 0; round < most_rounds && compete(run); ++round) merge_neighbors();
-    }
-
-  private:
-    /// Sums and planes of the labels; regions that are too small, or no planes, are none.
+    /// Sums and planes of the labels; regions that are too small, or no planes, become empty.
     void refit() {
         std::int32_t most = unlabeled;
         for (const std::int32_t label : labels_) most = std::max(most, label);
@@ -13585,40 +13537,35 @@ class plane_regions {
         for (std::size_t i = 0; i < labels_.size(); ++i)
             if (labels_[i] != unlabeled)
                 cloud_.add(i, regions_[static_cast<std::size_t>(labels_[i])].sums);
+        for (planar_region& r : regions_) {
+            r.fit = r.sums.fit();
+            if (r.sums.summands < min_points_ || !r.fit.is_determined) r = {};
+        }
+        relabel([this](std::int32_t label) {
+            return is_empty(static_cast<std::size_t>(label)) ? unlabeled : label;
+        });
+    }
+
+    /// Numbers the regions again, without the empty ones.
+    void compact() {
         scratch<std::int32_t> number(regions_.size(), unlabeled);
         std::size_t kept = 0;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
-            regions_[r].fit = regions_[r].sums.fit();
-            if (regions_[r].sums.count < min_points_ || !regions_[r].fit.is_determined) continue;
+            if (is_empty(r)) continue;
             number[r] = static_cast<std::int32_t>(kept);
             regions_[kept++] = regions_[r];
         }
         regions_.resize(kept);
-        for (std::int32_t& label : labels_)
-            if (label != unlabeled) label = number[static_cast<std::size_t>(label)];
+        relabel([&](std::int32_t label) { return number[static_cast<std::size_t>(label)]; });
     }
 
-    /// Pairs of regions with at least five pairs of neighboring points.
-    [[nodiscard]] scratch<region_pair> touching() const {
-        constexpr std::ptrdiff_t fewest = 5;  // chosen
-        scratch<region_pair> links;
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] == unlabeled) continue;
-            for (const point_index j : graph_[i]) {
-                if (labels_[j] == unlabeled || labels_[j] == labels_[i]) continue;
-                const auto pair = std::minmax(labels_[i], labels_[j]);
-                links.emplace_back(static_cast<point_index>(pair.first),
-                                   static_cast<point_index>(pair.second));
-            }
-        }
-        std::sort(links.begin(), links.end());
-        scratch<region_pair> pairs;
-        for (auto first = links.begin(); first != links.end();) {
-            const auto last = std::upper_bound(first, links.end(), *first);
-            if (last - first >= fewest) pairs.push_back(*first);
-            first = last;
-        }
-        return pairs;
+    [[nodiscard]] bool is_empty(std::size_t region) const {
+        return regions_[region].sums.count == 0;
+    }
+
+    void relabel(auto&& number_of) {
+        for (std::int32_t& label : labels_)
+            if (label != unlabeled) label = number_of(label);
     }
 
     const planar_cloud& cloud_;
@@ -13644,7 +13591,7 @@ class plane_regions {
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, by a wider angle. All lengths are multiples of the noise,
+/// All three once more in what is left, whatever the normals, which edges and noise blend. All lengths are multiples of the noise,
 /// so that no distance need be set.
 
 namespace gnomon {
@@ -13652,7 +13599,7 @@ namespace gnomon {
 /// Parameters of `segment_planes`.
 struct segment_planes_options {
     noise_curve noise = constant_noise{};  ///< along the rays
-    angle max_angle = degrees(15);         ///< between a point's normal and its plane's, to grow
+    angle max_angle = degrees(15);         ///< rho_a, between a point's normal and its plane's
     std::size_t min_points = 30;           ///< n_min, smaller segments are noise
 };
 
@@ -13668,12 +13615,9 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    constexpr angle wider = degrees(35);  // chosen: where the noise blends normals
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
     regions.grow(surface, min_cosine(max_angle), run);
-    regions.settle(run);
-    regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);
-    regions.settle(run);
+    regions.grow(surface, 0.0, run);
     return regions;
 }
 
@@ -13843,7 +13787,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
     detail::linker linker(p);
     linker.link_listed(
         graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
-    return linker.result(options.min_points);
+    return detail::segments_of(linker.labels(options.min_points));
 }
 
 }  // namespace gnomon
@@ -13919,57 +13863,18 @@ template <class Points>
     for (const point_index i : some) {
         require(i < points.size(), "boundary_pairs: an index is out of range");
         const neighbor candidate{squared_distance(points[i], place), i};
-        if (nearest.size() == count && !(candidate < nearest.back())) continue;
-        if (!is_finite(points[i])) continue;
-        if (nearest.size() < count) nearest.emplace_back();
-        auto slot = nearest.end() - 1;
-        for (; slot != nearest.begin() && candidate < slot[-1]; --slot) *slot = slot[-1];
-        *slot = candidate;
+        const bool is_full = nearest.size() == count;
+        if ((is_full && !(candidate < nearest.back())) || !is_finite(points[i])) continue;
+        if (is_full) nearest.pop_back();
+        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), candidate), candidate);
     }
     return nearest;
 }
 
-/// For each of some points, the one of others that is nearest; of finite ones only. In one pass
-/// over these, as they may be many. Precondition: there is a finite one.
-template <class Points>
-[[nodiscard]] scratch<neighbor> nearest_to_each(const Points& points,
-                                                std::span<const neighbor> some,
-                                                std::span<const point_index> others) {
-    scratch<Eigen::Vector3d> places;
-    for (const neighbor& p : some) places.push_back(points[p.index]);
-    constexpr neighbor none{std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<point_index>::max()};
-    scratch<neighbor> nearest(some.size(), none);
-    for (const point_index i : others) {
-        const Eigen::Vector3d other = points[i];
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const neighbor candidate{squared_distance(other, places[k]), i};
-            if (candidate < nearest[k] && is_finite(other)) nearest[k] = candidate;
-        }
-    }
-    return nearest;
-}
-
-/// Appends the boundary pairs of two segments to `found`; see boundary_pairs.
-template <class Points>
-void append_boundary_pairs(auto& found, const Points& points, std::span<const point_index> first,
-                           std::span<const point_index> second,
-                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids,
-                           std::size_t pairs) {
-    const auto near_second = nearest_of(points, first, centroids.second, pairs / 2);
-    const auto near_first = nearest_of(points, second, centroids.first, pairs / 2);
-    if (near_second.empty() || near_first.empty()) return;
-    const auto across = nearest_to_each(points, near_second, second);
-    for (std::size_t k = 0; k < across.size(); ++k)
-        found.push_back(
-            {near_second[k].index, across[k].index, std::sqrt(across[k].squared_distance)});
-    const auto back = nearest_to_each(points, near_first, first);
-    for (std::size_t k = 0; k < back.size(); ++k)
-        found.push_back({back[k].index, near_first[k].index, std::sqrt(back[k].squared_distance)});
-}
-
-/// The boundary pairs of two segments of some points: half of them from each side.
+/// Appends the boundary pairs of two segments of some points to `found`: half of them from each
+/// side.
 ///
+/// @param found      a container of `boundary_pair`
 /// @param points     a position_view of the cloud
 /// @param first      indices of the points of one segment
 /// @param second     of the other
@@ -13979,12 +13884,16 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 /// @throws std::invalid_argument  for an index out of range
 /// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
-[[nodiscard]] std::vector<boundary_pair> boundary_pairs(
-    const Points& points, std::span<const point_index> first, std::span<const point_index> second,
-    const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
-    std::vector<boundary_pair> found;
-    append_boundary_pairs(found, points, first, second, centroids, pairs);
-    return found;
+void append_boundary_pairs(auto& found, const Points& points, std::span<const point_index> first,
+                           std::span<const point_index> second,
+                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids,
+                           std::size_t pairs = 6) {
+    for (const neighbor& p : nearest_of(points, first, centroids.second, pairs / 2))
+        for (const neighbor& q : nearest_of(points, second, points[p.index], 1))
+            found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
+    for (const neighbor& q : nearest_of(points, second, centroids.first, pairs / 2))
+        for (const neighbor& p : nearest_of(points, first, points[q.index], 1))
+            found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
 }
 
 /// rho_c, the least distance of the pairs [m], Eq. (4.7); infinite if there are none.
@@ -13996,416 +13905,6 @@ template <class Points>
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
-
-/// @file
-/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
-/// the last bit; its time would exceed that of all other steps of projecting a point to a range
-/// image.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
-/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
-/// both below 1e-300. Precondition: x and y are finite.
-template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
-                                                            const pack_of<N>& x) {
-    const pack_of<N> across = magnitude(x), up = magnitude(y);
-    const pack_of<N> more = where_at_least(across, up, across, up);
-    const pack_of<N> q = where_at_least(across, up, up, across) /
-                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
-    const pack_of<N> q2 = q * q;
-    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
-    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
-    constexpr double terms[] = {
-        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
-        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
-        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
-        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
-    pack_of<N> angle = 0.0;
-    for (const double term : terms) angle = angle * q2 + term;
-    angle = angle * q;
-    angle = where_at_least(across, up, angle, 0.5 - angle);
-    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
-    return where_at_least(y, 0.0, angle, -angle);
-}
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
-
-/// @file
-/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
-/// Eq. 2.1, with any pole).
-
-namespace gnomon::detail {
-
-/// Column and row of a pixel.
-struct image_cell {
-    std::size_t azimuth, elevation;
-
-    friend bool operator==(const image_cell&, const image_cell&) = default;
-};
-
-/// The axes of a range image, of unit length and orthogonal; z is the pole.
-struct image_axes {
-    Eigen::Vector3d x, y, z;
-
-    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
-    /// pole, from the y-axis.
-    /// @throws std::invalid_argument  if the pole is not finite or has no length
-    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
-        require(all_finite(pole) && has_direction,
-                "range_image: the pole must be a finite direction");
-        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
-        image_axes axes;
-        axes.z = direction_of(pole);
-        const Eigen::Vector3d start =
-            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
-        const Eigen::Vector3d y = cross(axes.z, start);
-        const double across = std::sqrt(dot(y, y));
-        axes.y = Eigen::Vector3d(y[0] / across, y[1] / across, y[2] / across);
-        axes.x = cross(axes.y, axes.z);
-        return axes;
-    }
-
-    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
-    template <std::size_t N>
-    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
-                                                          std::size_t width,
-                                                          std::size_t height) const {
-        using numbers = pack_of<N>;
-        const auto along = [&to](const Eigen::Vector3d& axis) {
-            std::array<double, N> a;
-            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
-            return numbers(a.data());
-        };
-        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
-        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
-        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
-        std::array<image_cell, N> at;
-        for (std::size_t l = 0; l < N; ++l) {
-            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
-                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
-                              height - 1)};
-        }
-        return at;
-    }
-};
-
-/// The axis along which directions vary least; z if there are none.
-/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
-[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
-    Eigen::Matrix3d sum = diagonal(0.0, 0.0, 0.0);
-    for (const auto& s : samples) {
-        const Eigen::Vector3d& d = offset_of(s);
-        const double weight = 1.0 / dot(d, d);
-        for (int r = 0; r < 3; ++r)
-            for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
-    }
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
-    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
-    sum(2, 2) *= 1.0 - tie;
-    return column(symmetric_eigen(sum).vectors, 2);
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
-
-/// @file
-/// The omnidirectional range image: what one view point sees in every direction, by azimuth and
-/// elevation. Unlike the image of a camera it holds any field of view, panoramas too.
-///
-/// Klasing 2010, Sec. 2.4.2, Eq. (2.1). There the poles, where pixels are dense, are up and down;
-/// here the image can be rotated, by default such that the poles are where few points are.
-
-namespace gnomon {
-
-/// How large the image is and how it is turned.
-struct range_image_options {
-    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
-    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
-    /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
-    /// the z-axis the image is that of Eq. (2.1).
-    std::optional<Eigen::Vector3d> pole = std::nullopt;
-};
-
-/// The nearest return of each pixel.
-class range_image {
-  public:
-    /// Column `azimuth` and row `elevation`.
-    using pixel = detail::image_cell;
-    /// The range of a pixel in which nothing was seen, as in the thesis.
-    static constexpr double nothing = -1.0;
-
-    /// The image of all points at a finite distance from the view point [m], but of those in it. It
-    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
-    /// O(n log n).
-    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
-    ///                                a view point or a pole that is not finite, or for a pole of
-    ///                                no length
-    template <class R, class Proj = std::identity>
-        requires point_range<R, Proj>
-    range_image(const R& points, const Eigen::Vector3d& viewpoint,
-                const range_image_options& format = {}, Proj projection = {})
-        : range_image(viewpoint, format) {
-        const position_view<R, Proj> p(points, std::move(projection));
-        detail::scratch<sight> visible;
-        visible.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) add(visible, p[i], i);
-        show(visible, p, format);
-    }
-
-    /// The image of some points of a cloud: what it shows has its index in the whole of it.
-    /// @throws std::invalid_argument  as above, or for an index out of range
-    template <class R, class Proj = std::identity>
-        requires point_range<R, Proj>
-    range_image(const R& points, std::span<const point_index> some,
-                const Eigen::Vector3d& viewpoint, const range_image_options& format = {},
-                Proj projection = {})
-        : range_image(viewpoint, format) {
-        const position_view<R, Proj> p(points, std::move(projection));
-        detail::scratch<sight> visible;
-        visible.reserve(some.size());
-        for (const point_index i : some) {
-            detail::require(i < p.size(), "range_image: an index is out of range");
-            add(visible, p[i], i);
-        }
-        show(visible, p, format);
-    }
-
-    [[nodiscard]] std::size_t width() const { return width_; }
-    [[nodiscard]] std::size_t height() const { return height_; }
-    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
-
-    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
-    /// the last row. Precondition: its distance, squared, is finite.
-    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
-        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
-        to.fill(detail::difference(p, viewpoint_));
-        return axes_.cells_towards(to, width_, height_)[0];
-    }
-
-    /// The distance of the nearest point in a pixel [m], or `nothing`.
-    [[nodiscard]] double range(const pixel& at) const { return view_of(at).range; }
-
-    /// That point, or nothing.
-    [[nodiscard]] std::optional<point_index> index(const pixel& at) const {
-        const view v = view_of(at);
-        return v.range < 0.0 ? std::nullopt : std::optional(v.index);
-    }
-
-    /// The distance of a point from the view point [m].
-    [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
-        return detail::length(detail::difference(p, viewpoint_));
-    }
-
-    /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
-    [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
-        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
-        const double up = detail::dot(axes_.z, d), distance = detail::length(d);
-        return up >= lowest_sine_ * distance && up <= highest_sine_ * distance;
-    }
-
-  private:
-    struct view {
-        double range = nothing;
-        point_index index = 0;
-    };
-
-    /// A point that is seen.
-    struct sight {
-        view what;
-        std::uint32_t azimuth = 0, elevation = 0;  // its pixel
-
-        [[nodiscard]] pixel at() const { return {azimuth, elevation}; }
-    };
-
-    range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
-        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
-        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        constexpr std::size_t most = std::size_t{1} << 31;  // their numbers do not overflow
-        detail::require(width_ <= most && height_ <= most,
-                        "range_image: at most 2^31 pixels in a row or column");
-        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
-    }
-
-    // What follows takes the points that are seen as `auto`, so that only code that makes images
-    // compiles it.
-
-    void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
-        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
-        if (detail::has_length(d))
-            visible.push_back({{detail::length(d), static_cast<point_index>(i)}});
-    }
-
-    void show(auto& visible, const auto& points, const range_image_options& format) {
-        const auto offset_of = [&](const sight& s) {
-            return detail::difference(points[s.what.index], viewpoint_);
-        };
-        axes_ = detail::image_axes::with_pole(
-            format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
-        project(visible, offset_of);
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        std::size_t lowest = height_, highest = 0;
-        for (const sight& s : visible) {
-            lowest = std::min<std::size_t>(lowest, s.elevation);
-            highest = std::max<std::size_t>(highest, s.elevation);
-        }
-        first_row_ = lowest;
-        const auto sine_of_row = [this](double row) {
-            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
-            return std::sin(turn * std::numbers::pi);
-        };
-        constexpr double about = 2.0 + 1e-3;  // rows, and a margin for rounding
-        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - about);
-        highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
-        keep(visible, lowest <= highest ? (highest - lowest + 1) * width_ : 0);
-    }
-
-    [[nodiscard]] view view_of(const pixel& at) const {
-        if (at.elevation < first_row_) return {};
-        std::size_t place = place_of(at);
-        if (is_sparse_) {
-            const auto found = std::lower_bound(taken_.begin(), taken_.end(), place);
-            if (found == taken_.end() || *found != place) return {};
-            place = static_cast<std::size_t>(found - taken_.begin());
-        }
-        return place < seen_.size() ? seen_[place] : view{};
-    }
-
-    /// Stores the nearest point of each pixel.
-    void keep(auto& visible, std::size_t pixels) {
-        constexpr std::size_t few = 32;  // pixels per point (performance only)
-        is_sparse_ = pixels / few > visible.size();
-        if (is_sparse_) {
-            const auto key = [this](const sight& s) {
-                return std::tuple(place_of(s.at()), s.what.range, s.what.index);
-            };
-            std::sort(visible.begin(), visible.end(),
-                      [&](const sight& a, const sight& b) { return key(a) < key(b); });
-            for (const sight& s : visible) {
-                if (!taken_.empty() && taken_.back() == place_of(s.at())) continue;
-                taken_.push_back(place_of(s.at()));
-                seen_.push_back(s.what);
-            }
-            return;
-        }
-        seen_.resize(pixels);
-        for (const sight& s : visible) {
-            view& v = seen_[place_of(s.at())];
-            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
-        }
-    }
-
-    [[nodiscard]] std::size_t place_of(const pixel& at) const {
-        return (at.elevation - first_row_) * width_ + at.azimuth;
-    }
-
-    /// Determines the pixel of each.
-    void project(auto& visible, const auto& offset_of) const {
-        std::array<Eigen::Vector3d, detail::pack::size> to;
-        for (std::size_t s = 0; s < visible.size(); s += to.size()) {
-            const std::size_t count = std::min(to.size(), visible.size() - s);
-            for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = offset_of(visible[s + std::min(l, count - 1)]);
-            const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < count; ++l) {
-                visible[s + l].azimuth = static_cast<std::uint32_t>(at[l].azimuth);
-                visible[s + l].elevation = static_cast<std::uint32_t>(at[l].elevation);
-            }
-        }
-    }
-
-    std::size_t width_, height_;
-    Eigen::Vector3d viewpoint_;
-    detail::image_axes axes_;
-    std::size_t first_row_ = 0;
-    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
-    detail::scratch<view> seen_;  // row by row, from the first in which something is seen
-    bool is_sparse_ = false;      // only pixels in which something is seen, whose places are
-    detail::scratch<std::size_t> taken_;
-};
-
-}  // namespace gnomon
-
-// -------- gnomon/occlusion/detail/bresenham.hpp --------------------------------------------------
-
-/// @file
-/// The pixels of a straight line in a range image, by the shorter way around: across the seam where
-/// azimuth pi meets -pi, if that is nearer (Bresenham 1965; Klasing 2010, Sec. 4.3.2).
-
-namespace gnomon::detail {
-
-/// Calls visit(pixel, share) from one pixel to another, both included; share is how far along, from
-/// 0 to 1.
-inline void for_each_pixel_between(const range_image& image, const range_image::pixel& from,
-                                   const range_image::pixel& to, auto&& visit) {
-    const auto width = static_cast<std::int64_t>(image.width());
-    auto across = static_cast<std::int64_t>(to.azimuth) - static_cast<std::int64_t>(from.azimuth);
-    if (2 * across > width) across -= width;
-    if (2 * across < -width) across += width;
-    const auto up =
-        static_cast<std::int64_t>(to.elevation) - static_cast<std::int64_t>(from.elevation);
-    const std::int64_t steps = std::max(std::abs(across), std::abs(up));
-    // Rounded to the nearest, halves away from the start.
-    const auto at = [steps](std::int64_t way, std::int64_t step) {
-        if (steps == 0) return std::int64_t{0};
-        const std::int64_t twice = 2 * std::abs(way) * step + steps;
-        return (way < 0 ? -1 : 1) * (twice / (2 * steps));
-    };
-    for (std::int64_t s = 0; s <= steps; ++s) {
-        const std::int64_t azimuth =
-            (static_cast<std::int64_t>(from.azimuth) + at(across, s) + width) % width;
-        const std::int64_t elevation = static_cast<std::int64_t>(from.elevation) + at(up, s);
-        const double share = steps == 0 ? 0.0 : static_cast<double>(s) / static_cast<double>(steps);
-        visit(range_image::pixel{static_cast<std::size_t>(azimuth),
-                                 static_cast<std::size_t>(elevation)},
-              share);
-    }
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/segment_distances.hpp ------------------------------------------
-
-/// @file
-/// How far apart two flat segments are, and how nearly in one plane.
-///
-/// Klasing 2010, Sec. 4.3.3, Eq. (4.4) to (4.6), Fig. 4.6. (The coplanar distance, Eq. (4.7), is in
-/// boundary_pairs.hpp.)
-
-namespace gnomon::detail {
-
-/// rho, between the centroids [m], Eq. (4.4).
-[[nodiscard]] inline double centroid_distance(const principal_frame& a, const principal_frame& b) {
-    return std::sqrt(squared_distance(a.centroid, b.centroid));
-}
-
-/// rho_a, between the planes [rad], from 0 to pi / 2, Eq. (4.5). Where Fig. 4.6 names the inner
-/// product itself, the equation stands.
-[[nodiscard]] inline double angular_distance(const principal_frame& a, const principal_frame& b) {
-    const Eigen::Vector3d n = a.normal(), m = b.normal();
-    const Eigen::Vector3d across = cross(n, m);
-    // Unlike acos, exact for small angles.
-    return std::atan2(std::sqrt(dot(across, across)), std::abs(dot(n, m)));
-}
-
-/// rho_o, the smaller of the distances of each centroid from the other's plane [m], Eq. (4.6).
-[[nodiscard]] inline double orthogonal_distance(const principal_frame& a,
-                                                const principal_frame& b) {
-    const Eigen::Vector3d between = difference(b.centroid, a.centroid);
-    return std::min(std::abs(dot(a.normal(), between)), std::abs(dot(b.normal(), between)));
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/occlusion/detail/segment_groups.hpp ---------------------------------------------
 
 /// @file
@@ -14413,27 +13912,14 @@ namespace gnomon::detail {
 
 namespace gnomon::detail {
 
-/// The pairs of each of some points with its k nearest ones, k less than their number minus 1.
-/// O(m log m) for m points, O(m^2) for few of them.
+/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
+/// (A template, so that only its users compile a search.)
 /// @param number  what to call each point in the pairs
 void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
-    constexpr std::size_t few = 2000;  // performance only: no index, thus no allocation
-    const std::size_t m = points.size();
-    const spatial_index index = m > few ? spatial_index(points) : spatial_index();
+    const spatial_index index(points);
     scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < m; ++f) {
-        if (m > few) {
-            knn{.k = k}.find(index, f, nearest);
-        } else {
-            nearest.clear();
-            for (std::size_t g = 0; g < m; ++g)
-                if (g != f)
-                    nearest.push_back(
-                        {squared_distance(points[g], points[f]), static_cast<point_index>(g)});
-            std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(k),
-                             nearest.end());
-            nearest.resize(k);
-        }
+    for (std::size_t f = 0; f < points.size(); ++f) {
+        knn{.k = k}.find(index, f, nearest);
         for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
     }
 }
@@ -14448,7 +13934,7 @@ template <class Frame = std::identity>
                                                                             std::size_t wanted,
                                                                             auto&& is_flat,
                                                                             Frame&& frame = {}) {
-    constexpr std::size_t not_many = 300, few = 20;
+    constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < all.size(); ++s) {
@@ -14469,27 +13955,16 @@ template <class Frame = std::identity>
     return pairs;
 }
 
-/// The labels of n points in disjoint groups, numbered as usual.
-/// @param groups   an object for each segment
-/// @param members  the indices of its points, of that object
-template <class Members = std::identity>
-[[nodiscard]] scratch<std::int32_t> labels_of_groups(std::size_t n, const auto& groups,
-                                                     Members&& members = {}) {
-    scratch<std::int32_t> labels(n, unlabeled);
-    std::int32_t label = 0;
-    for (const auto& group : groups) {
-        for (const point_index i : std::invoke(members, group)) labels[i] = label;
-        ++label;
-    }
+/// The segments of which those of a set of a `union_find` are one, largest first.
+/// (A template, so that only its users compile a sort.)
+/// @param result  may be `parts`
+void unite_segments(segments& result, const segments& parts, auto& sets) {
+    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    for (std::int32_t& label : labels)
+        if (label != unlabeled)
+            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
     number_by_size(labels);
-    return labels;
-}
-
-/// The segments of n points in disjoint groups.
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
-    segments merged;
-    merged.assign(labels_of_groups(n, groups));
-    return merged;
+    result.assign(labels);
 }
 
 }  // namespace gnomon::detail
@@ -14608,18 +14083,336 @@ struct sensor_place {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
+
+/// @file
+/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
+/// the last bit; its time would exceed that of all other steps of projecting a point to a range
+/// image.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
+/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
+/// both below 1e-300. Precondition: x and y are finite.
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                            const pack_of<N>& x) {
+    const pack_of<N> across = magnitude(x), up = magnitude(y);
+    const pack_of<N> more = where_at_least(across, up, across, up);
+    const pack_of<N> q = where_at_least(across, up, up, across) /
+                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
+    const pack_of<N> q2 = q * q;
+    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
+    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
+    constexpr double terms[] = {
+        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
+        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
+        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
+        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
+    pack_of<N> angle = 0.0;
+    for (const double term : terms) angle = angle * q2 + term;
+    angle = angle * q;
+    angle = where_at_least(across, up, angle, 0.5 - angle);
+    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
+    return where_at_least(y, 0.0, angle, -angle);
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
+
+/// @file
+/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
+/// Eq. 2.1, with any pole).
+
+namespace gnomon::detail {
+
+/// Column and row of a pixel.
+struct image_cell {
+    std::size_t azimuth, elevation;
+
+    friend bool operator==(const image_cell&, const image_cell&) = default;
+};
+
+/// The axes of a range image, of unit length and orthogonal; z is the pole.
+struct image_axes {
+    Eigen::Vector3d x, y, z;
+
+    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
+    /// pole, from the y-axis.
+    /// @throws std::invalid_argument  if the pole is not finite or has no length
+    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+        require(all_finite(pole) && pole != Eigen::Vector3d(0.0, 0.0, 0.0),
+                "range_image: the pole must be a finite direction");
+        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
+        image_axes axes;
+        axes.z = direction_of(pole);
+        const Eigen::Vector3d start =
+            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        axes.y = direction_of(cross(axes.z, start));
+        axes.x = cross(axes.y, axes.z);
+        return axes;
+    }
+
+    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
+    template <std::size_t N>
+    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
+                                                          std::size_t width,
+                                                          std::size_t height) const {
+        using numbers = pack_of<N>;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
+            return numbers(a.data());
+        };
+        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
+        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        std::array<image_cell, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
+                              height - 1)};
+        }
+        return at;
+    }
+};
+
+/// The axis along which directions vary least; z if there are none.
+/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
+[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
+    moments directions;
+    for (const auto& s : samples) {
+        const Eigen::Vector3d d = offset_of(s);
+        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
+    }
+    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
+    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
+    sum(2, 2) *= 1.0 - tie;
+    return column(symmetric_eigen(sum).vectors, 2);
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
+
+/// @file
+/// The omnidirectional range image: what one view point sees in every direction, by azimuth and
+/// elevation. Unlike the image of a camera it holds any field of view, panoramas too.
+///
+/// Klasing 2010, Sec. 2.4.2, Eq. (2.1). There the poles, where pixels are dense, are up and down;
+/// here the image can be rotated, by default such that the poles are where few points are.
+
+namespace gnomon {
+
+/// How large the image is and how it is turned.
+struct range_image_options {
+    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
+    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
+    /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
+    /// the z-axis the image is that of Eq. (2.1).
+    std::optional<Eigen::Vector3d> pole = std::nullopt;
+};
+
+/// The nearest return of each pixel.
+class range_image {
+  public:
+    /// Column `azimuth` and row `elevation`.
+    using pixel = detail::image_cell;
+    /// The range of a pixel in which nothing was seen, as in the thesis.
+    static constexpr double nothing = -1.0;
+
+    /// The image of all points at a finite distance from the view point [m], but of those in it. It
+    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
+    /// O(n log n).
+    /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
+    ///                                a view point or a pole that is not finite, or for a pole of
+    ///                                no length
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, const Eigen::Vector3d& viewpoint,
+                const range_image_options& format = {}, Proj projection = {})
+        : range_image(viewpoint, format) {
+        const position_view<R, Proj> p(points, std::move(projection));
+        show(p, p.size(), std::identity(), format.pole);
+    }
+
+    /// The image of some points of a cloud: what it shows has its index in the whole of it.
+    /// @throws std::invalid_argument  as above, or for an index out of range
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    range_image(const R& points, std::span<const point_index> some,
+                const Eigen::Vector3d& viewpoint, const range_image_options& format = {},
+                Proj projection = {})
+        : range_image(viewpoint, format) {
+        const position_view<R, Proj> p(points, std::move(projection));
+        for (const point_index i : some)
+            detail::require(i < p.size(), "range_image: an index is out of range");
+        show(
+            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
+    }
+
+    [[nodiscard]] std::size_t width() const { return width_; }
+    [[nodiscard]] std::size_t height() const { return height_; }
+    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
+
+    /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
+    /// the last row. Precondition: its distance, squared, is finite.
+    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
+        std::array<Eigen::Vector3d, detail::slim_pack::size> to;
+        to.fill(detail::difference(p, viewpoint_));
+        return axes_.cells_towards(to, width_, height_)[0];
+    }
+
+    /// The distance of the nearest point in a pixel [m], or `nothing`.
+    [[nodiscard]] double range(const pixel& at) const { return view_of(at).range; }
+
+    /// That point, or nothing.
+    [[nodiscard]] std::optional<point_index> index(const pixel& at) const {
+        const view v = view_of(at);
+        return v.range < 0.0 ? std::nullopt : std::optional(v.index);
+    }
+
+    /// The distance of a point from the view point [m].
+    [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
+        return detail::length(detail::difference(p, viewpoint_));
+    }
+
+    /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
+    [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
+        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
+        const double up = detail::dot(axes_.z, d), distance = detail::length(d);
+        return up >= lowest_sine_ * distance && up <= highest_sine_ * distance;
+    }
+
+  private:
+    struct view {
+        double range = nothing;
+        point_index index = 0;
+    };
+
+    /// A point that is seen, and the place of its pixel, row by row.
+    struct sight {
+        view what;
+        std::uint64_t place;
+    };
+
+    range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
+        : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
+        constexpr std::size_t most = std::size_t{1} << 31;  // overflow of their numbers
+        detail::require(0 < width_ && width_ <= most && 0 < height_ && height_ <= most,
+                        "range_image: needs a pixel, and at most 2^31 in a row or column");
+        detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
+    }
+
+    /// Stores the nearest of `count` points in each pixel. (A template, as what it calls, so that
+    /// only code that makes images compiles it.)
+    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole) {
+        detail::scratch<sight> visible;
+        visible.reserve(count);
+        const auto offset_of = [&](const sight& s) {
+            return detail::difference(points[s.what.index], viewpoint_);
+        };
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto i = static_cast<point_index>(index_of(k));
+            const Eigen::Vector3d d = detail::difference(points[i], viewpoint_);
+            if (detail::has_length(d)) visible.push_back({{detail::length(d), i}, 0});
+        }
+        axes_ = detail::image_axes::with_pole(
+            pole ? *pole : detail::least_observed_axis(visible, offset_of));
+        std::size_t lowest = height_, highest = 0;
+        std::array<Eigen::Vector3d, detail::pack::size> to;
+        for (std::size_t k = 0; k < visible.size(); k += to.size()) {
+            const std::size_t next = std::min(to.size(), visible.size() - k);
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
+            const auto at = axes_.cells_towards(to, width_, height_);
+            for (std::size_t l = 0; l < next; ++l) {
+                visible[k + l].place = place_of(at[l]);
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
+        }
+        if (!visible.empty()) keep(visible, lowest, highest);
+        const auto sine_of_row = [this](double row) {
+            const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
+            return std::sin(turn * std::numbers::pi);
+        };
+        constexpr double about = 2.0 + 1e-3;  // rows, and a margin for rounding
+        lowest_sine_ = sine_of_row(static_cast<double>(lowest) - about);
+        highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
+    }
+
+    /// Stores the nearest point of each pixel, between two rows.
+    void keep(auto& visible, std::size_t lowest, std::size_t highest) {
+        constexpr std::size_t few = 32;  // pixels per point (performance only)
+        const std::size_t pixels = (highest - lowest + 1) * width_;
+        if (pixels / few <= visible.size()) {
+            first_ = lowest * width_;
+            seen_.resize(pixels);
+            for (const sight& s : visible) {
+                view& v = seen_[s.place - first_];
+                if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+            }
+            return;
+        }
+        std::sort(visible.begin(), visible.end(), [](const sight& a, const sight& b) {
+            const auto key = [](const sight& s) {
+                return std::tuple(s.place, s.what.range, s.what.index);
+            };
+            return key(a) < key(b);
+        });
+        for (const sight& s : visible) {
+            if (!places_.empty() && places_.back() == s.place) continue;
+            places_.push_back(s.place);
+            seen_.push_back(s.what);
+        }
+    }
+
+    [[nodiscard]] std::uint64_t place_of(const pixel& at) const {
+        return at.elevation * width_ + at.azimuth;
+    }
+
+    [[nodiscard]] view view_of(const pixel& at) const {
+        std::uint64_t number = place_of(at) - first_;  // large for what is before the first
+        if (!places_.empty()) {
+            const auto found = std::lower_bound(places_.begin(), places_.end(), place_of(at));
+            if (found == places_.end() || *found != place_of(at)) return {};
+            number = static_cast<std::uint64_t>(found - places_.begin());
+        }
+        return number < seen_.size() ? seen_[number] : view{};
+    }
+
+    std::size_t width_, height_;
+    Eigen::Vector3d viewpoint_;
+    detail::image_axes axes_;
+    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
+    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
+    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
+    detail::scratch<std::uint64_t> places_;  // of these
+};
+
+}  // namespace gnomon
+
 // -------- gnomon/occlusion/ray_spacing.hpp -------------------------------------------------------
 
 /// @file
 /// How far apart the rays of a cloud are, for range images of clouds whose sensor is not known.
 
-namespace gnomon {
+namespace gnomon::detail {
 
-namespace detail {
+/// The direction in which a point is seen.
+struct cloud_ray {
+    Eigen::Vector3d direction;
+    point_index point;
+};
 
 /// As good as random, of a direction by a microradian: the same wherever the cloud lies.
 [[nodiscard]] inline std::uint64_t drawn_number(const Eigen::Vector3d& direction) {
-    constexpr double steps = 1e6;  // of a microradian; numerical: more than rounding
+    constexpr double steps = 1e6;  // of 1 (numerical)
     constexpr int bits = 21;       // for all steps from -1 to 1 (formula)
     std::int64_t all = 0;
     for (int a = 0; a < 3; ++a)
@@ -14627,185 +14420,84 @@ namespace detail {
     return random_stream(static_cast<std::uint64_t>(all)).bits();
 }
 
-/// Which seeds a direction may be near to, by cubes.
-class cubes_of_seeds {
-  public:
-    /// @param reach  how far away rays are near [rad]
-    explicit cubes_of_seeds(double reach) : reach_(reach + margin) {}
-
-    /// Adds seed number s, of up to 32, to all cubes with directions in its reach.
-    void add(std::size_t s, const Eigen::Vector3d& d) {
-        std::array<std::size_t, 3> low{}, high{};
-        for (std::size_t a = 0; a < 3; ++a) {
-            const double at = d[static_cast<int>(a)];
-            low[a] = place(std::max(-1.0, at - reach_));
-            high[a] = place(std::min(1.0, at + reach_));
+/// Some of the rays, of different directions, drawn by their numbers: the same in whatever order
+/// the points are stored, which may well be as regular as any other way to draw them.
+[[nodiscard]] scratch<cloud_ray> drawn_rays(const scratch<cloud_ray>& rays, std::size_t count,
+                                            const auto& points, const viewpoint_table& viewpoints) {
+    const auto key = [&](const cloud_ray& r) {
+        const Eigen::Vector3d v = viewpoints[r.point];
+        return std::tuple(squared_distance(points[r.point], v), v[0], v[1], v[2]);
+    };
+    scratch<std::uint64_t> numbers;  // ascending
+    scratch<cloud_ray> drawn;
+    for (const cloud_ray& r : rays) {
+        const std::uint64_t number = drawn_number(r.direction);
+        if (drawn.size() == count && number > numbers.back()) continue;
+        const auto at = std::lower_bound(numbers.begin(), numbers.end(), number);
+        const auto place = drawn.begin() + (at - numbers.begin());
+        if (at != numbers.end() && *at == number) {
+            if (key(r) < key(*place)) *place = r;
+            continue;
         }
-        for (std::size_t x = low[0]; x <= high[0]; ++x)
-            for (std::size_t y = low[1]; y <= high[1]; ++y)
-                for (std::size_t z = low[2]; z <= high[2]; ++z)
-                    seeds_[(x * side + y) * side + z] |= 1U << s;
+        numbers.insert(at, number);
+        drawn.insert(place, r);
+        numbers.resize(std::min(numbers.size(), count));
+        drawn.resize(numbers.size());
     }
-
-    /// One bit for each seed.
-    [[nodiscard]] std::uint32_t seeds_near(const Eigen::Vector3d& d) const {
-        return seeds_[(place(d[0]) * side + place(d[1])) * side + place(d[2])];
-    }
-
-  private:
-    static constexpr double margin = 1e-9;      // [rad]; rounding
-    static constexpr std::size_t side = 21;     // cubes (performance only)
-    static constexpr double per_unit = 10.0;    // cubes (performance only)
-    static constexpr double from_start = 1.05;  // rounding leaves -1 and 1 within the cubes
-
-    /// Of a coordinate from -1 to 1.
-    [[nodiscard]] static std::size_t place(double x) {
-        return static_cast<std::size_t>((x + from_start) * per_unit);
-    }
-
-    double reach_;
-    scratch<std::uint32_t> seeds_ = scratch<std::uint32_t>(side * side * side, 0);
-};
-
-/// See ray_spacing: one run over a cloud.
-template <class Points>
-class rays_of_cloud {
-  public:
-    /// @param p  a position_view
-    rays_of_cloud(const Points& p, const viewpoint_table& viewpoints)
-        : points_(p), viewpoints_(viewpoints) {
-        directions_.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d way = difference(p[i], viewpoints[i]);
-            if (!has_length(way)) continue;  // nor do those have one that are not finite
-            directions_.push_back(scaled(1.0 / length(way), way));
-            point_.push_back(static_cast<point_index>(i));
-        }
-    }
-
-    [[nodiscard]] angle spacing() const {
-        constexpr double nearby = 1.0 / 16.0;   // of the squared reach (performance only)
-        constexpr double three_of_four = 0.75;  // of the rays are no farther apart; chosen
-        if (directions_.empty()) return radians(most);
-        scratch<double> squared;
-        const auto add = [&squared](scratch<double>& near) {
-            std::nth_element(near.begin(), near.begin() + neighbors, near.end());
-            squared.push_back(near[neighbors]);
-        };
-        // Most seeds have enough rays nearby; those of the others are looked for farther away.
-        const scratch<std::size_t> seeds = drawn();
-        scratch<scratch<double>> found = near_seeds(seeds, reach2 * nearby);
-        scratch<std::size_t> others;
-        for (std::size_t s = 0; s < seeds.size(); ++s) {
-            if (found[s].size() > neighbors)
-                add(found[s]);
-            else
-                others.push_back(seeds[s]);
-        }
-        if (!others.empty()) found = near_seeds(others, reach2);
-        for (std::size_t s = 0; s < others.size(); ++s) {
-            if (found[s].size() > neighbors)
-                add(found[s]);
-            else
-                squared.push_back(reach2);
-        }
-        const auto at = squared.begin() + static_cast<std::ptrdiff_t>(
-                                              three_of_four * static_cast<double>(squared.size()));
-        std::nth_element(squared.begin(), at, squared.end());
-        return radians(std::clamp(std::sqrt(*at * std::numbers::pi / neighbors), least, most));
-    }
-
-  private:
-    static constexpr std::size_t neighbors = 16;   // of a seed; chosen
-    static constexpr std::size_t seed_count = 32;  // a sample (performance only)
-    /// [rad] (performance only): an image has 26 million pixels.
-    static constexpr double least = std::numbers::pi / 3600;
-    static constexpr double most = std::numbers::pi / 36;  // [rad]; chosen: 5 degrees
-    // Rays farther from a seed than this need not be looked at: 16 within it are `most` apart.
-    static constexpr double reach2 = most * most * neighbors / std::numbers::pi;
-
-    /// Some of the rays, of different directions, drawn by their numbers: the same in whatever
-    /// order the points are stored, which may well be as regular as any other way to draw them.
-    [[nodiscard]] scratch<std::size_t> drawn() const {
-        scratch<std::pair<std::uint64_t, std::size_t>> some;
-        for (std::size_t r = 0; r < directions_.size(); ++r) {
-            const std::uint64_t number = drawn_number(directions_[r]);
-            if (some.size() == seed_count && number > some.back().first) continue;
-            const auto at = std::lower_bound(
-                some.begin(), some.end(), number,
-                [](const auto& other, std::uint64_t own) { return other.first < own; });
-            if (at != some.end() && at->first == number) {
-                if (as_numbers(r) < as_numbers(at->second)) at->second = r;
-                continue;
-            }
-            some.insert(at, {number, r});
-            if (some.size() > seed_count) some.pop_back();
-        }
-        scratch<std::size_t> chosen;
-        for (const auto& s : some) chosen.push_back(s.second);
-        return chosen;
-    }
-
-    /// The squares of the angles [rad^2] from each seed to the rays near it, as chords.
-    /// @param within  the largest of them
-    [[nodiscard]] scratch<scratch<double>> near_seeds(const scratch<std::size_t>& chosen,
-                                                      double within) const {
-        cubes_of_seeds about(std::sqrt(within));
-        // From where the point of a seed is seen in nearly the same direction, rays count: stations
-        // apart do not see more finely by being many, the lines of a moving sensor do.
-        struct seed {
-            Eigen::Vector3d direction, origin;
-            double apart2;  // [m^2]
-        };
-        scratch<seed> seeds;
-        for (std::size_t s = 0; s < chosen.size(); ++s) {
-            const point_index i = point_[chosen[s]];
-            const Eigen::Vector3d origin = viewpoints_[i];
-            seeds.push_back({directions_[chosen[s]], origin,
-                             most * most * squared_distance(origin, points_[i])});
-            about.add(s, seeds[s].direction);
-        }
-        const bool is_still = viewpoints_.positions().size() <= 1;
-        scratch<scratch<double>> near(chosen.size());
-        for (std::size_t r = 0; r < directions_.size(); ++r) {
-            const Eigen::Vector3d& d = directions_[r];
-            for (std::uint32_t left = about.seeds_near(d); left != 0; left &= left - 1) {
-                const auto s = static_cast<std::size_t>(std::countr_zero(left));
-                const double squared = squared_distance(seeds[s].direction, d);
-                if (squared < within &&
-                    (is_still ||
-                     squared_distance(seeds[s].origin, viewpoints_[point_[r]]) <= seeds[s].apart2))
-                    near[s].push_back(squared);
-            }
-        }
-        return near;
-    }
-
-    [[nodiscard]] std::array<double, 6> as_numbers(std::size_t r) const {
-        const Eigen::Vector3d p = points_[point_[r]], v = viewpoints_[point_[r]];
-        return {p[0], p[1], p[2], v[0], v[1], v[2]};
-    }
-
-    const Points& points_;
-    const viewpoint_table& viewpoints_;
-    scratch<Eigen::Vector3d> directions_;
-    scratch<point_index> point_;  // of each direction
-};
-
-/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, which is no more for three of four rays. From 32 rays, drawn as
-/// if by chance, but in whatever order the points are; O(n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] angle ray_spacing(const R& points, Proj projection = {}) {
-    const position_view<R, Proj> p(points, std::move(projection));
-    return with_table_of(points, [&p](const viewpoint_table& viewpoints) {
-        return rays_of_cloud(p, viewpoints).spacing();
-    });
+    return drawn;
 }
 
-}  // namespace detail
-}  // namespace gnomon
+/// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
+/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn as
+/// if by chance, but in whatever order the points are; O(n).
+/// @param points  a position_view
+[[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints) {
+    constexpr std::size_t neighbors = 16;  // chosen: the spacing is known to an eighth
+    constexpr std::size_t seeds = 32;      // performance only
+    // [rad]; performance only: of the pixels of an image, and of the rays to look at
+    constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
+    scratch<cloud_ray> rays;
+    rays.reserve(points.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const Eigen::Vector3d way = difference(points[i], viewpoints[i]);
+        if (has_length(way))  // nor do those have one that are not finite
+            rays.push_back({scaled(1.0 / length(way), way), static_cast<point_index>(i)});
+    }
+    if (rays.empty()) return radians(most);
+    // The squares of the angles, as chords, from each seed to itself and its nearest rays [rad^2];
+    // 16 rays within the largest are `most` apart.
+    struct seed {
+        cloud_ray ray;
+        std::array<double, neighbors + 1> nearest;
+    };
+    scratch<seed> drawn;
+    for (const cloud_ray& r : drawn_rays(rays, seeds, points, viewpoints))
+        drawn.emplace_back(seed{r, {}}).nearest.fill(most * most * neighbors / std::numbers::pi);
+    for (const cloud_ray& r : rays) {
+        for (auto& [s, nearest] : drawn) {
+            const double up = s.direction[2] - r.direction[2];
+            if (up * up >= nearest.back()) continue;  // performance only
+            const double squared = squared_distance(s.direction, r.direction);
+            // From where the point of a seed is seen in nearly the same direction, rays count:
+            // stations apart do not see more finely by being many, the lines of a moving sensor do.
+            const Eigen::Vector3d v = viewpoints[s.point];
+            if (squared >= nearest.back() || squared_distance(v, viewpoints[r.point]) >
+                                                 most * most * squared_distance(v, points[s.point]))
+                continue;
+            const auto last = nearest.end() - 1;
+            *last = squared;
+            std::rotate(std::upper_bound(nearest.begin(), last, squared), last, nearest.end());
+        }
+    }
+    const auto at = drawn.begin() + static_cast<std::ptrdiff_t>(drawn.size() / 2);
+    std::nth_element(drawn.begin(), at, drawn.end(), [](const seed& a, const seed& b) {
+        return a.nearest.back() < b.nearest.back();
+    });
+    return radians(
+        std::clamp(std::sqrt(at->nearest.back() * std::numbers::pi / neighbors), least, most));
+}
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/occlusion/visibility.hpp --------------------------------------------------------
 
@@ -14867,16 +14559,31 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    /// microradian to 90
-    ///                                degrees, or a pole of no length
+    ///                                microradian to 90 degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
                         Proj projection = {})
         : noise_(options.noise) {
         detail::require_valid(options);
+        const position_view<R, Proj> p(points, projection);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            observe(points, viewpoints, options, run, projection);
+            const double wanted = options.pixel.radians() > 0.0
+                                      ? options.pixel.radians()
+                                      : detail::ray_spacing(p, viewpoints).radians();
+            const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
+            pixel_ = std::numbers::pi / height;
+            const auto rows = static_cast<std::size_t>(height);
+            const range_image_options format{2 * rows, rows, options.pole};
+            const auto places =
+                detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
+            detail::scratch<std::optional<range_image>> images(places.size());
+            run(places.size(), [&](std::size_t i) {
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
+                                  projection);
+            });
+            images_.reserve(images.size());
+            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
         });
     }
 
@@ -14894,10 +14601,9 @@ class visibility {
         std::size_t votes = 0;
         for (const observation s :
              {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] > votes) {
-                most = s;
-                votes = count[s];
-            }
+            if (count[s] <= votes) continue;
+            most = s;
+            votes = count[s];
         }
         return most;
     }
@@ -14909,11 +14615,9 @@ class visibility {
                                             const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
-        const Eigen::Vector3d across = detail::cross(to_p, to_q);
         const double angle =
-            std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
-        const double near = std::sqrt(detail::dot(to_p, to_p));
-        const double far = std::sqrt(detail::dot(to_q, to_q));
+            std::atan2(detail::length(detail::cross(to_p, to_q)), detail::dot(to_p, to_q));
+        const double near = detail::length(to_p), far = detail::length(to_q);
         observation_count count;
         if (!std::isfinite(angle)) return count;
         const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
@@ -14927,28 +14631,6 @@ class visibility {
     }
 
   private:
-    /// Makes the images.
-    template <class R, execution X, class Proj>
-    void observe(const R& points, const viewpoint_table& viewpoints,
-                 const visibility_options& options, const X& run, const Proj& projection) {
-        const position_view<R, Proj> p(points, projection);
-        const angle pixel = options.pixel.radians() > 0.0
-                                ? options.pixel
-                                : detail::rays_of_cloud(p, viewpoints).spacing();
-        const auto height =
-            static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
-        pixel_ = std::numbers::pi / static_cast<double>(height);
-        const range_image_options format{2 * height, height, options.pole};
-
-        const auto places = detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
-        detail::scratch<std::optional<range_image>> images(places.size());
-        run(places.size(), [&](std::size_t i) {
-            images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
-        });
-        images_.reserve(images.size());
-        for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
-    }
-
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
@@ -14994,23 +14676,19 @@ class visibility {
     /// occluded.
     [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
                                                 const range_image& image, const auto& told_by) {
-        observation about = observation::unobserved;
+        observation_count about;
         for (std::size_t e = at.elevation - std::min(at.elevation, reach);
              e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - reach;
-                 a <= at.azimuth + image.width() + reach; ++a) {
-                const observation s = told_by({a % image.width(), e});
-                if (s == observation::unobserved) continue;
-                if (about == observation::unobserved || s == about) {
-                    about = s;
-                } else if (s == observation::free_space || about == observation::free_space) {
-                    return observation::unobserved;
-                } else {
-                    about = observation::on_surface;
-                }
-            }
+                 a <= at.azimuth + image.width() + reach; ++a)
+                about.add(told_by({a % image.width(), e}));
         }
-        return about;
+        const std::size_t free = about[observation::free_space];
+        const std::size_t on = about[observation::on_surface];
+        const std::size_t hidden = about[observation::occluded];
+        if (free > 0) return on + hidden > 0 ? observation::unobserved : observation::free_space;
+        if (on > 0) return observation::on_surface;
+        return hidden > 0 ? observation::occluded : observation::unobserved;
     }
 
     noise_curve noise_;
@@ -15034,14 +14712,11 @@ namespace gnomon::detail {
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
     if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t in_favor = 0, against = 0;
-    for (const observation s : {observation::unobserved, observation::occluded,
-                                observation::on_surface, observation::free_space}) {
-        if (policy(s))
-            in_favor += seen[s];
-        else if (s != observation::on_surface)
-            against += seen[s];
-    }
+    std::size_t against = 0;
+    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+    for (const observation s :
+         {observation::unobserved, observation::occluded, observation::free_space})
+        (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }
 
@@ -15314,6 +14989,41 @@ namespace gnomon {
 
 namespace detail {
 
+/// rho_a, between the planes [rad], from 0 to pi / 2, Eq. (4.5). Where Fig. 4.6 names the inner
+/// product itself, the equation stands.
+[[nodiscard]] inline double angular_distance(const principal_frame& a, const principal_frame& b) {
+    const Eigen::Vector3d n = a.normal(), m = b.normal();
+    // Unlike acos, exact for small angles.
+    return std::atan2(length(cross(n, m)), std::abs(dot(n, m)));
+}
+
+/// rho_o, the smaller of the distances of each centroid from the other's plane [m], Eq. (4.6).
+[[nodiscard]] inline double orthogonal_distance(const principal_frame& a,
+                                                const principal_frame& b) {
+    const Eigen::Vector3d between = difference(b.centroid, a.centroid);
+    return std::min(std::abs(dot(a.normal(), between)), std::abs(dot(b.normal(), between)));
+}
+
+/// Calls visit(pixel, share) for the pixels of a straight line from one pixel to another, both
+/// included, by the shorter way around: across the seam where azimuth pi meets -pi, if that is
+/// nearer (Bresenham 1965; Klasing 2010, Sec. 4.3.2). share is how far along, from 0 to 1.
+inline void for_each_pixel_between(const range_image& image, const range_image::pixel& from,
+                                   const range_image::pixel& to, auto&& visit) {
+    const auto column = static_cast<double>(from.azimuth),
+               row = static_cast<double>(from.elevation);
+    const auto width = static_cast<double>(image.width());
+    const double across = std::remainder(static_cast<double>(to.azimuth) - column, width);
+    const double up = static_cast<double>(to.elevation) - row;
+    const double steps = std::max(std::abs(across), std::abs(up)), most = std::max(steps, 1.0);
+    for (double s = 0.0; s <= steps; s += 1.0) {
+        const double azimuth = column + std::round(across * s / most) + width;
+        const double elevation = row + std::round(up * s / most);
+        visit(range_image::pixel{static_cast<std::size_t>(azimuth) % image.width(),
+                                 static_cast<std::size_t>(elevation)},
+              s / most);
+    }
+}
+
 /// Whether a policy finds most pixels of a line in its favor: what is less far than the line is
 /// closer, the rest farther.
 template <merge_policy M>
@@ -15332,16 +15042,6 @@ template <merge_policy M>
                                ++pixels;
                            });
     return 2 * in_favor > pixels;
-}
-
-/// The segments, where those of a set of a `union_find` are one, largest first.
-[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
-    std::vector<std::vector<point_index>> groups(parts.size());
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-        auto& group = groups[sets.find(static_cast<point_index>(s))];
-        group.insert(group.end(), parts[s].begin(), parts[s].end());
-    }
-    return segments_of_groups(parts.labels().size(), groups);
 }
 
 }  // namespace detail
@@ -15404,15 +15104,18 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
-        const auto lines =
-            detail::boundary_pairs(p, parts[i], parts[j], {frames[i].centroid, frames[j].centroid},
-                                   options.boundary_pairs);
+        std::vector<detail::boundary_pair> lines;
+        detail::append_boundary_pairs(lines, p, parts[i], parts[j],
+                                      {frames[i].centroid, frames[j].centroid},
+                                      options.boundary_pairs);
         const auto occluded = std::count_if(lines.begin(), lines.end(), is_occluded);
         if (detail::coplanar_distance(lines) < options.max_gap ||
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    return detail::united_segments(parts, sets);
+    segments result;
+    detail::unite_segments(result, parts, sets);
+    return result;
 }
 
 }  // namespace gnomon
@@ -17498,6 +17201,7 @@ struct cells {
     scratch<Eigen::Vector3d> means;  ///< [m]
     viewpoint_table viewpoints;      ///< the means of those of the points
     scratch<point_index> first;      ///< the first point of each
+    scratch<point_index> counts;     ///< of the points of each
     scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
 
     /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
@@ -17505,10 +17209,10 @@ struct cells {
     cells(const spatial_index& index, auto&& width) {
         const Eigen::Vector3d least = least_corner(index);
         of_point.assign(index.size(), no_cell);
-        const std::size_t slots = std::bit_ceil(std::max<std::size_t>(2 * index.finite(), 16));
+        constexpr std::size_t fewest_slots = 16;  // performance only
+        const std::size_t slots = std::bit_ceil(std::max(2 * index.finite(), fewest_slots));
         scratch<point_index> slot(slots, no_cell);
         scratch<key> keys;
-        scratch<double> counts;
         scratch<Eigen::Vector3d> seen_from;
         const bool has_many = index.viewpoints.positions().size() > 1;
         for (std::size_t i = 0; i < index.size(); ++i) {
@@ -17521,12 +17225,12 @@ struct cells {
                 slot[at] = static_cast<point_index>(keys.size());
                 keys.push_back(own);
                 means.push_back(p);
-                counts.push_back(0.0);
+                counts.push_back(0);
                 first.push_back(static_cast<point_index>(i));
                 if (has_many) seen_from.push_back(index.viewpoints[i]);
             }
             const point_index c = of_point[i] = slot[at];
-            const double share = 1.0 / ++counts[c];
+            const double share = 1.0 / static_cast<double>(++counts[c]);
             means[c] = combined(1.0 - share, means[c], share, p);
             if (has_many)
                 seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
@@ -17556,8 +17260,9 @@ struct cells {
     [[nodiscard]] static key key_of(const Eigen::Vector3d& offset, double width) {
         const double level = std::floor(2.0 * std::log2(width));
         const double side = std::exp2(0.5 * level);
+        constexpr double most = 4e18;  // numerical: overflow of std::int64_t
         const auto cube = [&](int a) {
-            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, 4e18)));
+            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, most)));
         };
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
     }
@@ -17603,7 +17308,7 @@ class cell_surfaces {
           index_(index),
           surface_(surface),
           cells_(points, [&](std::size_t i) {
-              constexpr double least = 1e-6;  // [m]: at no noise, a cell is a point
+              constexpr double least = 1e-6;  // [m]; numerical: at no noise, a cell is a point
               const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
               return std::max(noise.of_planes.along(ray), least);
           }) {
@@ -17611,15 +17316,27 @@ class cell_surfaces {
         if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
     }
 
-    /// The normals of the cells, and which are neighbors.
+    /// The normals of the cells, and the graph of their nearest neighbors.
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
-        estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-        orient_normals(index_, surface_, run);
-        constexpr std::size_t neighbors = 30;  // as for normals
         scratch_graph::arrays graph;
-        sweep_any_sizes(knn{.k = neighbors}, index_, run, graph);
+        const auto record = [&](auto&& sweep) {
+            sweep_any_sizes(index_.size(), run, graph, sweep);
+        };
+        if constexpr (std::same_as<N, noise_knn>) {
+            record([&](auto&& make_recorder) {  // one search for both
+                estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
+                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
+                });
+            });
+        } else {
+            estimate_normals_into(surface_, index_, neighborhood, estimator, run);
+            record([&](auto&& make_recorder) {
+                knn{.k = noise_knn{}.k}.sweep(index_, run, make_recorder);
+            });
+        }
         graph_.emplace(std::move(graph));
+        orient_normals(index_, surface_, run);
     }
 
     /// The planes, and in what is left the smooth surfaces.
@@ -17627,6 +17344,7 @@ class cell_surfaces {
     void find(const segment_planes_options& planes,
               const std::optional<segment_surfaces_options>& remainder, const X& run) {
         cloud_.emplace(index_, noise_, run);
+        cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
         if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
@@ -17723,8 +17441,7 @@ namespace gnomon::detail {
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
                                                spatial_index& sparse, const X& run) {
-    constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
-    const std::size_t thinning = index.finite() / enough;
+    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
     if (thinning < 2) return noise;
     scratch<point_index> some;
     double range = 0.0;
@@ -17734,7 +17451,7 @@ template <class X>
         range += length(difference(index[i], index.viewpoints[i]));
     }
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
-    const measured_noise wide = measure_noise(sparse, run);
+    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
     return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
 }
@@ -17910,6 +17627,7 @@ class perception_run {
 
   private:
     static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
+    // The calls of step() (formula).
     static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
     /// Announces a step, and notes its time.

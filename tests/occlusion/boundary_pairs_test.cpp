@@ -15,7 +15,7 @@
 
 namespace {
 
-using gnomon::detail::boundary_pairs, gnomon::detail::boundary_pair, gnomon::point_index;
+using gnomon::detail::boundary_pair, gnomon::point_index;
 using index_list = std::vector<point_index>;
 
 Eigen::Vector3d mean(const clouds::cloud& points, const index_list& some) {
@@ -31,6 +31,15 @@ index_list sorted_from(const clouds::cloud& points, index_list some, const Eigen
                std::pair(gnomon::squared_distance(points[b], place), b);
     });
     return some;
+}
+
+std::vector<boundary_pair> boundary_pairs(
+    const clouds::cloud& points, std::span<const point_index> first,
+    std::span<const point_index> second,
+    const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
+    std::vector<boundary_pair> found;
+    gnomon::detail::append_boundary_pairs(found, points, first, second, centroids, pairs);
+    return found;
 }
 
 std::vector<boundary_pair> pairs_of(const clouds::cloud& points, const index_list& first,

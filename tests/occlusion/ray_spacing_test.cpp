@@ -20,13 +20,18 @@ Eigen::Vector3d ray_at(double azimuth, double elevation) {
     return {cos(e) * cos(a), cos(e) * sin(a), sin(e)};
 }
 
+gnomon::angle ray_spacing(const auto& points) {
+    return gnomon::detail::ray_spacing(gnomon::position_view(points),
+                                       gnomon::detail::viewpoints_of(points));
+}
+
 TEST(ray_spacing, is_that_of_the_rays) {
     for (const double spacing : {0.5, 1.0, 2.0}) {
         const auto seen = looks::look_at(looks::hidden(), {.spacing = spacing});
-        EXPECT_NEAR(gnomon::detail::ray_spacing(seen.scan).degrees(), spacing, 0.25 * spacing);
+        EXPECT_NEAR(ray_spacing(seen.scan).degrees(), spacing, 0.25 * spacing);
     }
     const auto seen = looks::look_at(looks::hidden(), {.step = {0, 0.02, 0}});
-    EXPECT_NEAR(gnomon::detail::ray_spacing(seen.scan).degrees(), 1.0, 0.25);
+    EXPECT_NEAR(ray_spacing(seen.scan).degrees(), 1.0, 0.25);
 }
 
 /// Points in another order are the same cloud: one with several returns along each ray, from a
@@ -43,13 +48,13 @@ TEST(ray_spacing, depends_on_no_order) {
     }
     const gnomon::viewpoint_table table(viewpoints);
     const auto all = gnomon::with_viewpoints(points, table);
-    const double expected = gnomon::detail::ray_spacing(all).radians();
+    const double expected = ray_spacing(all).radians();
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         std::vector<std::size_t> order;
         clouds::permuted(points, seed, order);
         const std::vector<gnomon::point_index> indices(order.begin(), order.end());
         const gnomon::subset_view shuffled(all, indices);
-        EXPECT_EQ(gnomon::detail::ray_spacing(shuffled).radians(), expected);
+        EXPECT_EQ(ray_spacing(shuffled).radians(), expected);
     }
 }
 
@@ -61,14 +66,14 @@ TEST(ray_spacing, draws_from_all_over_an_organised_scan) {
         for (int e = 0; e < columns / 2; ++e)
             for (int a = 0; a < columns; ++a)
                 points.push_back(ray_at(a * step, (e + 0.5) * step - 90.0));
-        EXPECT_NEAR(gnomon::detail::ray_spacing(points).degrees(), step, 0.3 * step) << columns;
+        EXPECT_NEAR(ray_spacing(points).degrees(), step, 0.3 * step) << columns;
     }
 }
 
 /// Scans of several stations have the pixels of each of them.
 TEST(ray_spacing, of_stations_apart_is_that_of_one) {
     const auto one = looks::look_at(looks::hidden());
-    const double expected = gnomon::detail::ray_spacing(one.scan).degrees();
+    const double expected = ray_spacing(one.scan).degrees();
     clouds::cloud points, viewpoints;
     for (int station = 0; station < 9; ++station) {
         const Eigen::Vector3d by(0.011 * station, station, 0.013 * station);
@@ -78,14 +83,14 @@ TEST(ray_spacing, of_stations_apart_is_that_of_one) {
         }
     }
     const gnomon::viewpoint_table table(viewpoints);
-    EXPECT_NEAR(gnomon::detail::ray_spacing(gnomon::with_viewpoints(points, table)).degrees(),
-                expected, 0.1 * expected);
+    EXPECT_NEAR(ray_spacing(gnomon::with_viewpoints(points, table)).degrees(), expected,
+                0.1 * expected);
 }
 
 TEST(ray_spacing, is_between_a_twentieth_and_five_degrees) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
-        const double spacing = gnomon::detail::ray_spacing(points).degrees();
+        const double spacing = ray_spacing(points).degrees();
         EXPECT_GE(spacing, 0.05 - 1e-12);
         EXPECT_LE(spacing, 5.0 + 1e-12);
     }
@@ -95,14 +100,13 @@ TEST(ray_spacing, is_between_a_twentieth_and_five_degrees) {
 TEST(ray_spacing, ignores_points_next_to_the_view_point) {
     clouds::cloud points = clouds::sheet(2000, 1);
     for (Eigen::Vector3d& p : points) p.z() += 1.0;
-    const double expected = gnomon::detail::ray_spacing(points).degrees();
+    const double expected = ray_spacing(points).degrees();
     for (const double tiny : {2.71e-162, 1e-160, 5e-324}) {
         const clouds::cloud only(40, Eigen::Vector3d(tiny, 0, 0));
-        EXPECT_EQ(gnomon::detail::ray_spacing(only).degrees(),
-                  gnomon::detail::ray_spacing(clouds::cloud{}).degrees());
+        EXPECT_EQ(ray_spacing(only).degrees(), ray_spacing(clouds::cloud{}).degrees());
         clouds::cloud more = points;
         more.emplace_back(tiny, 0, 0);
-        EXPECT_EQ(gnomon::detail::ray_spacing(more).degrees(), expected);
+        EXPECT_EQ(ray_spacing(more).degrees(), expected);
     }
 }
 

@@ -40,15 +40,18 @@ TEST(segments, come_largest_first_and_by_their_smallest_point) {
     sets.unite(2, 7);
     sets.unite(6, 3);
     const auto everyone = [](std::size_t) { return true; };
-    const auto s = gnomon::detail::segments_of(sets, 2, everyone);
+    const auto segments_of = [&sets](std::size_t min_points, const auto& counts) {
+        return gnomon::detail::segments_of(
+            gnomon::detail::labels_of_sets(sets, min_points, counts));
+    };
+    const auto s = segments_of(2, everyone);
     ASSERT_EQ(s.size(), 3u);
     EXPECT_EQ(members(s, 0), (index_list{2, 5, 7}));
     EXPECT_EQ(members(s, 1), (index_list{1, 4}));
     EXPECT_EQ(members(s, 2), (index_list{3, 6}));
     EXPECT_EQ(s.labels()[0], gnomon::unlabeled);
-    EXPECT_EQ(gnomon::detail::segments_of(sets, 1, everyone).size(), 4u);
-    EXPECT_EQ(gnomon::detail::segments_of(sets, 0, [](std::size_t i) { return i != 0; }).size(),
-              3u);
+    EXPECT_EQ(segments_of(1, everyone).size(), 4u);
+    EXPECT_EQ(segments_of(0, [](std::size_t i) { return i != 0; }).size(), 3u);
 }
 
 /// Law: assign(labels) gives what the constructor gives for these labels, whatever the segments
@@ -78,13 +81,14 @@ TEST(segments, assigning_reuses_the_memory) {
     EXPECT_EQ(reused[0].data(), members);
 }
 
-/// Numbered by size, equal ones by their smallest point; labels without points are removed.
+/// Numbered by size, equal ones by their smallest point; labels without points are removed, and
+/// those of few.
 TEST(number_by_size, renumbers) {
     std::vector<std::int32_t> labels{4, 2, -1, 2, 7, 0, 4, 4};
-    const auto before = gnomon::detail::number_by_size(labels);
+    gnomon::detail::number_by_size(labels);
     EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, -1, 1, 2, 3, 0, 0}));
-    EXPECT_EQ((std::vector<std::int32_t>{before.begin(), before.end()}),
-              (std::vector<std::int32_t>{4, 2, 7, 0}));
+    gnomon::detail::number_by_size(labels, 2);
+    EXPECT_EQ(labels, (std::vector<std::int32_t>{0, 1, -1, 1, -1, -1, 0, 0}));
 }
 
 }  // namespace

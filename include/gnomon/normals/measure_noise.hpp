@@ -47,6 +47,9 @@ struct measured_noise {
 
 namespace detail {
 
+/// The planes that a noise is measured on: the more, the less its own noise.
+inline constexpr std::size_t sampled_planes = 3000;
+
 /// Measures the noise of an index.
 template <execution X>
 class noise_meter {
@@ -56,7 +59,7 @@ class noise_meter {
 
     /// @param many   planes; the more, the less the noise of the result
     /// @param least  a noise that that of the points is not less than
-    [[nodiscard]] measured_noise operator()(std::size_t many = 3000,
+    [[nodiscard]] measured_noise operator()(std::size_t many = sampled_planes,
                                             const noise_curve& least = constant_noise{0.0}) {
         constexpr std::size_t fewest_points = 500;
         if (index_.finite() < fewest_points) return {{}, "fewer than 500 points"};

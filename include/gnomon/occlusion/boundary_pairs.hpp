@@ -11,14 +11,14 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 
@@ -37,57 +37,18 @@ template <class Points>
     for (const point_index i : some) {
         require(i < points.size(), "boundary_pairs: an index is out of range");
         const neighbor candidate{squared_distance(points[i], place), i};
-        if (nearest.size() == count && !(candidate < nearest.back())) continue;
-        if (!is_finite(points[i])) continue;
-        if (nearest.size() < count) nearest.emplace_back();
-        auto slot = nearest.end() - 1;
-        for (; slot != nearest.begin() && candidate < slot[-1]; --slot) *slot = slot[-1];
-        *slot = candidate;
+        const bool is_full = nearest.size() == count;
+        if ((is_full && !(candidate < nearest.back())) || !is_finite(points[i])) continue;
+        if (is_full) nearest.pop_back();
+        nearest.insert(std::upper_bound(nearest.begin(), nearest.end(), candidate), candidate);
     }
     return nearest;
 }
 
-/// For each of some points, the one of others that is nearest; of finite ones only. In one pass
-/// over these, as they may be many. Precondition: there is a finite one.
-template <class Points>
-[[nodiscard]] scratch<neighbor> nearest_to_each(const Points& points,
-                                                std::span<const neighbor> some,
-                                                std::span<const point_index> others) {
-    scratch<Eigen::Vector3d> places;
-    for (const neighbor& p : some) places.push_back(points[p.index]);
-    constexpr neighbor none{std::numeric_limits<double>::infinity(),
-                            std::numeric_limits<point_index>::max()};
-    scratch<neighbor> nearest(some.size(), none);
-    for (const point_index i : others) {
-        const Eigen::Vector3d other = points[i];
-        for (std::size_t k = 0; k < places.size(); ++k) {
-            const neighbor candidate{squared_distance(other, places[k]), i};
-            if (candidate < nearest[k] && is_finite(other)) nearest[k] = candidate;
-        }
-    }
-    return nearest;
-}
-
-/// Appends the boundary pairs of two segments to `found`; see boundary_pairs.
-template <class Points>
-void append_boundary_pairs(auto& found, const Points& points, std::span<const point_index> first,
-                           std::span<const point_index> second,
-                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids,
-                           std::size_t pairs) {
-    const auto near_second = nearest_of(points, first, centroids.second, pairs / 2);
-    const auto near_first = nearest_of(points, second, centroids.first, pairs / 2);
-    if (near_second.empty() || near_first.empty()) return;
-    const auto across = nearest_to_each(points, near_second, second);
-    for (std::size_t k = 0; k < across.size(); ++k)
-        found.push_back(
-            {near_second[k].index, across[k].index, std::sqrt(across[k].squared_distance)});
-    const auto back = nearest_to_each(points, near_first, first);
-    for (std::size_t k = 0; k < back.size(); ++k)
-        found.push_back({back[k].index, near_first[k].index, std::sqrt(back[k].squared_distance)});
-}
-
-/// The boundary pairs of two segments of some points: half of them from each side.
+/// Appends the boundary pairs of two segments of some points to `found`: half of them from each
+/// side.
 ///
+/// @param found      a container of `boundary_pair`
 /// @param points     a position_view of the cloud
 /// @param first      indices of the points of one segment
 /// @param second     of the other
@@ -97,12 +58,16 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 /// @throws std::invalid_argument  for an index out of range
 /// Complexity: O(pairs * (|first| + |second|)).
 template <class Points>
-[[nodiscard]] std::vector<boundary_pair> boundary_pairs(
-    const Points& points, std::span<const point_index> first, std::span<const point_index> second,
-    const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids, std::size_t pairs = 6) {
-    std::vector<boundary_pair> found;
-    append_boundary_pairs(found, points, first, second, centroids, pairs);
-    return found;
+void append_boundary_pairs(auto& found, const Points& points, std::span<const point_index> first,
+                           std::span<const point_index> second,
+                           const std::pair<Eigen::Vector3d, Eigen::Vector3d>& centroids,
+                           std::size_t pairs = 6) {
+    for (const neighbor& p : nearest_of(points, first, centroids.second, pairs / 2))
+        for (const neighbor& q : nearest_of(points, second, points[p.index], 1))
+            found.push_back({p.index, q.index, std::sqrt(q.squared_distance)});
+    for (const neighbor& q : nearest_of(points, second, centroids.first, pairs / 2))
+        for (const neighbor& p : nearest_of(points, first, points[q.index], 1))
+            found.push_back({p.index, q.index, std::sqrt(p.squared_distance)});
 }
 
 /// rho_c, the least distance of the pairs [m], Eq. (4.7); infinite if there are none.

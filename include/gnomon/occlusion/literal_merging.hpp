@@ -9,13 +9,14 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/union_find.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -23,8 +24,6 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/detail/bresenham.hpp>
-#include <gnomon/occlusion/detail/segment_distances.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
@@ -35,6 +34,41 @@
 namespace gnomon {
 
 namespace detail {
+
+/// rho_a, between the planes [rad], from 0 to pi / 2, Eq. (4.5). Where Fig. 4.6 names the inner
+/// product itself, the equation stands.
+[[nodiscard]] inline double angular_distance(const principal_frame& a, const principal_frame& b) {
+    const Eigen::Vector3d n = a.normal(), m = b.normal();
+    // Unlike acos, exact for small angles.
+    return std::atan2(length(cross(n, m)), std::abs(dot(n, m)));
+}
+
+/// rho_o, the smaller of the distances of each centroid from the other's plane [m], Eq. (4.6).
+[[nodiscard]] inline double orthogonal_distance(const principal_frame& a,
+                                                const principal_frame& b) {
+    const Eigen::Vector3d between = difference(b.centroid, a.centroid);
+    return std::min(std::abs(dot(a.normal(), between)), std::abs(dot(b.normal(), between)));
+}
+
+/// Calls visit(pixel, share) for the pixels of a straight line from one pixel to another, both
+/// included, by the shorter way around: across the seam where azimuth pi meets -pi, if that is
+/// nearer (Bresenham 1965; Klasing 2010, Sec. 4.3.2). share is how far along, from 0 to 1.
+inline void for_each_pixel_between(const range_image& image, const range_image::pixel& from,
+                                   const range_image::pixel& to, auto&& visit) {
+    const auto column = static_cast<double>(from.azimuth),
+               row = static_cast<double>(from.elevation);
+    const auto width = static_cast<double>(image.width());
+    const double across = std::remainder(static_cast<double>(to.azimuth) - column, width);
+    const double up = static_cast<double>(to.elevation) - row;
+    const double steps = std::max(std::abs(across), std::abs(up)), most = std::max(steps, 1.0);
+    for (double s = 0.0; s <= steps; s += 1.0) {
+        const double azimuth = column + std::round(across * s / most) + width;
+        const double elevation = row + std::round(up * s / most);
+        visit(range_image::pixel{static_cast<std::size_t>(azimuth) % image.width(),
+                                 static_cast<std::size_t>(elevation)},
+              s / most);
+    }
+}
 
 /// Whether a policy finds most pixels of a line in its favor: what is less far than the line is
 /// closer, the rest farther.
@@ -54,16 +88,6 @@ template <merge_policy M>
                                ++pixels;
                            });
     return 2 * in_favor > pixels;
-}
-
-/// The segments, where those of a set of a `union_find` are one, largest first.
-[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
-    std::vector<std::vector<point_index>> groups(parts.size());
-    for (std::size_t s = 0; s < parts.size(); ++s) {
-        auto& group = groups[sets.find(static_cast<point_index>(s))];
-        group.insert(group.end(), parts[s].begin(), parts[s].end());
-    }
-    return segments_of_groups(parts.labels().size(), groups);
 }
 
 }  // namespace detail
@@ -126,15 +150,18 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
-        const auto lines =
-            detail::boundary_pairs(p, parts[i], parts[j], {frames[i].centroid, frames[j].centroid},
-                                   options.boundary_pairs);
+        std::vector<detail::boundary_pair> lines;
+        detail::append_boundary_pairs(lines, p, parts[i], parts[j],
+                                      {frames[i].centroid, frames[j].centroid},
+                                      options.boundary_pairs);
         const auto occluded = std::count_if(lines.begin(), lines.end(), is_occluded);
         if (detail::coplanar_distance(lines) < options.max_gap ||
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    return detail::united_segments(parts, sets);
+    segments result;
+    detail::unite_segments(result, parts, sets);
+    return result;
 }
 
 }  // namespace gnomon

@@ -23,7 +23,6 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
@@ -61,10 +60,7 @@ class range_image {
                 const range_image_options& format = {}, Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
-        detail::scratch<sight> visible;
-        visible.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) add(visible, p[i], i);
-        show(visible, p, format);
+        show(p, p.size(), std::identity(), format.pole);
     }
 
     /// The image of some points of a cloud: what it shows has its index in the whole of it.
@@ -76,13 +72,10 @@ class range_image {
                 Proj projection = {})
         : range_image(viewpoint, format) {
         const position_view<R, Proj> p(points, std::move(projection));
-        detail::scratch<sight> visible;
-        visible.reserve(some.size());
-        for (const point_index i : some) {
+        for (const point_index i : some)
             detail::require(i < p.size(), "range_image: an index is out of range");
-            add(visible, p[i], i);
-        }
-        show(visible, p, format);
+        show(
+            p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
     }
 
     [[nodiscard]] std::size_t width() const { return width_; }
@@ -124,46 +117,49 @@ class range_image {
         point_index index = 0;
     };
 
-    /// A point that is seen.
+    /// A point that is seen, and the place of its pixel, row by row.
     struct sight {
         view what;
-        std::uint32_t azimuth = 0, elevation = 0;  // its pixel
-
-        [[nodiscard]] pixel at() const { return {azimuth, elevation}; }
+        std::uint64_t place;
     };
 
     range_image(const Eigen::Vector3d& viewpoint, const range_image_options& format)
         : width_(format.width), height_(format.height), viewpoint_(viewpoint) {
-        detail::require(width_ > 0 && height_ > 0, "range_image: needs a pixel");
-        constexpr std::size_t most = std::size_t{1} << 31;  // their numbers do not overflow
-        detail::require(width_ <= most && height_ <= most,
-                        "range_image: at most 2^31 pixels in a row or column");
+        constexpr std::size_t most = std::size_t{1} << 31;  // overflow of their numbers
+        detail::require(0 < width_ && width_ <= most && 0 < height_ && height_ <= most,
+                        "range_image: needs a pixel, and at most 2^31 in a row or column");
         detail::require(is_finite(viewpoint), "range_image: the view point must be finite");
     }
 
-    // What follows takes the points that are seen as `auto`, so that only code that makes images
-    // compiles it.
-
-    void add(auto& visible, const Eigen::Vector3d& p, std::size_t i) const {
-        const Eigen::Vector3d d = detail::difference(p, viewpoint_);
-        if (detail::has_length(d))
-            visible.push_back({{detail::length(d), static_cast<point_index>(i)}});
-    }
-
-    void show(auto& visible, const auto& points, const range_image_options& format) {
+    /// Stores the nearest of `count` points in each pixel. (A template, as what it calls, so that
+    /// only code that makes images compiles it.)
+    void show(const auto& points, std::size_t count, const auto& index_of, const auto& pole) {
+        detail::scratch<sight> visible;
+        visible.reserve(count);
         const auto offset_of = [&](const sight& s) {
             return detail::difference(points[s.what.index], viewpoint_);
         };
-        axes_ = detail::image_axes::with_pole(
-            format.pole ? *format.pole : detail::least_observed_axis(visible, offset_of));
-        project(visible, offset_of);
-        // Only rows in which something is seen are kept, for scan lines a single one.
-        std::size_t lowest = height_, highest = 0;
-        for (const sight& s : visible) {
-            lowest = std::min<std::size_t>(lowest, s.elevation);
-            highest = std::max<std::size_t>(highest, s.elevation);
+        for (std::size_t k = 0; k < count; ++k) {
+            const auto i = static_cast<point_index>(index_of(k));
+            const Eigen::Vector3d d = detail::difference(points[i], viewpoint_);
+            if (detail::has_length(d)) visible.push_back({{detail::length(d), i}, 0});
         }
-        first_row_ = lowest;
+        axes_ = detail::image_axes::with_pole(
+            pole ? *pole : detail::least_observed_axis(visible, offset_of));
+        std::size_t lowest = height_, highest = 0;
+        std::array<Eigen::Vector3d, detail::pack::size> to;
+        for (std::size_t k = 0; k < visible.size(); k += to.size()) {
+            const std::size_t next = std::min(to.size(), visible.size() - k);
+            for (std::size_t l = 0; l < to.size(); ++l)
+                to[l] = offset_of(visible[k + std::min(l, next - 1)]);
+            const auto at = axes_.cells_towards(to, width_, height_);
+            for (std::size_t l = 0; l < next; ++l) {
+                visible[k + l].place = place_of(at[l]);
+                lowest = std::min(lowest, at[l].elevation);
+                highest = std::max(highest, at[l].elevation);
+            }
+        }
+        if (!visible.empty()) keep(visible, lowest, highest);
         const auto sine_of_row = [this](double row) {
             const double turn = std::clamp(row / static_cast<double>(height_), 0.0, 1.0) - 0.5;
             return std::sin(turn * std::numbers::pi);
@@ -171,71 +167,55 @@ class range_image {
         constexpr double about = 2.0 + 1e-3;  // rows, and a margin for rounding
         lowest_sine_ = sine_of_row(static_cast<double>(lowest) - about);
         highest_sine_ = sine_of_row(static_cast<double>(highest) + 1.0 + about);
-        keep(visible, lowest <= highest ? (highest - lowest + 1) * width_ : 0);
     }
 
-    [[nodiscard]] view view_of(const pixel& at) const {
-        if (at.elevation < first_row_) return {};
-        std::size_t place = place_of(at);
-        if (is_sparse_) {
-            const auto found = std::lower_bound(taken_.begin(), taken_.end(), place);
-            if (found == taken_.end() || *found != place) return {};
-            place = static_cast<std::size_t>(found - taken_.begin());
-        }
-        return place < seen_.size() ? seen_[place] : view{};
-    }
-
-    /// Stores the nearest point of each pixel.
-    void keep(auto& visible, std::size_t pixels) {
+    /// Stores the nearest point of each pixel, between two rows.
+    void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
-        is_sparse_ = pixels / few > visible.size();
-        if (is_sparse_) {
-            const auto key = [this](const sight& s) {
-                return std::tuple(place_of(s.at()), s.what.range, s.what.index);
-            };
-            std::sort(visible.begin(), visible.end(),
-                      [&](const sight& a, const sight& b) { return key(a) < key(b); });
+        const std::size_t pixels = (highest - lowest + 1) * width_;
+        if (pixels / few <= visible.size()) {
+            first_ = lowest * width_;
+            seen_.resize(pixels);
             for (const sight& s : visible) {
-                if (!taken_.empty() && taken_.back() == place_of(s.at())) continue;
-                taken_.push_back(place_of(s.at()));
-                seen_.push_back(s.what);
+                view& v = seen_[s.place - first_];
+                if (v.range < 0.0 || s.what.range < v.range) v = s.what;
             }
             return;
         }
-        seen_.resize(pixels);
+        std::sort(visible.begin(), visible.end(), [](const sight& a, const sight& b) {
+            const auto key = [](const sight& s) {
+                return std::tuple(s.place, s.what.range, s.what.index);
+            };
+            return key(a) < key(b);
+        });
         for (const sight& s : visible) {
-            view& v = seen_[place_of(s.at())];
-            if (v.range < 0.0 || s.what.range < v.range) v = s.what;
+            if (!places_.empty() && places_.back() == s.place) continue;
+            places_.push_back(s.place);
+            seen_.push_back(s.what);
         }
     }
 
-    [[nodiscard]] std::size_t place_of(const pixel& at) const {
-        return (at.elevation - first_row_) * width_ + at.azimuth;
+    [[nodiscard]] std::uint64_t place_of(const pixel& at) const {
+        return at.elevation * width_ + at.azimuth;
     }
 
-    /// Determines the pixel of each.
-    void project(auto& visible, const auto& offset_of) const {
-        std::array<Eigen::Vector3d, detail::pack::size> to;
-        for (std::size_t s = 0; s < visible.size(); s += to.size()) {
-            const std::size_t count = std::min(to.size(), visible.size() - s);
-            for (std::size_t l = 0; l < to.size(); ++l)
-                to[l] = offset_of(visible[s + std::min(l, count - 1)]);
-            const auto at = axes_.cells_towards(to, width_, height_);
-            for (std::size_t l = 0; l < count; ++l) {
-                visible[s + l].azimuth = static_cast<std::uint32_t>(at[l].azimuth);
-                visible[s + l].elevation = static_cast<std::uint32_t>(at[l].elevation);
-            }
+    [[nodiscard]] view view_of(const pixel& at) const {
+        std::uint64_t number = place_of(at) - first_;  // large for what is before the first
+        if (!places_.empty()) {
+            const auto found = std::lower_bound(places_.begin(), places_.end(), place_of(at));
+            if (found == places_.end() || *found != place_of(at)) return {};
+            number = static_cast<std::uint64_t>(found - places_.begin());
         }
+        return number < seen_.size() ? seen_[number] : view{};
     }
 
     std::size_t width_, height_;
     Eigen::Vector3d viewpoint_;
     detail::image_axes axes_;
-    std::size_t first_row_ = 0;
-    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in the rows kept, and about
-    detail::scratch<view> seen_;  // row by row, from the first in which something is seen
-    bool is_sparse_ = false;      // only pixels in which something is seen, whose places are
-    detail::scratch<std::size_t> taken_;
+    double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
+    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
+    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
+    detail::scratch<std::uint64_t> places_;  // of these
 };
 
 }  // namespace gnomon

@@ -84,16 +84,31 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    /// microradian to 90
-    ///                                degrees, or a pole of no length
+    ///                                microradian to 90 degrees, or a pole of no length
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
                         Proj projection = {})
         : noise_(options.noise) {
         detail::require_valid(options);
+        const position_view<R, Proj> p(points, projection);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            observe(points, viewpoints, options, run, projection);
+            const double wanted = options.pixel.radians() > 0.0
+                                      ? options.pixel.radians()
+                                      : detail::ray_spacing(p, viewpoints).radians();
+            const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
+            pixel_ = std::numbers::pi / height;
+            const auto rows = static_cast<std::size_t>(height);
+            const range_image_options format{2 * rows, rows, options.pole};
+            const auto places =
+                detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
+            detail::scratch<std::optional<range_image>> images(places.size());
+            run(places.size(), [&](std::size_t i) {
+                images[i].emplace(points, places[i].seen, places[i].viewpoint(), format,
+                                  projection);
+            });
+            images_.reserve(images.size());
+            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
         });
     }
 
@@ -111,10 +126,9 @@ class visibility {
         std::size_t votes = 0;
         for (const observation s :
              {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] > votes) {
-                most = s;
-                votes = count[s];
-            }
+            if (count[s] <= votes) continue;
+            most = s;
+            votes = count[s];
         }
         return most;
     }
@@ -126,11 +140,9 @@ class visibility {
                                             const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
-        const Eigen::Vector3d across = detail::cross(to_p, to_q);
         const double angle =
-            std::atan2(std::sqrt(detail::dot(across, across)), detail::dot(to_p, to_q));
-        const double near = std::sqrt(detail::dot(to_p, to_p));
-        const double far = std::sqrt(detail::dot(to_q, to_q));
+            std::atan2(detail::length(detail::cross(to_p, to_q)), detail::dot(to_p, to_q));
+        const double near = detail::length(to_p), far = detail::length(to_q);
         observation_count count;
         if (!std::isfinite(angle)) return count;
         const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
@@ -144,28 +156,6 @@ class visibility {
     }
 
   private:
-    /// Makes the images.
-    template <class R, execution X, class Proj>
-    void observe(const R& points, const viewpoint_table& viewpoints,
-                 const visibility_options& options, const X& run, const Proj& projection) {
-        const position_view<R, Proj> p(points, projection);
-        const angle pixel = options.pixel.radians() > 0.0
-                                ? options.pixel
-                                : detail::rays_of_cloud(p, viewpoints).spacing();
-        const auto height =
-            static_cast<std::size_t>(std::max(1.0, std::round(std::numbers::pi / pixel.radians())));
-        pixel_ = std::numbers::pi / static_cast<double>(height);
-        const range_image_options format{2 * height, height, options.pole};
-
-        const auto places = detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
-        detail::scratch<std::optional<range_image>> images(places.size());
-        run(places.size(), [&](std::size_t i) {
-            images[i].emplace(points, places[i].seen, places[i].viewpoint(), format, projection);
-        });
-        images_.reserve(images.size());
-        for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
-    }
-
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
@@ -211,23 +201,19 @@ class visibility {
     /// occluded.
     [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
                                                 const range_image& image, const auto& told_by) {
-        observation about = observation::unobserved;
+        observation_count about;
         for (std::size_t e = at.elevation - std::min(at.elevation, reach);
              e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - reach;
-                 a <= at.azimuth + image.width() + reach; ++a) {
-                const observation s = told_by({a % image.width(), e});
-                if (s == observation::unobserved) continue;
-                if (about == observation::unobserved || s == about) {
-                    about = s;
-                } else if (s == observation::free_space || about == observation::free_space) {
-                    return observation::unobserved;
-                } else {
-                    about = observation::on_surface;
-                }
-            }
+                 a <= at.azimuth + image.width() + reach; ++a)
+                about.add(told_by({a % image.width(), e}));
         }
-        return about;
+        const std::size_t free = about[observation::free_space];
+        const std::size_t on = about[observation::on_surface];
+        const std::size_t hidden = about[observation::occluded];
+        if (free > 0) return on + hidden > 0 ? observation::unobserved : observation::free_space;
+        if (on > 0) return observation::on_surface;
+        return hidden > 0 ? observation::occluded : observation::unobserved;
     }
 
     noise_curve noise_;

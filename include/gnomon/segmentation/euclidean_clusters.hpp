@@ -11,7 +11,6 @@
 #include <functional>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -51,11 +50,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
         detail::linker linker(index);
         linker.link_greedily([&](std::size_t) { return options.radius; },
                              [](std::size_t, const neighbor&) { return true; });
-        return linker.result(options.min_points);
+        return detail::segments_of(linker.labels(options.min_points));
     }
-    detail::union_find sets = detail::components_within(index.tree(), options.radius, team);
-    return detail::segments_of(sets, options.min_points,
-                               [&index](std::size_t i) { return index.is_finite(i); });
+    auto labels = detail::components_within(index.tree(), options.radius, team);
+    detail::number_by_size(labels, options.min_points);
+    return detail::segments_of(labels);
 }
 
 }  // namespace gnomon

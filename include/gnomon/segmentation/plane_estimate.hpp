@@ -75,8 +75,7 @@ struct plane_of_members {
             if (rests) break;
         }
         is_planar = region.fit.is_determined && region.fit.is_seen &&
-                    region.fit.chi2 <= region_plane::most_excess &&
-                    4 * region.sums.count >= 3 * all;
+                    region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
         is_flat = is_planar && off_it(exact, members) < fewest_off;
     }
 
@@ -168,9 +167,9 @@ template <class Cloud>
 ///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
 /// @param noise   of the sensor
-/// @return an estimate for each segment. It is flat if three of four of its points are on the
-///         plane, within three standard deviations, fewer than 30 are farther from it than five,
-///         and the noise explains at least a quarter of the variance
+/// @return an estimate for each segment. It is flat if most of its points are on the plane,
+///         within three standard deviations, fewer than 30 are farther from it than five, and their
+///         variance is at most 2.5 times that of the noise
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>

@@ -6,7 +6,6 @@
 /// found. A level plane that is no floor, such as a table top, is not taken for one.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -42,8 +41,8 @@ struct find_ceiling_options {
 
 /// Which heights above the floor to leave out.
 struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]; chosen
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; chosen
+    double floor = 0.05;    ///< up to this height [m]; rho_o
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
 };
 
 /// A rigid motion after which the floor is the plane z = 0.
@@ -52,22 +51,41 @@ struct leveling {
     double lift = 0.0;  ///< added to z after the rotation [m]
 
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        Eigen::Vector3d q(0.0, 0.0, lift);
-        for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j) q[i] += rotation(i, j) * p[j];
+        Eigen::Vector3d q = detail::product(rotation, p);
+        q[2] += lift;
         return q;
     }
 
     /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
-    [[nodiscard]] static leveling of(const plane& floor);
+    [[nodiscard]] static leveling of(const plane& floor) {
+        const Eigen::Vector3d& n = floor.normal;
+        leveling level;
+        level.lift = -floor.offset;
+        Eigen::Matrix3d& r = level.rotation;
+        // 1 + n_z, without cancellation where the scan is nearly upside down.
+        const double across = n[0] * n[0] + n[1] * n[1];
+        const double h = n[2] >= 0.0 ? 1.0 + n[2] : across / (1.0 - n[2]);
+        if (!(h > 0.0)) {  // upside down: half a turn about x
+            r(1, 1) = r(2, 2) = -1.0;
+            return level;
+        }
+        // Rodrigues' formula for the rotation about n x z.
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) r(i, j) -= n[i] * n[j] / h;
+            r(i, 2) = -n[i];
+            r(2, i) = n[i];
+        }
+        r(2, 2) = n[2];
+        return level;
+    }
 };
 
 namespace detail {
 
 /// @throws std::invalid_argument  unless the plane is in Hesse normal form
 inline void require_hesse(const plane& p) {
-    constexpr double tolerance = 1e-6;  // of unit vectors; numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < tolerance && std::isfinite(p.offset),
+    constexpr double rounding = 1e-6;  // numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
             "the normal of a plane, or the direction upwards, must be of unit length");
 }
 
@@ -124,49 +142,21 @@ template <class R, class Proj = std::identity>
     detail::require_valid(search);
     detail::require_hesse(floor);
     const position_view<R, Proj> p(points, std::move(projection));
-    const detail::height_histogram histogram(p, floor, search.bin, search.min_height);
-    if (histogram.bins().empty()) return std::nullopt;
-    const auto [peak, count] = detail::fullest(histogram);
-    if (static_cast<double>(count) < search.min_share * static_cast<double>(histogram.points())) {
+    const detail::height_histogram heights(p, floor, search.bin, search.min_height);
+    if (heights.bins.empty()) return std::nullopt;
+    const auto [peak, count] = detail::fullest(heights);
+    if (static_cast<double>(count) < search.min_share * static_cast<double>(heights.points))
         return std::nullopt;
-    }
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
-    constexpr double half_width = 1.5;  // of three bins (formula)
-    double sum = 0.0;
-    std::size_t near = 0;
+    constexpr double half_width = 1.5;  // bins: half of three (formula)
+    double sum = 0.0, near = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
         const double height = floor.signed_distance(p[i]);
-        if (std::abs(height - peak) > half_width * search.bin) continue;
+        if (!(std::abs(height - peak) <= half_width * search.bin)) continue;
         sum += height;
-        ++near;
+        near += 1.0;
     }
-    if (near == 0) return std::nullopt;
-    return sum / static_cast<double>(near);
-}
-
-inline leveling leveling::of(const plane& floor) {
-    const Eigen::Vector3d& n = floor.normal;
-    leveling level;
-    level.lift = -floor.offset;
-    // 1 + n_z, without cancellation where the scan is nearly upside down.
-    const double across = n.x() * n.x() + n.y() * n.y();
-    const double h = n.z() >= 0.0 ? 1.0 + n.z() : across / (1.0 - n.z());
-    if (h > 0.0) {
-        // Rodrigues' formula for the rotation about n x z, row by row. (Not by Eigen's commas,
-        // which take compilers long.)
-        const double rows[3][3] = {{1.0 - n.x() * n.x() / h, -n.x() * n.y() / h, -n.x()},
-                                   {-n.x() * n.y() / h, 1.0 - n.y() * n.y() / h, -n.y()},
-                                   {n.x(), n.y(), n.z()}};
-        for (int i = 0; i < 3; ++i) {
-            for (int j = 0; j < 3; ++j) level.rotation(i, j) = rows[i][j];
-        }
-    } else {
-        // Upside down: half a turn about x.
-        level.rotation(1, 1) = -1.0;
-        level.rotation(2, 2) = -1.0;
-    }
-    return level;
+    return sum / near;
 }
 
 namespace detail {

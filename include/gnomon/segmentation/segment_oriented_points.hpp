@@ -41,7 +41,7 @@ concept oriented_dissimilarity = requires(const D& d, const Eigen::Vector3d& n) 
 
 /// rho_e <= r and rho_a <= alpha_max, rho_a = acos |<n_i, n_j>|.
 struct two_thresholds {
-    double radius = 0.05;          ///< r [m]; chosen, as Fig. 4.2 has no value
+    double radius;                 ///< r [m]: a few times the distance between neighbors
     angle max_angle = degrees(5);  ///< alpha_max, Sec. 4.4.1
 
     /// @throws std::invalid_argument  for an angle outside [0, 90] degrees
@@ -109,7 +109,7 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
     } else {
         linker.link_all(radius_of, similar, team);
     }
-    return linker.result(options.min_points);
+    return detail::segments_of(linker.labels(options.min_points));
 }
 
 }  // namespace gnomon

@@ -141,7 +141,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
     detail::linker linker(p);
     linker.link_listed(
         graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
-    return linker.result(options.min_points);
+    return detail::segments_of(linker.labels(options.min_points));
 }
 
 }  // namespace gnomon

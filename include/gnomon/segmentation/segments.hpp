@@ -115,65 +115,52 @@ class label_groups {
 };
 
 /// Renumbers labels from the most frequent one to the least frequent one, equally frequent ones by
-/// their smallest point index. O(n + largest label + s log s) for s labels. (A template, so that
-/// only its users compile a sort.)
-/// @return the previous numbers, in the new order
-template <class Labels>
-scratch<std::int32_t> number_by_size(Labels& labels) {
+/// their smallest point index; those of fewer than `min_points` points become `unlabeled`.
+/// O(n + largest label + s log s) for s labels. (A template, so that only its users compile a
+/// sort.)
+void number_by_size(auto& labels, std::size_t min_points = 0) {
     struct group {
-        std::size_t size = 0;
-        std::size_t first = 0;  // its smallest point index
+        point_index size = 0;
+        point_index first = 0;  // its smallest point index
     };
     scratch<group> groups;
     for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (labels[i] < 0) continue;
-        const auto l = static_cast<std::size_t>(labels[i]);
-        if (l >= groups.size()) groups.resize(l + 1);
-        if (groups[l].size++ == 0) groups[l].first = i;
+        if (labels[i] == unlabeled) continue;
+        const auto l = static_cast<point_index>(labels[i]);
+        if (l >= groups.size()) groups.resize(std::max(l + std::size_t{1}, labels.size()));
+        if (groups[l].size++ == 0) groups[l].first = static_cast<point_index>(i);
     }
-    scratch<std::int32_t> order;
+    scratch<point_index> order;
     for (std::size_t l = 0; l < groups.size(); ++l)
-        if (groups[l].size > 0) order.push_back(static_cast<std::int32_t>(l));
-    const auto of = [&groups](std::int32_t l) { return groups[static_cast<std::size_t>(l)]; };
-    std::sort(order.begin(), order.end(), [&of](std::int32_t a, std::int32_t b) {
-        return of(a).size != of(b).size ? of(a).size > of(b).size : of(a).first < of(b).first;
+        if (groups[l].size >= std::max<std::size_t>(min_points, 1))
+            order.push_back(static_cast<point_index>(l));
+    std::sort(order.begin(), order.end(), [&groups](point_index a, point_index b) {
+        return groups[a].size != groups[b].size ? groups[a].size > groups[b].size
+                                                : groups[a].first < groups[b].first;
     });
-    scratch<std::int32_t> number(groups.size(), unlabeled);
-    for (std::size_t s = 0; s < order.size(); ++s)
-        number[static_cast<std::size_t>(order[s])] = static_cast<std::int32_t>(s);
-    for (std::int32_t& label : labels)
-        if (label >= 0) label = number[static_cast<std::size_t>(label)];
-    return order;
+    scratch<std::int32_t> renumbered(groups.size(), unlabeled);
+    for (std::size_t r = 0; r < order.size(); ++r)
+        renumbered[order[r]] = static_cast<std::int32_t>(r);
+    for (auto& l : labels)
+        if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
-/// Labels the sets of a partition that have at least `min_points` members, from the largest to the
-/// smallest, where counts(i) returns whether element i is counted as a member. O(n log n).
+/// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
+/// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
                                                    auto&& counts) {
-    scratch<point_index> count(sets.size(), 0);
-    for (std::size_t i = 0; i < sets.size(); ++i)
-        if (counts(i)) ++count[sets.find(static_cast<point_index>(i))];
-
-    scratch<point_index> roots;
-    for (std::size_t i = 0; i < count.size(); ++i)
-        if (count[i] > 0 && count[i] >= min_points) roots.push_back(static_cast<point_index>(i));
-    std::sort(roots.begin(), roots.end(), [&count](point_index a, point_index b) {
-        return count[a] != count[b] ? count[a] > count[b] : a < b;
-    });
-
-    scratch<std::int32_t> label_of_root(sets.size(), unlabeled);
-    for (std::size_t r = 0; r < roots.size(); ++r)
-        label_of_root[roots[r]] = static_cast<std::int32_t>(r);
-    scratch<std::int32_t> labels(sets.size());
+    scratch<std::int32_t> labels(sets.size(), unlabeled);
     for (std::size_t i = 0; i < labels.size(); ++i)
-        labels[i] = label_of_root[sets.find(static_cast<point_index>(i))];
+        if (counts(i))
+            labels[i] = static_cast<std::int32_t>(sets.find(static_cast<point_index>(i)));
+    number_by_size(labels, min_points);
     return labels;
 }
 
-/// The segments of these sets; see labels_of_sets.
-[[nodiscard]] segments segments_of(union_find& sets, std::size_t min_points, auto&& counts) {
+/// The segments of these labels.
+[[nodiscard]] inline segments segments_of(std::span<const std::int32_t> labels) {
     segments result;
-    result.assign(labels_of_sets(sets, min_points, counts));
+    result.assign(labels);
     return result;
 }
 

@@ -26,8 +26,7 @@ namespace gnomon::detail {
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
                                                spatial_index& sparse, const X& run) {
-    constexpr std::size_t enough = 3000;  // chosen: as many planes as measure_noise fits
-    const std::size_t thinning = index.finite() / enough;
+    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
     if (thinning < 2) return noise;
     scratch<point_index> some;
     double range = 0.0;
@@ -37,7 +36,7 @@ template <class X>
         range += length(difference(index[i], index.viewpoints[i]));
     }
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
-    const measured_noise wide = noise_meter(sparse, run)(1000, noise);
+    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
     return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
 }

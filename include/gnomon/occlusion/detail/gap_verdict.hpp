@@ -17,14 +17,11 @@ namespace gnomon::detail {
 template <merge_policy M>
 [[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
     if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t in_favor = 0, against = 0;
-    for (const observation s : {observation::unobserved, observation::occluded,
-                                observation::on_surface, observation::free_space}) {
-        if (policy(s))
-            in_favor += seen[s];
-        else if (s != observation::on_surface)
-            against += seen[s];
-    }
+    std::size_t against = 0;
+    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+    for (const observation s :
+         {observation::unobserved, observation::occluded, observation::free_space})
+        (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }
 

@@ -16,6 +16,7 @@
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/moments.hpp>
 
 namespace gnomon::detail {
 
@@ -34,17 +35,14 @@ struct image_axes {
     /// pole, from the y-axis.
     /// @throws std::invalid_argument  if the pole is not finite or has no length
     [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
-        require(all_finite(pole) && has_direction,
+        require(all_finite(pole) && pole != Eigen::Vector3d(0.0, 0.0, 0.0),
                 "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
         axes.z = direction_of(pole);
         const Eigen::Vector3d start =
             std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
-        const Eigen::Vector3d y = cross(axes.z, start);
-        const double across = std::sqrt(dot(y, y));
-        axes.y = Eigen::Vector3d(y[0] / across, y[1] / across, y[2] / across);
+        axes.y = direction_of(cross(axes.z, start));
         axes.x = cross(axes.y, axes.z);
         return axes;
     }
@@ -76,15 +74,12 @@ struct image_axes {
 /// The axis along which directions vary least; z if there are none.
 /// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
 [[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
-    Eigen::Matrix3d sum = diagonal(0.0, 0.0, 0.0);
+    moments directions;
     for (const auto& s : samples) {
-        const Eigen::Vector3d& d = offset_of(s);
-        const double weight = 1.0 / dot(d, d);
-        for (int r = 0; r < 3; ++r)
-            for (int c = r; c < 3; ++c) sum(r, c) += weight * d[r] * d[c];
+        const Eigen::Vector3d d = offset_of(s);
+        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
     }
-    for (int r = 0; r < 3; ++r)
-        for (int c = 0; c < r; ++c) sum(r, c) = sum(c, r);
+    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
     constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
     sum(2, 2) *= 1.0 - tie;
     return column(symmetric_eigen(sum).vectors, 2);

@@ -8,13 +8,11 @@
 #include <cstdint>
 #include <functional>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/features/principal_frame.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -22,27 +20,14 @@
 
 namespace gnomon::detail {
 
-/// The pairs of each of some points with its k nearest ones, k less than their number minus 1.
-/// O(m log m) for m points, O(m^2) for few of them.
+/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
+/// (A template, so that only its users compile a search.)
 /// @param number  what to call each point in the pairs
 void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
-    constexpr std::size_t few = 2000;  // performance only: no index, thus no allocation
-    const std::size_t m = points.size();
-    const spatial_index index = m > few ? spatial_index(points) : spatial_index();
+    const spatial_index index(points);
     scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < m; ++f) {
-        if (m > few) {
-            knn{.k = k}.find(index, f, nearest);
-        } else {
-            nearest.clear();
-            for (std::size_t g = 0; g < m; ++g)
-                if (g != f)
-                    nearest.push_back(
-                        {squared_distance(points[g], points[f]), static_cast<point_index>(g)});
-            std::nth_element(nearest.begin(), nearest.begin() + static_cast<std::ptrdiff_t>(k),
-                             nearest.end());
-            nearest.resize(k);
-        }
+    for (std::size_t f = 0; f < points.size(); ++f) {
+        knn{.k = k}.find(index, f, nearest);
         for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
     }
 }
@@ -78,27 +63,16 @@ template <class Frame = std::identity>
     return pairs;
 }
 
-/// The labels of n points in disjoint groups, numbered as usual.
-/// @param groups   an object for each segment
-/// @param members  the indices of its points, of that object
-template <class Members = std::identity>
-[[nodiscard]] scratch<std::int32_t> labels_of_groups(std::size_t n, const auto& groups,
-                                                     Members&& members = {}) {
-    scratch<std::int32_t> labels(n, unlabeled);
-    std::int32_t label = 0;
-    for (const auto& group : groups) {
-        for (const point_index i : std::invoke(members, group)) labels[i] = label;
-        ++label;
-    }
+/// The segments of which those of a set of a `union_find` are one, largest first.
+/// (A template, so that only its users compile a sort.)
+/// @param result  may be `parts`
+void unite_segments(segments& result, const segments& parts, auto& sets) {
+    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    for (std::int32_t& label : labels)
+        if (label != unlabeled)
+            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
     number_by_size(labels);
-    return labels;
-}
-
-/// The segments of n points in disjoint groups.
-[[nodiscard]] segments segments_of_groups(std::size_t n, const auto& groups) {
-    segments merged;
-    merged.assign(labels_of_groups(n, groups));
-    return merged;
+    result.assign(labels);
 }
 
 }  // namespace gnomon::detail

@@ -72,6 +72,7 @@ class perception_run {
 
   private:
     static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
+    // The calls of step() (formula).
     static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
     /// Announces a step, and notes its time.

@@ -38,7 +38,8 @@ struct cells {
     cells(const spatial_index& index, auto&& width) {
         const Eigen::Vector3d least = least_corner(index);
         of_point.assign(index.size(), no_cell);
-        const std::size_t slots = std::bit_ceil(std::max<std::size_t>(2 * index.finite(), 16));
+        constexpr std::size_t fewest_slots = 16;  // performance only
+        const std::size_t slots = std::bit_ceil(std::max(2 * index.finite(), fewest_slots));
         scratch<point_index> slot(slots, no_cell);
         scratch<key> keys;
         scratch<Eigen::Vector3d> seen_from;
@@ -88,8 +89,9 @@ struct cells {
     [[nodiscard]] static key key_of(const Eigen::Vector3d& offset, double width) {
         const double level = std::floor(2.0 * std::log2(width));
         const double side = std::exp2(0.5 * level);
+        constexpr double most = 4e18;  // numerical: overflow of std::int64_t
         const auto cube = [&](int a) {
-            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, 4e18)));
+            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, most)));
         };
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
     }

@@ -9,12 +9,10 @@
 ///  - whose points are all in one component already, as most are where points are dense.
 ///
 /// Leaves meet piece by piece, where a piece are those points of a leaf that are connected within
-/// it: one edge joins two pieces, and no other edge between them need be looked for. Points in a
-/// box whose diagonal is at most r are one piece as they are.
+/// it: one edge joins two pieces, and no other edge between them need be looked for.
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -26,6 +24,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -83,14 +82,10 @@ class component_walk {
     }
 
     void join(const subtree& a, const subtree& b) {
+        if (a.last - a.first < b.last - b.first) return join(b, a);
         if (tree_.box(a).squared_distance_to(tree_.box(b)) > possible_ || in_one_set(a, b)) return;
-        if (a.is_leaf() && b.is_leaf()) {
-            join_leaves(a, b);
-        } else if (a.last - a.first >= b.last - b.first) {
-            for (const subtree& child : a.children()) join(child, b);
-        } else {
-            for (const subtree& child : b.children()) join(a, child);
-        }
+        if (a.is_leaf()) return join_leaves(a, b);
+        for (const subtree& child : a.children()) join(child, b);
     }
 
     /// Whether all points of both are known to be in the same component.
@@ -102,65 +97,47 @@ class component_walk {
     /// Finds the pieces of a leaf.
     void join_within_leaf(const subtree& leaf) {
         const lane_set all = lanes_of(leaf);
-        if (tree_.box(leaf).squared_diagonal() <= certain_) {
-            make_piece(leaf, all);
-        } else {
-            lane_set left = all;
-            while (left != 0) {
-                const lane_set before = left;
-                lane_set next = lowest(left);  // points of the piece whose neighbors are unknown
-                left ^= next;
-                while (next != 0 && left != 0) {
-                    const lane_set found = near(point_at(leaf, next), leaf, left);
-                    left ^= found;
-                    next ^= lowest(next) | found;
-                }
-                make_piece(leaf, before ^ left);
+        for (lane_set left = all; left != 0;) {
+            lane_set piece = lowest(left), next = piece;  // points whose neighbors are unknown
+            left ^= piece;
+            while (next != 0 && left != 0) {
+                const lane_set found = near(point_at(leaf, next), leaf, left);
+                next ^= lowest(next) | found;
+                piece |= found;
+                left ^= found;
+            }
+            for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
+                sets_.unite(point_at(leaf, piece), point_at(leaf, rest));
+                piece_[point_at(leaf, rest)] = piece;
             }
         }
         whole_[leaf.node] = piece_[first_of(leaf)] == all;
-    }
-
-    void make_piece(const subtree& leaf, lane_set piece) {
-        const point_index first = point_at(leaf, piece);
-        for (lane_set rest = piece; rest != 0; rest ^= lowest(rest)) {
-            sets_.unite(first, point_at(leaf, rest));
-            piece_[point_at(leaf, rest)] = piece;
-        }
     }
 
     /// Joins the pieces of two leaves.
     void join_leaves(const subtree& a, const subtree& b) {
         lane_set in_a = near(tree_.box(b), a);
         const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
-        while (in_a != 0 && in_b != 0) {
+        while (in_a != 0) {
             lane_set piece = in_a & piece_[point_at(a, in_a)];
             in_a ^= piece;
-            lane_set others = pieces_apart_from(point_at(a, piece), b, in_b);
+            // The points of pieces that are not known to be connected with this one.
+            lane_set others = in_b;
+            const point_index set = sets_.find(point_at(a, piece));
+            for (lane_set left = in_b; left != 0;) {
+                const point_index q = point_at(b, left);
+                left &= ~piece_[q];
+                if (sets_.find(q) == set) others &= ~piece_[q];
+            }
             for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
                 const point_index p = point_at(a, piece);
-                lane_set found = near(p, b, others);
-                while (found != 0) {
+                for (lane_set found = near(p, b, others); found != 0; found &= others) {
                     const point_index q = point_at(b, found);
                     sets_.unite(p, q);
-                    found &= ~piece_[q];
                     others &= ~piece_[q];
                 }
             }
         }
-    }
-
-    /// Those of some points of a leaf whose pieces are not known to be connected with point p.
-    [[nodiscard]] lane_set pieces_apart_from(point_index p, const subtree& leaf, lane_set some) {
-        const point_index set = sets_.find(p);
-        lane_set apart = 0;
-        while (some != 0) {
-            const point_index q = point_at(leaf, some);
-            const lane_set piece = some & piece_[q];
-            some ^= piece;
-            if (sets_.find(q) != set) apart |= piece;
-        }
-        return apart;
     }
 
     /// The points of a leaf that may be within the radius of a box.
@@ -180,29 +157,20 @@ class component_walk {
 
     /// Those of some points of a leaf that are within the radius of point p.
     [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
-        const std::size_t first = first_of(leaf);
-        const double *const x = tree_.at(0), *const y = tree_.at(1), *const z = tree_.at(2);
-        const pack px(x[p]), py(y[p]), pz(z[p]);
-        std::array<pack, Tree::leaf_size / pack::size> d2;
-        lane_set possible = 0;
+        lane_set within = 0, certain = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
-            const pack dx = pack(x + first + l) - px;
-            const pack dy = pack(y + first + l) - py;
-            const pack dz = pack(z + first + l) - pz;
-            d2[l / pack::size] = dx * dx + dy * dy + dz * dz;
-            possible |= at_most(d2[l / pack::size], possible_) << l;
+            pack d2(0.0);
+            for (std::size_t a = 0; a < 3; ++a) {
+                const pack d = pack(tree_.at(a) + first_of(leaf) + l) - tree_.at(a)[p];
+                d2 += d * d;
+            }
+            within |= at_most(d2, possible_) << l;
+            certain |= at_most(d2, certain_) << l;
         }
-        possible &= some;
-        if (possible == 0) return 0;
-        lane_set certain = 0;
-        for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size)
-            certain |= at_most(d2[l / pack::size], certain_) << l;
-        certain &= possible;
-        for (lane_set doubt = possible ^ certain; doubt != 0; doubt ^= lowest(doubt)) {
-            if (tree_.squared_distance(p, point_at(leaf, doubt)) <= limit_)
-                certain |= lowest(doubt);
-        }
-        return certain;
+        within &= some;
+        for (lane_set doubt = within & ~certain; doubt != 0; doubt ^= lowest(doubt))
+            if (tree_.squared_distance(p, point_at(leaf, doubt)) > limit_) within ^= lowest(doubt);
+        return within;
     }
 
     [[nodiscard]] static point_index first_of(const subtree& t) {
@@ -226,19 +194,19 @@ class component_walk {
     scratch<subtree> parts_;
 };
 
-/// The connected components of the finite points, where points at most `radius` [m] apart are
-/// joined; others stay on their own. Nearly O(n), unless many points
-/// are hardly farther than the radius from many of another component. Precondition: the radius is
-/// not negative.
+/// A label for each point: the connected components of the finite points, where points at most
+/// `radius` [m] apart are joined; others are unlabeled. Nearly O(n), unless many points are hardly
+/// farther than the radius from many of another component. Precondition: the radius is not
+/// negative.
 template <execution X>
-[[nodiscard]] union_find components_within(const leaf_tree& tree, double radius, const X& run) {
+[[nodiscard]] scratch<std::int32_t> components_within(const leaf_tree& tree, double radius,
+                                                      const X& run) {
     union_find places = component_walk(tree, radius)(run);
-    union_find sets(tree.points());
-    for_each_chunk(run, tree.size(), [&](std::size_t begin, std::size_t end) {
-        for (std::size_t p = begin; p < end; ++p)
-            sets.unite(tree.index()[p], tree.index()[places.find(static_cast<point_index>(p))]);
-    });
-    return sets;
+    scratch<std::int32_t> labels(tree.points(), unlabeled);
+    for (std::size_t p = 0; p < tree.size(); ++p)
+        labels[tree.index()[p]] =
+            static_cast<std::int32_t>(places.find(static_cast<point_index>(p)));
+    return labels;
 }
 
 }  // namespace GNOMON_LANES

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Fits a plane to the floor, and examines whether it is one, by a grid in plan: which cells hold
-/// points of the plane, and above which of them something stands.
+/// Finds heights at which many points lie, fits a plane to a floor there, and examines whether it
+/// is one, by a grid in plan: which cells hold points of it, and above which of them something
+/// stands.
 #pragma once
 
 #include <algorithm>
@@ -22,6 +23,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/segmentation/detail/height_histogram.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
 
 namespace gnomon::detail {
 
@@ -33,24 +35,6 @@ struct floor_fit {
     std::size_t count;         ///< of points
     double band;               ///< half the height of the band about the plane [m]
 };
-
-/// @param m      moments about `origin`
-/// @param about  a plane whose normal is on the same side
-/// @return nothing where the points do not determine a plane
-[[nodiscard]] inline std::optional<floor_fit> floor_fit_of(const moments& m,
-                                                           const Eigen::Vector3d& origin,
-                                                           const plane& about) {
-    if (m.count < 3) return std::nullopt;
-    constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
-    const eigen_decomposition e = symmetric_eigen(m.covariance_of_neighbors());
-    if (!(e.values[1] > least_ratio * e.values[0])) return std::nullopt;
-    floor_fit fit{{column(e.vectors, 2), 0.0}, origin, e, m.count, 0.0};
-    if (dot(fit.plane.normal, about.normal) < 0.0)
-        fit.plane.normal = scaled(-1.0, fit.plane.normal);
-    for (int a = 0; a < 3; ++a) fit.centroid[a] += m.sum[a] / static_cast<double>(m.count);
-    fit.plane.offset = dot(fit.plane.normal, fit.centroid);
-    return fit;
-}
 
 /// The search for a floor among the points of a position_view.
 template <class Points>
@@ -68,13 +52,11 @@ class floor_search {
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
         constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
-        if (heights.bins().empty()) return std::nullopt;
-        const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
-        for (const auto& [height, count] : heights.bins()) {
-            if (2 * lower > heights.points()) break;  // what is higher is above most points
+        for (const auto& [height, count] : heights.bins) {
+            if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (fewer * count < most) continue;
+            if (fewer * count < fullest(heights).count) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -88,8 +70,7 @@ class floor_search {
         const auto clear = fitted(means_, fit->plane, fit->band);
         if (!clear || !is_wide(*clear)) return std::nullopt;
         const auto floor = settled(means_, clear->plane, fit->band);
-        if (!floor) return std::nullopt;
-        return floor->plane;
+        return floor ? std::optional(floor->plane) : std::nullopt;
     }
 
     /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
@@ -97,11 +78,6 @@ class floor_search {
     struct cell {
         std::uint32_t in_band = 0, above = 0, below = 0;
         Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
-
-        /// Noise is as often above as below: if more are above, something stands there.
-        [[nodiscard]] bool is_clear() const {
-            return in_band > 0 && above <= below + few * in_band;
-        }
     };
 
     static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
@@ -116,8 +92,7 @@ class floor_search {
                                                    double band) {
         constexpr int most_refits = 50;     // performance only: a handful is enough
         constexpr double converged = 1e-6;  // [m], and of unit vectors; numerical
-        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
-        constexpr double narrowest = 0.1;   // of the widest band; chosen
+        constexpr double narrowest = certain_deviations * flatness;  // [m]: no floor is flatter
         std::optional<floor_fit> fit;
         plane floor = guess;
         for (int refit = 0; refit < most_refits; ++refit) {
@@ -127,18 +102,20 @@ class floor_search {
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(deviations * 1.4826 * *median, narrowest * widest_, widest_);
+            fit->band = std::clamp(most_deviations * 1.4826 * *median,
+                                   std::min(narrowest, widest_), widest_);
             const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
                                std::abs(floor.signed_distance(fit->centroid)) < converged &&
                                std::abs(fit->band - band) < converged;
+            if (rests) break;
             floor = fit->plane;
             band = fit->band;
-            if (rests) break;
         }
         return fit;
     }
 
-    /// The plane through the points in a band about another one, and their distances from that.
+    /// The plane through the points in a band about another one, on the same side, and their
+    /// distances from that; nothing where they do not determine a plane.
     [[nodiscard]] std::optional<floor_fit> fitted(const auto& points, const plane& about,
                                                   double band) {
         // Moments about a point of the band, so that nothing is lost far from the origin.
@@ -153,7 +130,15 @@ class floor_search {
             m.add(difference(p, origin));
             distances_.push_back(d);
         }
-        return floor_fit_of(m, origin, about);
+        if (m.count < 3) return std::nullopt;
+        floor_fit fit{about, combined(1.0, origin, 1.0 / static_cast<double>(m.count), m.sum),
+                      symmetric_eigen(m.covariance_of_neighbors()), m.count, band};
+        constexpr double least_ratio = 1e-12;  // numerical: of variances, for points on a line
+        if (!(fit.axes.values[1] > least_ratio * fit.axes.values[0])) return std::nullopt;
+        const Eigen::Vector3d normal = column(fit.axes.vectors, 2);
+        fit.plane.normal = scaled(dot(normal, about.normal) < 0.0 ? -1.0 : 1.0, normal);
+        fit.plane.offset = dot(fit.plane.normal, fit.centroid);
+        return fit;
     }
 
     /// Whether the level band about a guess does not contain a plane over the least width of a
@@ -166,42 +151,40 @@ class floor_search {
 
     /// Whether at most half of the view points, where they are known, are under the plane.
     [[nodiscard]] bool is_below_sensor(const plane& floor) const {
+        const auto is_under = [&](const auto& v) { return floor.signed_distance(v) < 0.0; };
         const auto& positions = seen_from_.positions();
-        const auto under =
-            std::count_if(positions.begin(), positions.end(),
-                          [&](const Eigen::Vector3d& v) { return floor.signed_distance(v) < 0.0; });
-        return 2 * under <= std::ssize(positions);
+        return 2 * std::ranges::count_if(positions, is_under) <= std::ssize(positions);
     }
 
     /// Lists the means of the points of clear cells, which count alike although most points are
     /// near the sensor. Whether hardly a point is below the plane.
     [[nodiscard]] bool examine(const floor_fit& fit) {
-        std::size_t in_band = 0, below = 0;
+        double in_band = 0.0, below = 0.0;
         cells_.assign(std::bit_ceil(fit.count), {});
         for (std::size_t i = 0; i < points_.size(); ++i) {
             const Eigen::Vector3d p = points_[i];
             const double d = fit.plane.signed_distance(p);
             if (!all_finite(p) || d > bands * fit.band) continue;
             if (d < -bands * fit.band) {
-                ++below;
+                below += 1.0;
                 continue;
             }
             const Eigen::Vector3d from_centroid = difference(p, fit.centroid);
             cell& c = cells_[cell_of(fit, from_centroid)];
-            if (d > fit.band) {
-                ++c.above;
-            } else if (d < -fit.band) {
-                ++c.below;
+            if (std::abs(d) > fit.band) {
+                ++(d > 0.0 ? c.above : c.below);
             } else {
                 ++c.in_band;
-                ++in_band;
+                in_band += 1.0;
                 c.sum = combined(1.0, c.sum, 1.0, from_centroid);
             }
         }
         means_.clear();
+        // Noise is as often above as below: if more are above, something stands there.
         for (const cell& c : cells_)
-            if (c.is_clear()) means_.push_back(combined(1.0, fit.centroid, 1.0 / c.in_band, c.sum));
-        return static_cast<double>(below) <= few * static_cast<double>(in_band);
+            if (c.in_band > 0 && c.above <= c.below + few * c.in_band)
+                means_.push_back(combined(1.0, fit.centroid, 1.0 / c.in_band, c.sum));
+        return below <= few * in_band;
     }
 
     /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
@@ -217,8 +200,7 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         std::uint64_t hash = 0;
         for (int a = 0; a < 2; ++a) {
-            // numerical: up to here whole numbers are exact; farther outliers share cells.
-            constexpr double exact = 1e15;
+            constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
             const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
             const double number = std::floor(std::clamp(sides, -exact, exact));
             // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
@@ -231,8 +213,7 @@ class floor_search {
 
     const Points& points_;
     const viewpoint_table& seen_from_;
-    double widest_;
-    double min_width_;
+    double widest_, min_width_;  // [m]
     scratch<double> distances_;
     scratch<cell> cells_;
     scratch<Eigen::Vector3d> means_;

@@ -23,10 +23,8 @@
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
-#include <gnomon/neighborhoods/detail/place_set.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -43,15 +41,13 @@ class linker {
     /// Joins every finite point i with each point j within radius_of(i) for which link(i, q) holds,
     /// q being the neighbor j with its squared distance. Pairs that are joined already are not
     /// tested. Precondition: the points are an index.
-    /// @param among  joins only these points; all, if null
     template <execution X>
-    void link_all(auto&& radius_of, auto&& link, const X& run, const place_set* among = nullptr) {
+    void link_all(auto&& radius_of, auto&& link, const X& run) {
         const leaf_tree& tree = points_.tree();
-        const auto radius_of_place = [&](std::size_t place) {
-            if (among != nullptr && !among->contains(place)) return no_search;
-            return radius_of(tree.index()[place]);
+        const auto make_search = [&] {
+            return leaf_balls(tree,
+                              [&](std::size_t place) { return radius_of(tree.index()[place]); });
         };
-        const auto make_search = [&] { return leaf_balls(tree, radius_of_place, among); };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
             const point_index i = tree.index()[place];
             point_index root = sets_.find(i);
@@ -103,19 +99,10 @@ class linker {
         });
     }
 
-    /// The smallest point that point i is joined with.
-    [[nodiscard]] point_index root_of(point_index i) { return sets_.find(i); }
-
     /// The labels of the segments of at least `min_points` points.
     [[nodiscard]] scratch<std::int32_t> labels(std::size_t min_points) {
         return labels_of_sets(sets_, min_points,
                               [&](std::size_t i) { return is_finite(points_[i]); });
-    }
-    /// The segments of at least `min_points` points.
-    [[nodiscard]] segments result(std::size_t min_points) {
-        segments found;
-        found.assign(labels(min_points));
-        return found;
     }
 
   private:

@@ -94,31 +94,35 @@ class plane_growth {
     }
 
     /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
-    /// has doubled.
+    /// has doubled; then it grows on, as far as it is rougher than the noise.
     void grow_from(point_index seed) {
-        plane to = plane_about(seed);
+        region_plane to;
+        to.plane = plane_about(seed);
         plane_sums sums;
-        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
-        std::size_t refit_at = first_refit;
         members_.assign(1, seed);
         visit_[seed] = seed;
-        for (std::size_t next = 0; next < members_.size(); ++next) {
-            const point_index i = members_[next];
-            cloud_.add(i, sums);
-            for (const point_index j : graph_[i]) {
-                if (visit_[j] == seed || !fits(j, to)) continue;
-                visit_[j] = seed;
-                members_.push_back(j);
+        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
+        std::size_t refit_at = first_refit;
+        for (const bool is_rough : {false, true}) {
+            for (std::size_t next = 0; next < members_.size(); ++next) {
+                const point_index i = members_[next];
+                if (next >= sums.summands) cloud_.add(i, sums);
+                for (const point_index j : graph_[i]) {
+                    if (visit_[j] == seed || !fits(j, to)) continue;
+                    visit_[j] = seed;
+                    members_.push_back(j);
+                }
+                if (is_rough || sums.summands < refit_at) continue;
+                if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
+                refit_at *= 2;
             }
-            if (sums.count < refit_at) continue;
-            if (const region_plane f = sums.fit(); f.is_determined) to = f.plane;
-            refit_at *= 2;
+            if (const region_plane f = sums.fit(); f.is_determined) to = f;
         }
     }
 
-    [[nodiscard]] bool fits(std::size_t i, const plane& to) const {
-        return is_free(i) && std::abs(dot(to.normal, normal(i))) >= min_cosine_ &&
-               cloud_.deviations(i, to) <= most_deviations;
+    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
+        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
+               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.

@@ -116,7 +116,7 @@ class plane_regions {
         });
     }
 
-    /// Numbers the regions anew, without the empty ones.
+    /// Numbers the regions again, without the empty ones.
     void compact() {
         scratch<std::int32_t> number(regions_.size(), unlabeled);
         std::size_t kept = 0;
