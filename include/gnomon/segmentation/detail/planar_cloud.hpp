@@ -42,7 +42,7 @@ class planar_cloud {
 
     scratch<point_noise> noise;
     scratch<Eigen::Vector3d> offsets;  ///< of the points, from the origin [m]
-    scratch<point_index> counts;  ///< of the points that each is the mean of; empty for points
+    scratch<point_index> counts;       ///< of the points that each is the mean of; empty for points
     Eigen::Vector3d origin{0.0, 0.0, 0.0};
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
@@ -51,7 +51,9 @@ class planar_cloud {
     [[nodiscard]] Eigen::Vector3d ray(std::size_t i) const {
         return difference(index_[i], index_.viewpoints[i]);
     }
-    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]); }
+    void add(std::size_t i, plane_sums& to) const {
+        to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
+    }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
         return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
