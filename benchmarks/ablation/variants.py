@@ -33,15 +33,19 @@ STEPS = {
     "cells, each point its own": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp",
          "return std::max(noise.of_planes.along(ray), least);", "return least;")]},
-    "second growth, by a wider angle": {"texts": [
-        ("gnomon/segmentation/segment_planes.hpp",
-         "regions.grow(surface, min_cosine(std::max(max_angle, wider)), run);", "")]},
+    "second growth, by twice the angle": {"texts": [
+        ("gnomon/segmentation/segment_planes.hpp", "    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle\n", "")]},
+    "growth where surfaces are rough": {"texts": [
+        ("gnomon/segmentation/detail/plane_growth.hpp",
+         "for (const bool is_rough : {false, true}) {", "for (const bool is_rough : {false}) {")]},
     "merging of neighboring planes": {"texts": [
         ("gnomon/segmentation/detail/plane_regions.hpp",
-         "void merge_neighbors() {", "void merge_neighbors() { return;")]},
+         "bool merge(scratch<region_pair> pairs) {",
+         "bool merge(scratch<region_pair> pairs) { pairs.clear();")]},
     "competition of planes for cells": {"texts": [
-        ("gnomon/segmentation/detail/plane_regions.hpp",
-         "round < most_rounds && compete(run);", "false;")]},
+        ("gnomon/segmentation/detail/plane_regions.hpp", "round < most_rounds;", "false;")]},
+    "weights of cells by their points": {"texts": [
+        ("gnomon/perception/detail/cell_surfaces.hpp", "        cloud_->counts = cells_.counts;\n", "")]},
     "competition of planes for points": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp",
          "competition.begin((*graph_)[c], of_cells, of_cells[c]);", "labels[i] = of_cells[c]; continue;")]},

@@ -294,7 +294,7 @@ SMALL = (
     "well enough, or a gap in which hardly anything was observed")
 COINCIDENT = (
     "wrong merges are of seats and table tops of the same height with an occluder between them: their planes "
-    "are one, and nothing that was observed tells them apart")
+    "are one, and no observation is evidence for two surfaces")
 
 
 def scores(tables, policy, *trajectories):

@@ -11682,7 +11682,7 @@ class planar_cloud {
 
     scratch<point_noise> noise;
     scratch<Eigen::Vector3d> offsets;  ///< of the points, from the origin [m]
-    scratch<point_index> counts;  ///< of the points that each is the mean of; empty for points
+    scratch<point_index> counts;       ///< of the points that each is the mean of; empty for points
     Eigen::Vector3d origin{0.0, 0.0, 0.0};
 
     [[nodiscard]] bool is_finite(std::size_t i) const { return index_.is_finite(i); }
@@ -11691,7 +11691,9 @@ class planar_cloud {
     [[nodiscard]] Eigen::Vector3d ray(std::size_t i) const {
         return difference(index_[i], index_.viewpoints[i]);
     }
-    void add(std::size_t i, plane_sums& to) const { to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]); }
+    void add(std::size_t i, plane_sums& to) const {
+        to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
+    }
     /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
     [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
         return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
@@ -11982,9 +11984,11 @@ class label_competition {
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+    /// (A template, so that only its users compile it.)
+    [[nodiscard]] auto& candidate_of(auto label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
-        return found != candidates_.end() ? *found : candidates_.emplace_back(candidate{label, 0.0});
+        return found != candidates_.end() ? *found
+                                          : candidates_.emplace_back(candidate{label, 0.0});
     }
 
     scratch<candidate> candidates_;  // few
@@ -12066,8 +12070,8 @@ template <neighborhood_graph G, execution X>
             next = competition.winner(misfit);
             if (next == unlabeled) continue;
             competition.for_each_other(next, [&](std::int32_t other) {
-                const region_pair pair = std::minmax(static_cast<point_index>(next),
-                                                     static_cast<point_index>(other));
+                const region_pair pair =
+                    std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
                 if (touching.empty() || touching.back() != pair) touching.push_back(pair);
             });
         }
@@ -12782,8 +12786,8 @@ class floor_search {
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(most_deviations * 1.4826 * *median,
-                                   std::min(narrowest, widest_), widest_);
+            fit->band = std::clamp(most_deviations * 1.4826 * *median, std::min(narrowest, widest_),
+                                   widest_);
             const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
                                std::abs(floor.signed_distance(fit->centroid)) < converged &&
                                std::abs(fit->band - band) < converged;
@@ -13200,7 +13204,9 @@ class plane_growth {
           min_points_(min_points),
           min_cosine_(min_cosine),
           labels_(labels),
-          visit_(cloud.size(), no_seed) {}
+          visit_(cloud.size(), no_seed) {
+        members_.reserve(cloud.size());
+    }
 
     /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
     /// @param next  the label of the first new region
@@ -13208,8 +13214,7 @@ class plane_growth {
     void operator()(std::int32_t next, const X& run) {
         for (const point_index seed : flattest_first(run)) {
             if (visit_[seed] != no_seed || !is_free(seed)) continue;
-            grow_from(seed);
-            if (members_.size() < min_points_) continue;
+            if (!grow_from(seed)) continue;
             for (const point_index i : members_) labels_[i] = next;
             ++next;
         }
@@ -13256,7 +13261,8 @@ class plane_growth {
 
     /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
     /// has doubled; then it grows on, as far as it is rougher than the noise.
-    void grow_from(point_index seed) {
+    /// @return whether they are enough, and most fit the final plane
+    bool grow_from(point_index seed) {
         region_plane to;
         to.plane = plane_about(seed);
         plane_sums sums;
@@ -13279,6 +13285,9 @@ class plane_growth {
             }
             if (const region_plane f = sums.fit(); f.is_determined) to = f;
         }
+        const auto fitting =
+            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
+        return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
     }
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
@@ -13329,8 +13338,8 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times that about
-/// their own.
+/// if they may be one: the variance of either about the common plane is at most 2.5 times that
+/// about their own.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
@@ -13342,7 +13351,7 @@ namespace gnomon::detail {
 /// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
 /// own must be nearly parallel to that of both.
 [[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
+    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
     constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
     const double nearly = min_cosine(max_angle);
     const region_plane both = plane_of_both(a, b);
@@ -13591,8 +13600,8 @@ class plane_regions {
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, whatever the normals, which edges and noise blend. All lengths are multiples of the noise,
-/// so that no distance need be set.
+/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths are
+/// multiples of the noise, so that no distance need be set.
 
 namespace gnomon {
 
@@ -13616,8 +13625,9 @@ template <neighborhood_graph G, normal_range S, execution X>
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
-    regions.grow(surface, min_cosine(max_angle), run);
-    regions.grow(surface, 0.0, run);
+    const double cosine = min_cosine(max_angle);
+    regions.grow(surface, cosine, run);
+    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
     return regions;
 }
 
@@ -17627,11 +17637,10 @@ class perception_run {
 
   private:
     static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
-    // The calls of step() (formula).
-    static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
+    static constexpr std::size_t steps =  // formula
+        (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
-    /// Announces a step, and notes its time.
-    void step(const char* name, auto&& work) {
+    void step(const char* name, auto&& work) {  // announced and timed
         begin_step(progress_, name, result_.steps.size() + 1, steps);
         const stopwatch watch;
         work();

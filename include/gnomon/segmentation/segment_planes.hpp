@@ -11,8 +11,8 @@
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, whatever the normals, which edges and noise blend. All lengths are multiples of the noise,
-/// so that no distance need be set.
+/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths are
+/// multiples of the noise, so that no distance need be set.
 #pragma once
 
 #include <algorithm>
@@ -59,8 +59,9 @@ template <neighborhood_graph G, normal_range S, execution X>
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
     plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
-    regions.grow(surface, min_cosine(max_angle), run);
-    regions.grow(surface, 0.0, run);
+    const double cosine = min_cosine(max_angle);
+    regions.grow(surface, cosine, run);
+    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
     return regions;
 }
 

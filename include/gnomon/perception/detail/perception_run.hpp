@@ -72,11 +72,10 @@ class perception_run {
 
   private:
     static constexpr bool merges = merge_policy<decltype(Chain::merge)>;
-    // The calls of step() (formula).
-    static constexpr std::size_t steps = (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
+    static constexpr std::size_t steps =  // formula
+        (Chain::is_on_cells ? 8 : 6) + (merges ? 1 : 0);
 
-    /// Announces a step, and notes its time.
-    void step(const char* name, auto&& work) {
+    void step(const char* name, auto&& work) {  // announced and timed
         begin_step(progress_, name, result_.steps.size() + 1, steps);
         const stopwatch watch;
         work();

@@ -102,8 +102,8 @@ class floor_search {
             // (1.4826 times the median for a normal distribution).
             const auto median = distances_.begin() + std::ssize(distances_) / 2;
             std::nth_element(distances_.begin(), median, distances_.end());
-            fit->band = std::clamp(most_deviations * 1.4826 * *median,
-                                   std::min(narrowest, widest_), widest_);
+            fit->band = std::clamp(most_deviations * 1.4826 * *median, std::min(narrowest, widest_),
+                                   widest_);
             const bool rests = length(difference(fit->plane.normal, floor.normal)) < converged &&
                                std::abs(floor.signed_distance(fit->centroid)) < converged &&
                                std::abs(fit->band - band) < converged;

@@ -70,9 +70,11 @@ class label_competition {
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+    /// (A template, so that only its users compile it.)
+    [[nodiscard]] auto& candidate_of(auto label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
-        return found != candidates_.end() ? *found : candidates_.emplace_back(candidate{label, 0.0});
+        return found != candidates_.end() ? *found
+                                          : candidates_.emplace_back(candidate{label, 0.0});
     }
 
     scratch<candidate> candidates_;  // few
@@ -154,8 +156,8 @@ template <neighborhood_graph G, execution X>
             next = competition.winner(misfit);
             if (next == unlabeled) continue;
             competition.for_each_other(next, [&](std::int32_t other) {
-                const region_pair pair = std::minmax(static_cast<point_index>(next),
-                                                     static_cast<point_index>(other));
+                const region_pair pair =
+                    std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
                 if (touching.empty() || touching.back() != pair) touching.push_back(pair);
             });
         }

@@ -24,8 +24,8 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times that about
-/// their own.
+/// if they may be one: the variance of either about the common plane is at most 2.5 times that
+/// about their own.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ namespace gnomon::detail {
 /// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
 /// own must be nearly parallel to that of both.
 [[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;  // 99.7 %, of three degrees of freedom
+    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
     constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
     const double nearly = min_cosine(max_angle);
     const region_plane both = plane_of_both(a, b);

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 
 #include <Eigen/Core>
@@ -39,7 +40,9 @@ class plane_growth {
           min_points_(min_points),
           min_cosine_(min_cosine),
           labels_(labels),
-          visit_(cloud.size(), no_seed) {}
+          visit_(cloud.size(), no_seed) {
+        members_.reserve(cloud.size());
+    }
 
     /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
     /// @param next  the label of the first new region
@@ -47,8 +50,7 @@ class plane_growth {
     void operator()(std::int32_t next, const X& run) {
         for (const point_index seed : flattest_first(run)) {
             if (visit_[seed] != no_seed || !is_free(seed)) continue;
-            grow_from(seed);
-            if (members_.size() < min_points_) continue;
+            if (!grow_from(seed)) continue;
             for (const point_index i : members_) labels_[i] = next;
             ++next;
         }
@@ -95,7 +97,8 @@ class plane_growth {
 
     /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
     /// has doubled; then it grows on, as far as it is rougher than the noise.
-    void grow_from(point_index seed) {
+    /// @return whether they are enough, and most fit the final plane
+    bool grow_from(point_index seed) {
         region_plane to;
         to.plane = plane_about(seed);
         plane_sums sums;
@@ -118,6 +121,9 @@ class plane_growth {
             }
             if (const region_plane f = sums.fit(); f.is_determined) to = f;
         }
+        const auto fitting =
+            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
+        return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
     }
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
