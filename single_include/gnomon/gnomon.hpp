@@ -11945,6 +11945,7 @@ inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
+template <class Label>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -11980,12 +11981,11 @@ class label_competition {
 
   private:
     struct candidate {
-        std::int32_t label;
+        Label label;
         double agreeing;  // neighbors
     };
 
-    /// (A template, so that only its users compile it.)
-    [[nodiscard]] auto& candidate_of(auto label) {
+    [[nodiscard]] candidate& candidate_of(Label label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
@@ -12039,22 +12039,20 @@ void make_unique(auto& pairs) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-/// The labels of a cloud after one round of the competition.
-struct competition_result {
-    scratch<std::int32_t> labels;
-    scratch<region_pair> touching = {};  ///< regions that have neighboring points, each pair once
-};
-
 /// One round. Points that are no border keep their label if they are on the plane.
 /// @param is_border  as borders_of; becomes true where that may have changed
+/// @return the labels afterwards, and the regions that have neighboring points, each pair once
 template <neighborhood_graph G, execution X>
-[[nodiscard]] competition_result compete(const planar_cloud& cloud, const G& graph,
-                                         const scratch<planar_region>& regions, const auto& labels,
-                                         scratch<char>& is_border, const X& run) {
-    competition_result after{scratch<std::int32_t>(labels.size(), unlabeled)};
+[[nodiscard]] auto compete(const planar_cloud& cloud, const G& graph,
+                           const scratch<planar_region>& regions, const auto& labels,
+                           scratch<char>& is_border, const X& run) {
+    struct {
+        scratch<std::int32_t> labels;
+        scratch<region_pair> touching = {};
+    } after{scratch<std::int32_t>(labels.size(), unlabeled)};
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        label_competition competition;
+        label_competition<std::int32_t> competition;
         scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
@@ -13502,7 +13500,7 @@ class plane_regions {
         scratch<char> is_border = borders_of(graph_, labels_, run);
         merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
-            competition_result after = compete(cloud_, graph_, regions_, labels_, is_border, run);
+            auto after = compete(cloud_, graph_, regions_, labels_, is_border, run);
             const bool rests = labels_ == after.labels;
             labels_.swap(after.labels);
             refit();
@@ -14154,7 +14152,8 @@ struct image_axes {
     /// pole, from the y-axis.
     /// @throws std::invalid_argument  if the pole is not finite or has no length
     [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        require(all_finite(pole) && pole != Eigen::Vector3d(0.0, 0.0, 0.0),
+        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
+        require(all_finite(pole) && has_direction,
                 "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
@@ -17365,7 +17364,7 @@ class cell_surfaces {
         scratch<std::int32_t> labels(points_.size(), unlabeled);
         const auto& of_cells = regions_->labels();
         for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            label_competition competition;
+            label_competition<std::int32_t> competition;
             for (std::size_t i = begin; i < end; ++i) {
                 const point_index c = cells_.of_point[i];
                 if (c == cells::no_cell) continue;

@@ -35,7 +35,8 @@ struct image_axes {
     /// pole, from the y-axis.
     /// @throws std::invalid_argument  if the pole is not finite or has no length
     [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        require(all_finite(pole) && pole != Eigen::Vector3d(0.0, 0.0, 0.0),
+        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
+        require(all_finite(pole) && has_direction,
                 "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;

@@ -109,7 +109,7 @@ class cell_surfaces {
         scratch<std::int32_t> labels(points_.size(), unlabeled);
         const auto& of_cells = regions_->labels();
         for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            label_competition competition;
+            label_competition<std::int32_t> competition;
             for (std::size_t i = begin; i < end; ++i) {
                 const point_index c = cells_.of_point[i];
                 if (c == cells::no_cell) continue;

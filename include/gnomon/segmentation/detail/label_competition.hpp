@@ -31,6 +31,7 @@ inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
+template <class Label>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -66,12 +67,11 @@ class label_competition {
 
   private:
     struct candidate {
-        std::int32_t label;
+        Label label;
         double agreeing;  // neighbors
     };
 
-    /// (A template, so that only its users compile it.)
-    [[nodiscard]] auto& candidate_of(auto label) {
+    [[nodiscard]] candidate& candidate_of(Label label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
@@ -125,22 +125,20 @@ void make_unique(auto& pairs) {
     pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
-/// The labels of a cloud after one round of the competition.
-struct competition_result {
-    scratch<std::int32_t> labels;
-    scratch<region_pair> touching = {};  ///< regions that have neighboring points, each pair once
-};
-
 /// One round. Points that are no border keep their label if they are on the plane.
 /// @param is_border  as borders_of; becomes true where that may have changed
+/// @return the labels afterwards, and the regions that have neighboring points, each pair once
 template <neighborhood_graph G, execution X>
-[[nodiscard]] competition_result compete(const planar_cloud& cloud, const G& graph,
-                                         const scratch<planar_region>& regions, const auto& labels,
-                                         scratch<char>& is_border, const X& run) {
-    competition_result after{scratch<std::int32_t>(labels.size(), unlabeled)};
+[[nodiscard]] auto compete(const planar_cloud& cloud, const G& graph,
+                           const scratch<planar_region>& regions, const auto& labels,
+                           scratch<char>& is_border, const X& run) {
+    struct {
+        scratch<std::int32_t> labels;
+        scratch<region_pair> touching = {};
+    } after{scratch<std::int32_t>(labels.size(), unlabeled)};
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        label_competition competition;
+        label_competition<std::int32_t> competition;
         scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;

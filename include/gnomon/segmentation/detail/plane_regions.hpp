@@ -63,7 +63,7 @@ class plane_regions {
         scratch<char> is_border = borders_of(graph_, labels_, run);
         merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
-            competition_result after = compete(cloud_, graph_, regions_, labels_, is_border, run);
+            auto after = compete(cloud_, graph_, regions_, labels_, is_border, run);
             const bool rests = labels_ == after.labels;
             labels_.swap(after.labels);
             refit();
