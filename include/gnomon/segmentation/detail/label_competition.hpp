@@ -156,10 +156,10 @@ template <neighborhood_graph G, execution X>
             competition.for_each_other(next, [&](std::int32_t other) {
                 const region_pair pair =
                     std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
-                if (touching.empty() || touching.back() != pair) touching.push_back(pair);
+                if (std::find(touching.rbegin(), touching.rend(), pair) == touching.rend())
+                    touching.push_back(pair);
             });
         }
-        make_unique(touching);
         const guard_of locked(guard);
         after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
