@@ -5096,7 +5096,7 @@ void write_indices(const auto& found, point_index* to, scratch<neighbor>& buffer
 class neighborhood_writer {
   public:
     /// The neighbors of point i begin at indices[begin[i]].
-    neighborhood_writer(const std::vector<std::uint64_t>& begin, point_index* indices)
+    neighborhood_writer(const std::uint64_t* begin, point_index* indices)
         : begin_(begin), indices_(indices) {}
 
     void operator()(std::size_t i, const auto& found) {
@@ -5106,22 +5106,25 @@ class neighborhood_writer {
     }
 
   private:
-    const std::vector<std::uint64_t>& begin_;
+    const std::uint64_t* begin_;
     point_index* indices_;
     scratch<neighbor> buffer_;
 };
 
-/// The arrays of the graph of a policy that finds `k` neighbors of every finite point.
-template <class Policy, execution X>
-void sweep_equal_sizes(const Policy& policy, std::size_t k, const spatial_index& index,
-                       const X& run, adjacency::arrays& graph) {
-    auto& [begin, indices, notes] = graph;
+/// The arrays of the graph of neighborhoods that are k points for every finite point.
+/// @param graph  arrays of an `adjacency` or a `scratch_graph`
+/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+template <execution X>
+void sweep_equal_sizes(std::size_t k, const spatial_index& index, const X& run, auto& graph,
+                       auto&& sweep) {
+    auto& begin = graph.begin;
+    auto& indices = graph.indices;
     begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
     resize_touched(indices, begin.back(), run);
-    notes.clear();
-    policy.sweep(index, run, [&] { return neighborhood_writer(begin, indices.data()); });
+    if constexpr (requires { graph.notes; }) graph.notes.clear();
+    sweep([&] { return neighborhood_writer(begin.data(), indices.data()); });
 }
 
 /// The neighbors of all points that the visitors of a sweep have seen.
@@ -5195,12 +5198,12 @@ void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
 template <class Policy, execution X>
 void sweep_graph(const Policy& policy, const spatial_index& index, const X& run,
                  adjacency::arrays& graph) {
+    const auto sweep = [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); };
     if constexpr (requires { policy.neighbors_of_each(std::size_t{}); }) {
         if (const std::optional<std::size_t> k = policy.neighbors_of_each(index.tree().size()))
-            return sweep_equal_sizes(policy, *k, index, run, graph);
+            return sweep_equal_sizes(*k, index, run, graph, sweep);
     }
-    sweep_any_sizes(index.size(), run, graph,
-                    [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
+    sweep_any_sizes(index.size(), run, graph, sweep);
 }
 
 }  // namespace gnomon::detail
@@ -14773,6 +14776,7 @@ class occlusion_merger {
             const plane_of_members found(cloud, parts[s]);
             regions_[s] = found.region;
             is_flat_[s] = found.is_planar;
+            members_[s].reserve(parts[s].size());
             for (const point_index i : parts[s])
                 if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
                     members_[s].push_back(i);
@@ -17328,8 +17332,11 @@ class cell_surfaces {
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
         scratch_graph::arrays graph;
+        knn nearest{.k = noise_knn{}.k};
+        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
         const auto record = [&](auto&& sweep) {
-            sweep_any_sizes(index_.size(), run, graph, sweep);
+            const auto k = nearest.neighbors_of_each(index_.tree().size());
+            sweep_equal_sizes(*k, index_, run, graph, sweep);
         };
         if constexpr (std::same_as<N, noise_knn>) {
             record([&](auto&& make_recorder) {  // one search for both
@@ -17339,9 +17346,7 @@ class cell_surfaces {
             });
         } else {
             estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-            record([&](auto&& make_recorder) {
-                knn{.k = noise_knn{}.k}.sweep(index_, run, make_recorder);
-            });
+            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
         }
         graph_.emplace(std::move(graph));
         orient_normals(index_, surface_, run);

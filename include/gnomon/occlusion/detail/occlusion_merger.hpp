@@ -60,6 +60,7 @@ class occlusion_merger {
             const plane_of_members found(cloud, parts[s]);
             regions_[s] = found.region;
             is_flat_[s] = found.is_planar;
+            members_[s].reserve(parts[s].size());
             for (const point_index i : parts[s])
                 if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
                     members_[s].push_back(i);

@@ -73,8 +73,11 @@ class cell_surfaces {
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
         scratch_graph::arrays graph;
+        knn nearest{.k = noise_knn{}.k};
+        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
         const auto record = [&](auto&& sweep) {
-            sweep_any_sizes(index_.size(), run, graph, sweep);
+            const auto k = nearest.neighbors_of_each(index_.tree().size());
+            sweep_equal_sizes(*k, index_, run, graph, sweep);
         };
         if constexpr (std::same_as<N, noise_knn>) {
             record([&](auto&& make_recorder) {  // one search for both
@@ -84,9 +87,7 @@ class cell_surfaces {
             });
         } else {
             estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-            record([&](auto&& make_recorder) {
-                knn{.k = noise_knn{}.k}.sweep(index_, run, make_recorder);
-            });
+            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
         }
         graph_.emplace(std::move(graph));
         orient_normals(index_, surface_, run);
