@@ -12036,6 +12036,11 @@ template <neighborhood_graph G, execution X>
 /// Two regions, the smaller number first.
 using region_pair = std::pair<point_index, point_index>;
 
+/// Adds a pair to others, unless it is there; the latest ones are looked at first.
+void add_once(const auto& pair, auto& others) {
+    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
+}
+
 /// Sorts pairs, and leaves each once.
 void make_unique(auto& pairs) {
     std::sort(pairs.begin(), pairs.end());
@@ -12073,8 +12078,7 @@ template <neighborhood_graph G, execution X>
             competition.for_each_other(next, [&](std::int32_t other) {
                 const region_pair pair =
                     std::minmax(static_cast<point_index>(next), static_cast<point_index>(other));
-                if (std::find(touching.rbegin(), touching.rend(), pair) == touching.rend())
-                    touching.push_back(pair);
+                add_once(pair, touching);
             });
         }
         const guard_of locked(guard);
