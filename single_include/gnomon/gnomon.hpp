@@ -13388,26 +13388,18 @@ class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
     explicit agglomeration(scratch<planar_region>& regions)
-        : regions_(regions),
-          sets_(regions.size()),
-          is_new_(regions.size(), true),
-          is_root_(regions.size(), true) {}
+        : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
     /// @param pairs    that may be one, each once
     /// @param unlike   unlike(region, region): at most 1 if they may be one
     /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
     ///                 beginning of the round; called when all else is in favor
-    /// @param gather   gather(into, from), after each round, for all that have become part of
-    ///                 another
+    /// @param gather   gather(sets), after each round that merged any
     /// @return the sets of regions that are one
     [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
                                         auto&& gather) {
         while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
-            for (std::size_t r = 0; r < sets_.size(); ++r) {
-                const auto region = static_cast<point_index>(r), root = sets_.find(region);
-                if (root != region && is_root_[r] != 0) gather(root, region);
-                is_root_[r] = root == region;
-            }
+            gather(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
                 a = std::min(root_of_a, root_of_b);
@@ -13457,8 +13449,7 @@ class agglomeration {
 
     scratch<planar_region>& regions_;
     union_find sets_;
-    scratch<char> is_new_;   // since the round before
-    scratch<char> is_root_;  // at the beginning of the round
+    scratch<char> is_new_;  // since the round before
 };
 
 }  // namespace gnomon::detail
@@ -13529,7 +13520,7 @@ class plane_regions {
             [](const planar_region& a, const planar_region& b) {
                 return unlikeness_of_neighbors(a, b);
             },
-            [](point_index, point_index) { return true; }, [](point_index, point_index) {});
+            [](point_index, point_index) { return true; }, [](union_find&) {});
         bool any = false;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             if (sets.find(static_cast<point_index>(r)) == r) continue;
@@ -14773,18 +14764,19 @@ class occlusion_merger {
           policy_(policy),
           options_(options),
           regions_(parts.size()),
-          members_(parts.size()),
-          is_flat_(parts.size(), false) {
+          is_flat_(parts.size(), false),
+          labels_(parts.labels().size(), unlabeled),
+          members_(labels_) {
         run(parts.size(), [&](std::size_t s) {
             if (parts[s].empty()) return;
             const plane_of_members found(cloud, parts[s]);
             regions_[s] = found.region;
             is_flat_[s] = found.is_planar;
-            members_[s].reserve(parts[s].size());
             for (const point_index i : parts[s])
                 if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
-                    members_[s].push_back(i);
+                    labels_[i] = static_cast<std::int32_t>(s);
         });
+        members_ = label_groups(labels_);
     }
 
     /// Merges the segments; their sets.
@@ -14795,10 +14787,12 @@ class occlusion_merger {
                 return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
-            [this](point_index into, point_index from) {
-                members_[into].insert(members_[into].end(), members_[from].begin(),
-                                      members_[from].end());
-                members_[from].clear();
+            [this](union_find& merged) {
+                for (std::int32_t& label : labels_)
+                    if (label != unlabeled)
+                        label =
+                            static_cast<std::int32_t>(merged.find(static_cast<point_index>(label)));
+                members_ = label_groups(labels_);
             });
         for (examined_gap& gap : gaps_)
             gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
@@ -14865,8 +14859,9 @@ class occlusion_merger {
     const M& policy_;
     const Options& options_;
     scratch<planar_region> regions_;
-    scratch<scratch<point_index>> members_;  // on the planes
     scratch<char> is_flat_;
+    scratch<std::int32_t> labels_;  // of the points on the planes
+    label_groups members_;          // as of the beginning of the round
     scratch<examined_gap> gaps_;
 };
 

@@ -53,18 +53,19 @@ class occlusion_merger {
           policy_(policy),
           options_(options),
           regions_(parts.size()),
-          members_(parts.size()),
-          is_flat_(parts.size(), false) {
+          is_flat_(parts.size(), false),
+          labels_(parts.labels().size(), unlabeled),
+          members_(labels_) {
         run(parts.size(), [&](std::size_t s) {
             if (parts[s].empty()) return;
             const plane_of_members found(cloud, parts[s]);
             regions_[s] = found.region;
             is_flat_[s] = found.is_planar;
-            members_[s].reserve(parts[s].size());
             for (const point_index i : parts[s])
                 if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
-                    members_[s].push_back(i);
+                    labels_[i] = static_cast<std::int32_t>(s);
         });
+        members_ = label_groups(labels_);
     }
 
     /// Merges the segments; their sets.
@@ -75,10 +76,12 @@ class occlusion_merger {
                 return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
-            [this](point_index into, point_index from) {
-                members_[into].insert(members_[into].end(), members_[from].begin(),
-                                      members_[from].end());
-                members_[from].clear();
+            [this](union_find& merged) {
+                for (std::int32_t& label : labels_)
+                    if (label != unlabeled)
+                        label =
+                            static_cast<std::int32_t>(merged.find(static_cast<point_index>(label)));
+                members_ = label_groups(labels_);
             });
         for (examined_gap& gap : gaps_)
             gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
@@ -145,8 +148,9 @@ class occlusion_merger {
     const M& policy_;
     const Options& options_;
     scratch<planar_region> regions_;
-    scratch<scratch<point_index>> members_;  // on the planes
     scratch<char> is_flat_;
+    scratch<std::int32_t> labels_;  // of the points on the planes
+    label_groups members_;          // as of the beginning of the round
     scratch<examined_gap> gaps_;
 };
 

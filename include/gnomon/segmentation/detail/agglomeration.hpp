@@ -22,26 +22,18 @@ class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
     explicit agglomeration(scratch<planar_region>& regions)
-        : regions_(regions),
-          sets_(regions.size()),
-          is_new_(regions.size(), true),
-          is_root_(regions.size(), true) {}
+        : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
     /// @param pairs    that may be one, each once
     /// @param unlike   unlike(region, region): at most 1 if they may be one
     /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
     ///                 beginning of the round; called when all else is in favor
-    /// @param gather   gather(into, from), after each round, for all that have become part of
-    ///                 another
+    /// @param gather   gather(sets), after each round that merged any
     /// @return the sets of regions that are one
     [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
                                         auto&& gather) {
         while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
-            for (std::size_t r = 0; r < sets_.size(); ++r) {
-                const auto region = static_cast<point_index>(r), root = sets_.find(region);
-                if (root != region && is_root_[r] != 0) gather(root, region);
-                is_root_[r] = root == region;
-            }
+            gather(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
                 a = std::min(root_of_a, root_of_b);
@@ -91,8 +83,7 @@ class agglomeration {
 
     scratch<planar_region>& regions_;
     union_find sets_;
-    scratch<char> is_new_;   // since the round before
-    scratch<char> is_root_;  // at the beginning of the round
+    scratch<char> is_new_;  // since the round before
 };
 
 }  // namespace gnomon::detail
