@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 // Alg. 4.3 in random furnished rooms: precision and recall of merging segments of surfaces that an
-// occluder interrupts, by policy and by trajectory. The segments are those of Alg. 4.2. The literal
-// algorithm uses one range image with an upright pole, as in the thesis; for a moving sensor, one
-// for each view point.
+// occluder interrupts, by policy and by trajectory. The segments are those of the default chain,
+// and those of Alg. 4.2. The literal algorithm uses one range image with an upright pole, as in the
+// thesis; for a moving sensor, one for each view point.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -19,7 +19,12 @@ namespace sim = gnomon::simulation;
 
 namespace {
 
-constexpr std::array policies{"none", "conservative", "liberal", "conservative, literal",
+constexpr std::array policies{"none",
+                              "conservative",
+                              "liberal",
+                              "conservative, Alg. 4.2",
+                              "liberal, Alg. 4.2",
+                              "conservative, literal",
                               "liberal, literal"};
 constexpr std::array trajectories{"horizontal", "vertical", "rotational", "moving"};
 
@@ -45,10 +50,45 @@ struct policy_tally : merge_tallies {
     merge_tally of_planes;  ///< each pair counts as one; coplanar faces are one surface
 };
 
+/// Segments before merging, and those of them on several surfaces.
+struct segment_count {
+    std::size_t all = 0, mixed = 0;
+
+    segment_count& operator+=(const segment_count& o) {
+        all += o.all;
+        mixed += o.mixed;
+        return *this;
+    }
+};
+
+/// What is true of some segments before merging.
+class ground_truth {
+  public:
+    ground_truth(const sim::bvh_caster& caster, const sim::true_scan& truth,
+                 const gnomon::segments& parts)
+        : parts_(parts.size()),
+          surfaces_(caster, truth, parts),
+          planes_(caster, truth, parts, unit::plane) {}
+
+    [[nodiscard]] segment_count initial() const {
+        segment_count count{parts_, 0};
+        for (std::size_t s = 0; s < parts_; ++s)
+            count.mixed += surfaces_.surface(s) == sim::nothing ? 1 : 0;
+        return count;
+    }
+    [[nodiscard]] policy_tally tally(const gnomon::segments& merged) const {
+        return {surfaces_.tally(merged), planes_.tally(merged).pairs};
+    }
+
+  private:
+    std::size_t parts_;
+    initial_segments surfaces_, planes_;
+};
+
 /// The results of all policies in one scan, or in many.
 struct outcome {
     std::array<policy_tally, policies.size()> tallies{};
-    std::size_t initial = 0, mixed = 0;  ///< initial segments; those on several surfaces
+    segment_count of_default, of_thesis;
 
     outcome& operator+=(const outcome& o) {
         for (std::size_t p = 0; p < policies.size(); ++p) {
@@ -56,8 +96,8 @@ struct outcome {
             tallies[p].by_points.add(o.tallies[p].by_points, 1.0);
             tallies[p].of_planes.add(o.tallies[p].of_planes, 1.0);
         }
-        initial += o.initial;
-        mixed += o.mixed;
+        of_default += o.of_default;
+        of_thesis += o.of_thesis;
         return *this;
     }
 };
@@ -67,34 +107,34 @@ outcome outcome_in(std::uint64_t number, const std::string& trajectory, std::uin
         {.pieces = static_cast<int>(4 + 2 * (number % 5)), .seed = number});
     const sim::bvh_caster caster(world);
     const sim::true_scan truth = scan_of(world, caster, trajectory, 1000 * number + seed);
+    outcome result;
+    {
+        const perceived seen = perceive(truth);
+        const ground_truth known(caster, truth, seen.initial_segments);
+        result.of_default += known.initial();
+        result.tallies[0] = known.tally(seen.initial_segments);
+        result.tallies[1] = known.tally(seen.surfaces);
+        result.tallies[2] = known.tally(perceive_liberally(truth).surfaces);
+    }
     const perceived seen = segment_as_thesis(truth);
     const gnomon::segments& parts = seen.initial_segments;
-    const initial_segments known(caster, truth, parts);
-    const initial_segments known_planes(caster, truth, parts, unit::plane);
-
-    outcome result;
-    result.initial = parts.size();
-    for (std::size_t s = 0; s < parts.size(); ++s)
-        result.mixed += known.surface(s) == sim::nothing ? 1 : 0;
+    const ground_truth known(caster, truth, parts);
+    result.of_thesis += known.initial();
     const gnomon::constant_noise noise{noise_of_rooms};
     const gnomon::visibility visible(truth.scan, {.noise = noise});
     const gnomon::visibility upright(truth.scan,
                                      {.pole = Eigen::Vector3d::UnitZ(), .noise = noise});
-    const auto tally = [&](std::size_t policy, const gnomon::segments& merged) {
-        result.tallies[policy] = {known.tally(merged), known_planes.tally(merged).pairs};
+    const auto merged = [&](const auto& policy) {
+        return known.tally(
+            gnomon::merge_occluded(truth.scan, parts, visible, policy, {.noise = noise}).segments);
     };
-    const auto merge = [&](const auto& policy) {
-        return gnomon::merge_occluded(truth.scan, parts, visible, policy, {.noise = noise})
-            .segments;
+    const auto merged_literally = [&](const auto& policy) {
+        return known.tally(gnomon::merge_occluded_literally(truth.scan, parts, upright, policy));
     };
-    const auto merge_literally = [&](const auto& policy) {
-        return gnomon::merge_occluded_literally(truth.scan, parts, upright, policy);
-    };
-    tally(0, parts);
-    tally(1, merge(gnomon::conservative{}));
-    tally(2, merge(gnomon::liberal{}));
-    tally(3, merge_literally(gnomon::conservative{}));
-    tally(4, merge_literally(gnomon::liberal{}));
+    result.tallies[3] = merged(gnomon::conservative{});
+    result.tallies[4] = merged(gnomon::liberal{});
+    result.tallies[5] = merged_literally(gnomon::conservative{});
+    result.tallies[6] = merged_literally(gnomon::liberal{});
     return result;
 }
 
@@ -161,15 +201,18 @@ json measure(const effort& much) {
                  {"of planes: merged correctly", count(planes, &merge_tally::right)},
                  {"of planes: wrongly merged", count(planes, &merge_tally::wrong)}});
         }
-        scans.push_back(
-            {{"trajectory", trajectory},
-             {"scans", rooms * seeds.size()},
-             {"initial segments of a scan",
-              rounded(mean([](const outcome& o) { return o.initial; }) / double(rooms), 1)},
-             {"of them on several surfaces [%]",
-              rounded(100.0 * mean([](const outcome& o) { return o.mixed; }) /
-                          mean([](const outcome& o) { return o.initial; }),
-                      1)}});
+        const auto row_of = [&](const char* chain, segment_count outcome::*of) {
+            const double initial = mean([=](const outcome& o) { return (o.*of).all; });
+            const double mixed = mean([=](const outcome& o) { return (o.*of).mixed; });
+            scans.push_back(
+                {{"trajectory", trajectory},
+                 {"chain", chain},
+                 {"scans", rooms * seeds.size()},
+                 {"initial segments of a scan", rounded(initial / double(rooms), 1)},
+                 {"of them on several surfaces [%]", rounded(100.0 * mixed / initial, 1)}});
+        };
+        row_of("default", &outcome::of_default);
+        row_of("of the thesis", &outcome::of_thesis);
     }
     return {{"precision and recall", scores}, {"pairs, per seed", errors}, {"scans", scans}};
 }

@@ -67,6 +67,12 @@ perceived perceive(const sim::true_scan& truth) {
     return chain(truth.scan);
 }
 
+perceived perceive_liberally(const sim::true_scan& truth) {
+    const gnomon::perception<gnomon::noise_knn, gnomon::plane_pca, gnomon::liberal> chain{
+        .leave_out = gnomon::floor_and_ceiling{}};
+    return chain(truth.scan);
+}
+
 perceived perceive_as_thesis(const sim::true_scan& truth) {
     return perceived_as_thesis<gnomon::conservative>(truth);
 }

@@ -41,6 +41,8 @@ using perceived = gnomon::perception_result<gnomon::plane_fit>;
 
 /// By the default chain, floor and ceiling left out.
 perceived perceive(const gnomon::simulation::true_scan& truth);
+/// The same, merging liberally.
+perceived perceive_liberally(const gnomon::simulation::true_scan& truth);
 
 /// The chain of the thesis (Fig. 4.2) with its parameters (Sec. 4.4.1), floor and ceiling left out;
 /// the noise is given, as a sensor's data sheet gives it.
