@@ -9,7 +9,6 @@ extern "C" __attribute__((visibility("default"))) void perceive(const gnomon::sc
     gnomon::perception<> chain;
     if (options.leaves_out_floor) chain.leave_out = gnomon::floor_and_ceiling{};
     if (!options.closes_narrow_gaps) chain.merging.max_gap = 0.0;
-    if (!options.has_remainder) chain.segmentation.remainder.reset();
     if (options.noise > 0.0) chain.noise = gnomon::constant_noise{options.noise};
     const auto seen = chain(scan);
     result = {seen.kept, seen.initial_segments.labels(), seen.surfaces.labels()};

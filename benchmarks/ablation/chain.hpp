@@ -14,8 +14,7 @@
 struct chain_options {
     bool leaves_out_floor = false;  ///< and the ceiling
     bool closes_narrow_gaps = true;
-    bool has_remainder = true;  ///< smooth surfaces of points that are on no plane
-    double noise = 0.0;         ///< standard deviation of the ranges [m]; 0 to measure it
+    double noise = 0.0;  ///< standard deviation of the ranges [m]; 0 to measure it
 };
 
 struct chain_result {

@@ -100,8 +100,6 @@ bool leave_out(selection& chosen, std::string_view step) {
         chosen.merges = false;
     else if (step == "narrow_gaps")
         chosen.options.closes_narrow_gaps = false;
-    else if (step == "remainder")
-        chosen.options.has_remainder = false;
     else
         return false;
     return true;
@@ -142,7 +140,7 @@ int main(int argc, char** argv) {
     if (!chosen) {
         std::fprintf(stderr,
                      "usage: %s --chain LIBRARY [--seeds FIRST COUNT] [--noise MM|true]\n"
-                     "    [--without merging|narrow_gaps|remainder]... [--scan FILE]...\n",
+                     "    [--without merging|narrow_gaps]... [--scan FILE]...\n",
                      argv[0]);
         return 2;
     }

@@ -23,7 +23,6 @@ MULTIPLES = {"boundary_pairs": 2, "pairs": 2}
 STEPS = {
     "merging behind occluders": {"options": ["--without", "merging"]},
     "closing of narrow gaps": {"options": ["--without", "narrow_gaps"]},
-    "smooth surfaces of points on no plane": {"options": ["--without", "remainder"]},
     "measured noise, 15 mm instead": {"options": ["--noise", "15"]},
     "measured noise, the true one instead": {"options": ["--noise", "true"]},
     "noise of wide planes": {"texts": [
@@ -35,9 +34,6 @@ STEPS = {
          "return std::max(noise.of_planes.along(ray), least);", "return least;")]},
     "second growth, by twice the angle": {"texts": [
         ("gnomon/segmentation/segment_planes.hpp", "    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle\n", "")]},
-    "growth where surfaces are rough": {"texts": [
-        ("gnomon/segmentation/detail/plane_growth.hpp",
-         "for (const bool is_rough : {false, true}) {", "for (const bool is_rough : {false}) {")]},
     "merging of neighboring planes": {"texts": [
         ("gnomon/segmentation/detail/plane_regions.hpp",
          "bool merge(scratch<region_pair> pairs) {",

@@ -32,8 +32,6 @@ into DIR.
   --k N               neighbors per normal, at most (30)
   --max-angle DEG     largest angle between a normal and its plane's, where planes
                       grow (15)
-  --max-distance M    largest distance between adjacent points of smooth surfaces,
-                      in what is not planar (0.30)
   --min-points N      smaller segments are discarded, counted in cells as wide as
                       the noise (30)
   --merge POLICY      conservative: where the gap is occluded (default);
@@ -64,7 +62,7 @@ struct options {
     std::string scan;  ///< path, or empty for the simulated kitchen
     std::string out;
     gnomon::noise_knn neighborhood;
-    gnomon::planes_first segmentation;
+    gnomon::planes_on_cells segmentation;
     named_noise noise;
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<Eigen::Vector3d> up;  ///< unit length
@@ -105,15 +103,9 @@ inline constexpr option<options> known_options[] = {
          o.segmentation.planes.max_angle =
              gnomon::degrees(number_within(name, value, 0.0, 90.0, "from 0 to 90"));
      }},
-    {"--max-distance", true,
-     [](options& o, const std::string& name, const std::string& value) {
-         constexpr double infinity = std::numeric_limits<double>::infinity();
-         o.segmentation.remainder->max_distance =
-             number_within(name, value, 0.0, infinity, "0 or more");
-     }},
     {"--min-points", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.segmentation.planes.min_points = o.segmentation.remainder->min_points =
+         o.segmentation.planes.min_points =
              number_within<std::size_t>(name, value, 1, 1'000'000'000, "from 1 to 1,000,000,000");
      }},
     {"--merge", true,

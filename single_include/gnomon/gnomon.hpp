@@ -13265,7 +13265,7 @@ class plane_growth {
     }
 
     /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
-    /// has doubled; then it grows on, as far as it is rougher than the noise.
+    /// has doubled.
     /// @return whether they are enough, and most fit the final plane
     bool grow_from(point_index seed) {
         region_plane to;
@@ -13275,21 +13275,18 @@ class plane_growth {
         visit_[seed] = seed;
         constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
         std::size_t refit_at = first_refit;
-        for (const bool is_rough : {false, true}) {
-            for (std::size_t next = 0; next < members_.size(); ++next) {
-                const point_index i = members_[next];
-                if (next >= sums.summands) cloud_.add(i, sums);
-                for (const point_index j : graph_[i]) {
-                    if (visit_[j] == seed || !fits(j, to)) continue;
-                    visit_[j] = seed;
-                    members_.push_back(j);
-                }
-                if (is_rough || sums.summands < refit_at) continue;
-                if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
-                refit_at *= 2;
+        for (std::size_t next = 0; next < members_.size(); ++next) {
+            cloud_.add(members_[next], sums);
+            for (const point_index j : graph_[members_[next]]) {
+                if (visit_[j] == seed || !fits(j, to)) continue;
+                visit_[j] = seed;
+                members_.push_back(j);
             }
-            if (const region_plane f = sums.fit(); f.is_determined) to = f;
+            if (sums.summands < refit_at) continue;
+            if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
+            refit_at *= 2;
         }
+        if (const region_plane f = sums.fit(); f.is_determined) to = f;
         const auto fitting =
             std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
         return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
@@ -13474,18 +13471,6 @@ class plane_regions {
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
-
-    /// Adds regions that are not planar.
-    /// @param more  the labels of unlabeled points: new regions are numbered from 0 on
-    void add_regions(const auto& more) {
-        const auto first = static_cast<std::int32_t>(regions_.size());
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] != unlabeled || more[i] == unlabeled) continue;
-            labels_[i] = first + more[i];
-            const auto r = static_cast<std::size_t>(labels_[i]);
-            while (regions_.size() <= r) regions_.push_back({{}, {}, false});
-        }
-    }
 
     /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
     /// goes to the region, among those of its neighbors and its own, that explains it best, or to
@@ -17294,7 +17279,7 @@ struct cells {
 // -------- gnomon/perception/detail/cell_surfaces.hpp ---------------------------------------------
 
 /// @file
-/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which
+/// The steps of `planes_on_cells`. All of them run on cells, one standard deviation wide, which
 /// determine a surface as well as the points do, and are fewer. The last step gives the points
 /// their segments.
 
@@ -17351,15 +17336,13 @@ class cell_surfaces {
         orient_normals(index_, surface_, run);
     }
 
-    /// The planes, and in what is left the smooth surfaces.
+    /// The planes.
     template <execution X>
-    void find(const segment_planes_options& planes,
-              const std::optional<segment_surfaces_options>& remainder, const X& run) {
+    void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_, run);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
-        if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
     }
 
     /// The labels of the points, of the regions.
@@ -17404,24 +17387,6 @@ class cell_surfaces {
     [[nodiscard]] viewpoint_table known_viewpoints() const {
         if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
         return cells_.viewpoints;
-    }
-
-    /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
-    template <execution X>
-    [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
-                                                         const X& run) const {
-        struct element {
-            Eigen::Vector3d normal{0.0, 0.0, 0.0};
-            double mean_distance = 0.0;
-        };
-        scratch<element> rest(surface_.size());
-        for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
-        const smooth_link<scratch<element>> link(rest, options, rest.size());
-        linker linker(index_);
-        linker.link_listed(
-            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
-        return linker.labels(options.min_points);
     }
 
     const spatial_index& points_;
@@ -17694,7 +17659,7 @@ class perception_run {
         });
     }
 
-    /// `planes_first`
+    /// `planes_on_cells`
     void find_on_cells() {
         const noise_curve& noise = result_.noise.of_planes;
         std::optional<cell_surfaces<Estimate>> found;
@@ -17709,8 +17674,7 @@ class perception_run {
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
         });
-        step("planes",
-             [&] { found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_); });
+        step("planes", [&] { found->find(chain_.segmentation.planes, run_); });
         scratch<std::int32_t> labels;
         step("assignment", [&] {
             labels = found->labels_of_points(run_);
@@ -17820,10 +17784,9 @@ class perception_run {
 
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
-/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an
-/// occluder interrupts. Each step is a policy of its own floor; the result holds what each step
-/// returned, and how long it took. All steps share one index of the points, one of their cells, and
-/// one noise.
+/// noise of the sensor, normals, planes, and merging of surfaces that an occluder interrupts. Each
+/// step is a policy of its own floor; the result holds what each step returned, and how long it
+/// took. All steps share one index of the points, one of their cells, and one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
@@ -17856,13 +17819,10 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces
-/// (`segment_surfaces`) in what is left: right for every sensor, as all lengths are multiples of
-/// its noise.
-struct planes_first {
+/// Planes (`segment_planes`), on cells of the points: right for every sensor, as all lengths are
+/// multiples of its noise. Curved surfaces are several planes.
+struct planes_on_cells {
     segment_planes_options planes{};
-    /// Of cells; nothing to leave all unlabeled that is not planar.
-    std::optional<segment_surfaces_options> remainder = segment_surfaces_options{};
 };
 
 /// The segmentation of the thesis: smooth surfaces, from the normals of all points.
@@ -17879,14 +17839,14 @@ struct smooth_surfaces {
 /// `merge` of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the
 /// chain.
 template <class Neighborhood = noise_knn, class Estimator = plane_pca, class Merge = conservative,
-          class Segmentation = planes_first>
+          class Segmentation = planes_on_cells>
 struct perception {
     static_assert(merge_policy<Merge> || std::same_as<Merge, no_merging>,
                   "perception: merge by a merge_policy, or by no_merging{}");
-    static_assert(std::same_as<Segmentation, planes_first> ||
+    static_assert(std::same_as<Segmentation, planes_on_cells> ||
                       std::same_as<Segmentation, smooth_surfaces>,
-                  "perception: the segmentation is planes_first, or smooth_surfaces");
-    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_first>;
+                  "perception: the segmentation is planes_on_cells, or smooth_surfaces");
+    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_on_cells>;
 
     Neighborhood neighborhood{};
     Estimator estimate{};
@@ -17904,12 +17864,10 @@ struct perception {
         detail::require_valid(merging);
         detail::require_valid(visibility);
         if (leave_out) detail::require_valid(*leave_out);
-        if constexpr (is_on_cells) {
+        if constexpr (is_on_cells)
             detail::require_valid(segmentation.planes);
-            if (segmentation.remainder) detail::require_valid(*segmentation.remainder);
-        } else {
+        else
             detail::require_valid(segmentation.surfaces);
-        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;
@@ -17955,7 +17913,7 @@ struct perception {
 
 /// For clang, which does not deduce the parameters of an aggregate by itself.
 template <class Neighborhood, class Estimator, class Merge = conservative,
-          class Segmentation = planes_first>
+          class Segmentation = planes_on_cells>
 perception(Neighborhood, Estimator, Merge = {}, Segmentation = {},
            std::optional<noise_curve> = std::nullopt,
            std::optional<floor_and_ceiling> = std::nullopt, merge_occluded_options = {},

@@ -19,7 +19,6 @@ SEGMENT = ["label", "points", "centroid", "normal", "flat", "surface_variation",
 WRONG_OPTIONS = [
     ["--k", "0"], ["--k", "-1"], ["--k", "2.5"], ["--k", ""], ["--k"],
     ["--max-angle", "-1"], ["--max-angle", "90.5"], ["--max-angle", "nan"], ["--max-angle", "x"],
-    ["--max-distance", "-0.1"], ["--max-distance", "nan"],
     ["--min-points", "0"], ["--min-points", "-3"], ["--min-points", "1e3"],
     ["--merge", "all"], ["--merge", ""],
     ["--noise", "radar"], ["--noise", "0"], ["--noise", "-0.01"], ["--noise", "nan"],

@@ -104,7 +104,7 @@ TEST(perception_result, comes_after_as_many_steps_as_announced) {
         EXPECT_DOUBLE_EQ(result.seconds(), sum);
     };
     using gnomon::conservative, gnomon::no_merging, gnomon::noise_knn, gnomon::plane_pca,
-        gnomon::planes_first, gnomon::smooth_surfaces;
+        gnomon::planes_on_cells, gnomon::smooth_surfaces;
     expect_all(gnomon::perception<>{}, 9);
     expect_all(gnomon::perception{noise_knn{}, plane_pca{}, no_merging{}}, 8);
     expect_all(gnomon::perception{noise_knn{}, plane_pca{}, conservative{}, smooth_surfaces{}}, 7);

@@ -84,8 +84,8 @@ TEST(perception, is_its_steps) {
     EXPECT_GT(result.seconds(), 0.0);
 }
 
-/// Planes first: the planes of the surfaces are those of their points, most of which are flat.
-TEST(perception, finds_planes_first) {
+/// The planes of the surfaces are those of their points, most of which are flat.
+TEST(perception, finds_planes_on_cells) {
     const gnomon::scan& scan = scan_of_kitchen();
     const perception<> chain{.leave_out = gnomon::floor_and_ceiling{}};
     const auto result = chain(scan, gnomon::threads{2});
@@ -156,7 +156,7 @@ TEST(perception, depends_on_no_order_of_points) {
 
 TEST(perception, does_not_merge_if_merging_is_disabled) {
     const perception chain{gnomon::noise_knn{}, gnomon::plane_pca{}, gnomon::no_merging{},
-                           gnomon::planes_first{{.max_angle = gnomon::degrees(10)}}};
+                           gnomon::planes_on_cells{{.max_angle = gnomon::degrees(10)}}};
     const auto result = chain(scan_of_kitchen(), gnomon::threads{2});
     EXPECT_EQ(result.surfaces.labels(), result.initial_segments.labels());
     EXPECT_TRUE(result.gaps.empty());
@@ -281,8 +281,6 @@ TEST(perception, refuses_bad_parameters_before_the_first_step) {
     refused(perception<>{.visibility = {.pixel = gnomon::degrees(100)}});
     refused(perception<>{.visibility = {.pole = Eigen::Vector3d(0, 0, 0)}});
     refused(perception<>{.segmentation = {.planes = {.max_angle = gnomon::degrees(120)}}});
-    refused(perception<>{
-        .segmentation = {.remainder = gnomon::segment_surfaces_options{.max_distance = -1.0}}});
     refused(thesis_chain{.segmentation = {.surfaces = {.max_distance = -1.0}}});
     refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.up = Eigen::Vector3d(0, 0, 2)}});
 }

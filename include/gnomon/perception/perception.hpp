@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
-/// noise of the sensor, normals, planes and smooth surfaces, and merging of surfaces that an
-/// occluder interrupts. Each step is a policy of its own floor; the result holds what each step
-/// returned, and how long it took. All steps share one index of the points, one of their cells, and
-/// one noise.
+/// noise of the sensor, normals, planes, and merging of surfaces that an occluder interrupts. Each
+/// step is a policy of its own floor; the result holds what each step returned, and how long it
+/// took. All steps share one index of the points, one of their cells, and one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
@@ -61,13 +60,10 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes first (`segment_planes`), on cells of the points, and smooth surfaces
-/// (`segment_surfaces`) in what is left: right for every sensor, as all lengths are multiples of
-/// its noise.
-struct planes_first {
+/// Planes (`segment_planes`), on cells of the points: right for every sensor, as all lengths are
+/// multiples of its noise. Curved surfaces are several planes.
+struct planes_on_cells {
     segment_planes_options planes{};
-    /// Of cells; nothing to leave all unlabeled that is not planar.
-    std::optional<segment_surfaces_options> remainder = segment_surfaces_options{};
 };
 
 /// The segmentation of the thesis: smooth surfaces, from the normals of all points.
@@ -84,14 +80,14 @@ struct smooth_surfaces {
 /// `merge` of `merge_policy`, or `no_merging{}`. Whatever has a member `noise` gets that of the
 /// chain.
 template <class Neighborhood = noise_knn, class Estimator = plane_pca, class Merge = conservative,
-          class Segmentation = planes_first>
+          class Segmentation = planes_on_cells>
 struct perception {
     static_assert(merge_policy<Merge> || std::same_as<Merge, no_merging>,
                   "perception: merge by a merge_policy, or by no_merging{}");
-    static_assert(std::same_as<Segmentation, planes_first> ||
+    static_assert(std::same_as<Segmentation, planes_on_cells> ||
                       std::same_as<Segmentation, smooth_surfaces>,
-                  "perception: the segmentation is planes_first, or smooth_surfaces");
-    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_first>;
+                  "perception: the segmentation is planes_on_cells, or smooth_surfaces");
+    static constexpr bool is_on_cells = std::same_as<Segmentation, planes_on_cells>;
 
     Neighborhood neighborhood{};
     Estimator estimate{};
@@ -109,12 +105,10 @@ struct perception {
         detail::require_valid(merging);
         detail::require_valid(visibility);
         if (leave_out) detail::require_valid(*leave_out);
-        if constexpr (is_on_cells) {
+        if constexpr (is_on_cells)
             detail::require_valid(segmentation.planes);
-            if (segmentation.remainder) detail::require_valid(*segmentation.remainder);
-        } else {
+        else
             detail::require_valid(segmentation.surfaces);
-        }
     }
 
     using result_type = perception_result<estimate_t<Estimator>>;
@@ -160,7 +154,7 @@ struct perception {
 
 /// For clang, which does not deduce the parameters of an aggregate by itself.
 template <class Neighborhood, class Estimator, class Merge = conservative,
-          class Segmentation = planes_first>
+          class Segmentation = planes_on_cells>
 perception(Neighborhood, Estimator, Merge = {}, Segmentation = {},
            std::optional<noise_curve> = std::nullopt,
            std::optional<floor_and_ceiling> = std::nullopt, merge_occluded_options = {},

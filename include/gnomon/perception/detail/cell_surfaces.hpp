@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The steps of `planes_first`. All of them run on cells, one standard deviation wide, which
+/// The steps of `planes_on_cells`. All of them run on cells, one standard deviation wide, which
 /// determine a surface as well as the points do, and are fewer. The last step gives the points
 /// their segments.
 #pragma once
@@ -32,12 +32,10 @@
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/segmentation/detail/cells.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
-#include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segment_planes.hpp>
-#include <gnomon/segmentation/segment_surfaces.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -93,15 +91,13 @@ class cell_surfaces {
         orient_normals(index_, surface_, run);
     }
 
-    /// The planes, and in what is left the smooth surfaces.
+    /// The planes.
     template <execution X>
-    void find(const segment_planes_options& planes,
-              const std::optional<segment_surfaces_options>& remainder, const X& run) {
+    void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_, run);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
-        if (remainder) regions_->add_regions(smooth_remainder(*remainder, run));
     }
 
     /// The labels of the points, of the regions.
@@ -146,24 +142,6 @@ class cell_surfaces {
     [[nodiscard]] viewpoint_table known_viewpoints() const {
         if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
         return cells_.viewpoints;
-    }
-
-    /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
-    template <execution X>
-    [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
-                                                         const X& run) const {
-        struct element {
-            Eigen::Vector3d normal{0.0, 0.0, 0.0};
-            double mean_distance = 0.0;
-        };
-        scratch<element> rest(surface_.size());
-        for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
-        const smooth_link<scratch<element>> link(rest, options, rest.size());
-        linker linker(index_);
-        linker.link_listed(
-            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
-        return linker.labels(options.min_points);
     }
 
     const spatial_index& points_;

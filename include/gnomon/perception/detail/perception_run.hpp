@@ -127,7 +127,7 @@ class perception_run {
         });
     }
 
-    /// `planes_first`
+    /// `planes_on_cells`
     void find_on_cells() {
         const noise_curve& noise = result_.noise.of_planes;
         std::optional<cell_surfaces<Estimate>> found;
@@ -142,8 +142,7 @@ class perception_run {
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
         });
-        step("planes",
-             [&] { found->find(chain_.segmentation.planes, chain_.segmentation.remainder, run_); });
+        step("planes", [&] { found->find(chain_.segmentation.planes, run_); });
         scratch<std::int32_t> labels;
         step("assignment", [&] {
             labels = found->labels_of_points(run_);

@@ -96,7 +96,7 @@ class plane_growth {
     }
 
     /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
-    /// has doubled; then it grows on, as far as it is rougher than the noise.
+    /// has doubled.
     /// @return whether they are enough, and most fit the final plane
     bool grow_from(point_index seed) {
         region_plane to;
@@ -106,21 +106,18 @@ class plane_growth {
         visit_[seed] = seed;
         constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
         std::size_t refit_at = first_refit;
-        for (const bool is_rough : {false, true}) {
-            for (std::size_t next = 0; next < members_.size(); ++next) {
-                const point_index i = members_[next];
-                if (next >= sums.summands) cloud_.add(i, sums);
-                for (const point_index j : graph_[i]) {
-                    if (visit_[j] == seed || !fits(j, to)) continue;
-                    visit_[j] = seed;
-                    members_.push_back(j);
-                }
-                if (is_rough || sums.summands < refit_at) continue;
-                if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
-                refit_at *= 2;
+        for (std::size_t next = 0; next < members_.size(); ++next) {
+            cloud_.add(members_[next], sums);
+            for (const point_index j : graph_[members_[next]]) {
+                if (visit_[j] == seed || !fits(j, to)) continue;
+                visit_[j] = seed;
+                members_.push_back(j);
             }
-            if (const region_plane f = sums.fit(); f.is_determined) to = f;
+            if (sums.summands < refit_at) continue;
+            if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
+            refit_at *= 2;
         }
+        if (const region_plane f = sums.fit(); f.is_determined) to = f;
         const auto fitting =
             std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
         return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);

@@ -40,18 +40,6 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
-    /// Adds regions that are not planar.
-    /// @param more  the labels of unlabeled points: new regions are numbered from 0 on
-    void add_regions(const auto& more) {
-        const auto first = static_cast<std::int32_t>(regions_.size());
-        for (std::size_t i = 0; i < labels_.size(); ++i) {
-            if (labels_[i] != unlabeled || more[i] == unlabeled) continue;
-            labels_[i] = first + more[i];
-            const auto r = static_cast<std::size_t>(labels_[i]);
-            while (regions_.size() <= r) regions_.push_back({{}, {}, false});
-        }
-    }
-
     /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
     /// goes to the region, among those of its neighbors and its own, that explains it best, or to
     /// none if all are too far; and regions next to each other that one plane explains are merged.
