@@ -47,6 +47,12 @@ SECTIONS = [
      "none should have one. Then an image of 12 planes whose truth is known, with noise added along the rays: "
      "the planes that are one initial segment with an overlap of 80 % (Hoover et al. 1996). Wanted are 10, 10 "
      "and 7. Without the scans, which are not part of the repository, there are no tables."),
+    ("limits", "Limits of merging",
+     "The time of `merge_occluded` on walls of up to 100,000 coplanar segments of six points: wanted are 10 s. "
+     "The time per segment is the same for all numbers if the time grows in proportion. Then 500 points that "
+     "are seen from a view point each: wanted is 1 s, for the chain, and for merging of 150 given segments, "
+     "which the chain would not find, as its segments have 30 points at least. And a part of a wall that has "
+     "one point 100 m away: it should be merged with the other part all the same."),
 ]
 PAGE_WITHOUT = ("rooms",)  # tables with a row for each room are in the files
 
@@ -135,8 +141,8 @@ def page(results):
              "<!-- Written by benchmarks/surfaces/page.py from surfaces/*.json: do not edit. -->", ""]
     if results.quick:
         lines += ["**Measured with `--quick`: few rooms. A test of the programs, not a result.**", ""]
-    lines += ["`perception` and what it relies on, against the truth of simulated scans, and on real scans, by one "
-              "command:", "",
+    lines += ["`perception` and what it relies on, against the truth of simulated scans, on real scans, and at "
+              "the limits of its work, by one command:", "",
               "    sh benchmarks/reproduce.sh surfaces", "",
               f"{context['processor']}, {context['compiler']}, flags `{context['flags']}`. Times are those of "
               "one call on one thread, where two rooms are processed at a time. The results of each program "
