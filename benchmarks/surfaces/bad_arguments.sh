@@ -14,5 +14,7 @@ refused "$programs/rooms"
 refused "$programs/rooms" --out "$programs/surfaces_out" --density thrice
 refused "$programs/rooms" --out "$programs/surfaces_out" --seeds 1 0
 refused "$programs/floors" --out "$programs/surfaces_out" --slow
+refused "$programs/scans"
+refused "$programs/limits" --out "$programs/surfaces_out" --slow
 refused python3 "$(dirname "$make")/page.py"
 refused python3 "$(dirname "$make")/page.py" "$programs/nowhere"

@@ -17,6 +17,14 @@
 #include "perceived.hpp"
 #include "scores.hpp"
 
+#ifndef GNOMON_SIGMA_TOLD
+#include "ceiling.hpp"
+#include "flatness_check.hpp"
+constexpr bool is_older = false;
+#else
+constexpr bool is_older = true;  // no noise and no planes are in the result
+#endif
+
 namespace {
 
 /// What the command line selects; an empty name and no noise stand for all.
@@ -74,7 +82,24 @@ struct score {
     double iou = 0.0, iou_by_points = 0.0, impurity = 0.0, seconds = 0.0;
     std::size_t surfaces = 0, segments = 0;
     merge_tally merging;  // by points
+    // Not of an older version of the library:
+    std::size_t blobs = 0;                          // flat segments that have a blob
+    double ceiling = 0.0, ceiling_by_points = 0.0;  // IoU, as above
 };
+
+/// Scores that require the noise and the planes of the result, which older versions do not return.
+void add_scores_of_planes(score& to, const sim::true_scan& truth, const joined_surfaces& surfaces,
+                          const auto& seen, std::size_t fewest) {
+#ifndef GNOMON_SIGMA_TOLD
+    to.blobs = flatness_of(truth.scan, seen).with_blob;
+    const auto best = true_competition(truth, surfaces, seen).segments(truth.scan.size());
+    const auto found = recovered(surfaces, seen.kept, best, fewest);
+    to.ceiling = mean_iou(found, false);
+    to.ceiling_by_points = mean_iou(found, true);
+#else
+    (void)to, (void)truth, (void)surfaces, (void)seen, (void)fewest;
+#endif
+}
 
 score score_of(const setting& how, std::uint64_t seed) {
     constexpr std::size_t fewest = 100;  // points of a surface that counts
@@ -86,23 +111,30 @@ score score_of(const setting& how, std::uint64_t seed) {
     const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
     const joined_surfaces surfaces(truth, seen.kept);
     const auto found = recovered(surfaces, seen.kept, seen.surfaces, fewest);
-    return {seed,
-            mean_iou(found, false),
-            mean_iou(found, true),
-            impurity(surfaces, seen.kept, seen.surfaces),
-            taken.count(),
-            found.size(),
-            seen.surfaces.size(),
-            merging_by_points(caster, truth, surfaces, seen.initial_segments, seen.surfaces)};
+    score result{seed,
+                 mean_iou(found, false),
+                 mean_iou(found, true),
+                 impurity(surfaces, seen.kept, seen.surfaces),
+                 taken.count(),
+                 found.size(),
+                 seen.surfaces.size(),
+                 merging_by_points(caster, truth, surfaces, seen.initial_segments, seen.surfaces)};
+    add_scores_of_planes(result, truth, surfaces, seen, fewest);
+    return result;
 }
 
-/// A row over rooms. Segments are pooled for precision and recall.
+/// The mean of a score over rooms.
+double mean_of(const std::vector<score>& rooms, auto member) {
+    double sum = 0.0;
+    for (const score& s : rooms) sum += static_cast<double>(s.*member);
+    return sum / static_cast<double>(rooms.size());
+}
+
+/// A row over rooms. Segments are pooled for precision and recall, and blobs added up.
 json pooled(json row, const std::vector<score>& rooms) {
-    const auto mean = [&](auto member) {
-        double sum = 0.0;
-        for (const score& s : rooms) sum += static_cast<double>(s.*member);
-        return sum / static_cast<double>(rooms.size());
-    };
+    const auto mean = [&](auto member) { return mean_of(rooms, member); };
+    std::size_t blobs = 0;
+    for (const score& s : rooms) blobs += s.blobs;
     merge_tally merging;
     for (const score& s : rooms) merging.add(s.merging, 1.0);
     row.update({{"rooms", rooms.size()},
@@ -116,6 +148,18 @@ json pooled(json row, const std::vector<score>& rooms) {
                 {"recall", rounded(merging.recall(), 3)},
                 {"segments", rounded(mean(&score::segments), 1)},
                 {"time [s]", rounded(mean(&score::seconds), 2)}});
+    if (!is_older) row["blobs"] = blobs;
+    return row;
+}
+
+/// A row with the IoU that the competition of planes reaches, next to that of the chain.
+json ceiling_of(json row, const std::vector<score>& rooms) {
+    row.update(
+        {{"rooms", rooms.size()},
+         {"mean IoU", rounded(mean_of(rooms, &score::iou), 4)},
+         {"from the truth", rounded(mean_of(rooms, &score::ceiling), 4)},
+         {"by points", rounded(mean_of(rooms, &score::iou_by_points), 4)},
+         {"by points, from the truth", rounded(mean_of(rooms, &score::ceiling_by_points), 4)}});
     return row;
 }
 
@@ -130,12 +174,14 @@ json row_of(json row, const score& s) {
                 {"wrong", s.merging.wrong},
                 {"segments", s.segments},
                 {"time [s]", rounded(s.seconds, 3)}});
+    if (!is_older) row.update({{"blobs", s.blobs}, {"from the truth", rounded(s.ceiling, 5)}});
     return row;
 }
 
 json measure(const effort& much, selection chosen) {
     if (much.quick) chosen.rooms = std::min<std::uint64_t>(chosen.rooms, 2);
     json settings = json::array(), by_noise = json::array(), rooms = json::array();
+    json ceiling = json::array();
     for (const double noise : noises) {
         std::vector<score> of_noise;
         for (const std::string density : densities) {
@@ -155,9 +201,12 @@ json measure(const effort& much, selection chosen) {
                 std::fflush(stdout);
             }
         }
-        if (!of_noise.empty()) by_noise.push_back(pooled({{"noise [mm]", noise}}, of_noise));
+        if (of_noise.empty()) continue;
+        by_noise.push_back(pooled({{"noise [mm]", noise}}, of_noise));
+        if (!is_older) ceiling.push_back(ceiling_of({{"noise [mm]", noise}}, of_noise));
     }
-    return {{"by noise", by_noise}, {"by setting", settings}, {"rooms", rooms}};
+    return {
+        {"by noise", by_noise}, {"ceiling", ceiling}, {"by setting", settings}, {"rooms", rooms}};
 }
 
 }  // namespace
