@@ -11697,9 +11697,11 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
-    [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
-        return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
+    /// Whether point i is on the plane of a region: within three standard deviations.
+    [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
+        const double distance = std::abs(to.plane.signed_distance(offsets[i]));
+        return distance / noise[i].across(to.plane.normal) <=
+               most_deviations * std::sqrt(to.excess());
     }
 
   private:
@@ -11913,6 +11915,12 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
         if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
+/// Replaces labels by the smallest of their sets.
+void unite_labels(auto& labels, union_find& sets) {
+    for (std::int32_t& l : labels)
+        if (l != unlabeled) l = static_cast<std::int32_t>(sets.find(static_cast<point_index>(l)));
+}
+
 /// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
 /// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
@@ -11930,6 +11938,13 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
     segments result;
     result.assign(labels);
     return result;
+}
+
+/// The segments of these labels, largest first. (A template, so that only its users compile a
+/// sort.)
+[[nodiscard]] segments numbered_segments_of(auto labels, std::size_t min_points = 0) {
+    number_by_size(labels, min_points);
+    return segments_of(labels);
 }
 
 }  // namespace detail
@@ -12142,7 +12157,7 @@ struct plane_of_members {
         constexpr int most_passes = 5;  // performance only
         for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
             const planar_region on =
-                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
+                sums_of(cloud, members, [&](point_index i) { return cloud.is_on(i, region.fit); });
             if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
             const bool rests = on.sums.count == region.sums.count;
             region = on;
@@ -12150,16 +12165,13 @@ struct plane_of_members {
         }
         is_planar = region.fit.is_determined && region.fit.is_seen &&
                     region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
-        is_flat = is_planar && off_it(exact, members) < fewest_off;
-    }
-
-    /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
-        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+        is_flat = is_planar && std::ranges::count_if(members, [&](point_index i) {
+                                   return is_off(exact, i);
+                               }) < fewest_off;
     }
 
   private:
-    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
+    static constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
 
     [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
                                                std::span<const point_index> members, auto&& of) {
@@ -12173,17 +12185,9 @@ struct plane_of_members {
     /// Whether point i is certainly not on the plane, however rough it is.
     [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
         const plane& p = region.fit.plane;
-        return std::abs(p.signed_distance(cloud.offsets[i])) >
-               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
-    }
-
-    /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
-                                     std::span<const point_index> members) const {
-        std::size_t off = 0;
-        for (const point_index i : members)
-            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
-        return off;
+        return cloud.is_finite(i) &&
+               std::abs(p.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
     }
 };
 
@@ -12312,10 +12316,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
-    detail::scratch<std::int32_t> labels(result.labels().begin(), result.labels().end());
-    detail::number_by_size(labels);
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(result).labels());
 }
 
 }  // namespace gnomon
@@ -12655,9 +12656,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
                              [](std::size_t, const neighbor&) { return true; });
         return detail::segments_of(linker.labels(options.min_points));
     }
-    auto labels = detail::components_within(index.tree(), options.radius, team);
-    detail::number_by_size(labels, options.min_points);
-    return detail::segments_of(labels);
+    return detail::numbered_segments_of(
+        detail::components_within(index.tree(), options.radius, team), options.min_points);
 }
 
 }  // namespace gnomon
@@ -13217,9 +13217,8 @@ class plane_growth {
     /// @param next  the label of the first new region
     template <execution X>
     void operator()(std::int32_t next, const X& run) {
-        for (const point_index seed : flattest_first(run)) {
-            if (visit_[seed] != no_seed || !is_free(seed)) continue;
-            if (!grow_from(seed)) continue;
+        for (const auto& [roughness, seed] : flattest_first(run)) {
+            if (visit_[seed] != no_seed || !is_free(seed) || !grow_from(seed)) continue;
             for (const point_index i : members_) labels_[i] = next;
             ++next;
         }
@@ -13235,18 +13234,15 @@ class plane_growth {
     /// The free points by the mean squared distance of their neighbors from the plane of their
     /// normal, in variances of the noise.
     template <execution X>
-    [[nodiscard]] scratch<point_index> flattest_first(const X& run) const {
-        scratch<double> roughness(cloud_.size(), std::numeric_limits<double>::infinity());
-        for_each_chunk(run, cloud_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                if (is_free(i)) roughness[i] = roughness_at(i);
-        });
-        scratch<point_index> order;
+    [[nodiscard]] auto flattest_first(const X& run) const {
+        scratch<std::pair<double, point_index>> order;
         for (std::size_t i = 0; i < cloud_.size(); ++i)
-            if (is_free(i)) order.push_back(static_cast<point_index>(i));
-        std::sort(order.begin(), order.end(), [&](point_index a, point_index b) {
-            return roughness[a] != roughness[b] ? roughness[a] < roughness[b] : a < b;
+            if (is_free(i)) order.emplace_back(0.0, static_cast<point_index>(i));
+        for_each_chunk(run, order.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t o = begin; o < end; ++o)
+                order[o].first = roughness_at(order[o].second);
         });
+        std::sort(order.begin(), order.end());
         return order;
     }
 
@@ -13297,7 +13293,7 @@ class plane_growth {
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
         return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
-               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+               cloud_.is_on(i, to);
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.
@@ -13659,13 +13655,10 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
             detail::require(j < index.size(),
                             "segment_planes: the graph has an index out of range");
     const detail::planar_cloud cloud(index, options.noise, team);
-    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
-                                            options.max_angle, team)
-                      .labels();
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+                                                                  options.min_points,
+                                                                  options.max_angle, team)
+                                            .labels());
 }
 
 }  // namespace gnomon
@@ -13827,16 +13820,13 @@ template <class R, execution X = sequential, class Proj = std::identity>
                     "split_outliers: the numbers of points and of labels differ");
     const detail::planar_cloud cloud(index, noise, team);
     const auto regions = detail::regions_of(cloud, parts, team);
-    detail::scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    std::vector<std::int32_t> labels = parts.labels();
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == unlabeled || !cloud.is_finite(i)) continue;
         const auto& of = regions[static_cast<std::size_t>(labels[i])];
         if (detail::misfit_of(cloud, i, of) < 0.0) labels[i] = unlabeled;
     }
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(labels));
 }
 
 }  // namespace gnomon
@@ -13929,47 +13919,38 @@ void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const 
     }
 }
 
-/// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
-/// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// @param all      an object for each segment
-/// @param is_flat  of that object
-/// @param frame    the principal_frame of that object
-template <class Frame = std::identity>
-[[nodiscard]] scratch<std::pair<point_index, point_index>> pairs_to_compare(const auto& all,
-                                                                            std::size_t wanted,
-                                                                            auto&& is_flat,
-                                                                            Frame&& frame = {}) {
+/// Each flat one of some segments with those `wanted` flat ones whose centroids are nearest, by
+/// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+/// @param is_flat      is_flat(s): whether segment s is
+/// @param centroid_of  centroid_of(s) [m]
+[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t segments, std::size_t wanted,
+                                                    auto&& is_flat, auto&& centroid_of) {
     constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < all.size(); ++s) {
-        if (!std::invoke(is_flat, all[s])) continue;
+    for (std::size_t s = 0; s < segments; ++s) {
+        if (!is_flat(s)) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(std::invoke(frame, all[s]).centroid);
+        centroids.push_back(centroid_of(s));
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
-    scratch<std::pair<point_index, point_index>> pairs;
+    scratch<region_pair> pairs;
     if (wanted + 1 >= flat.size()) {
         for (std::size_t f = 0; f < flat.size(); ++f)
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
     append_nearest_pairs(pairs, centroids, wanted, flat);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    make_unique(pairs);
     return pairs;
 }
 
 /// The segments of which those of a set of a `union_find` are one, largest first.
 /// (A template, so that only its users compile a sort.)
-/// @param result  may be `parts`
-void unite_segments(segments& result, const segments& parts, auto& sets) {
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    for (std::int32_t& label : labels)
-        if (label != unlabeled)
-            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-    number_by_size(labels);
-    result.assign(labels);
+[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
+    std::vector<std::int32_t> labels = parts.labels();
+    unite_labels(labels, sets);
+    return numbered_segments_of(std::move(labels));
 }
 
 }  // namespace gnomon::detail
@@ -14603,15 +14584,10 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        observation most = observation::unobserved;
-        std::size_t votes = 0;
-        for (const observation s :
-             {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] <= votes) continue;
-            most = s;
-            votes = count[s];
-        }
-        return most;
+        const auto most = std::ranges::max(
+            {observation::free_space, observation::on_surface, observation::occluded}, {},
+            [&count](observation s) { return count[s]; });
+        return count[most] > 0 ? most : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -14763,17 +14739,12 @@ class occlusion_merger {
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(parts.size()),
-          is_flat_(parts.size(), false),
+          regions_(regions_of(cloud, parts, run)),
           labels_(parts.labels().size(), unlabeled),
           members_(labels_) {
         run(parts.size(), [&](std::size_t s) {
-            if (parts[s].empty()) return;
-            const plane_of_members found(cloud, parts[s]);
-            regions_[s] = found.region;
-            is_flat_[s] = found.is_planar;
             for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
+                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
                     labels_[i] = static_cast<std::int32_t>(s);
         });
         members_ = label_groups(labels_);
@@ -14788,10 +14759,7 @@ class occlusion_merger {
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                for (std::int32_t& label : labels_)
-                    if (label != unlabeled)
-                        label =
-                            static_cast<std::int32_t>(merged.find(static_cast<point_index>(label)));
+                unite_labels(labels_, merged);
                 members_ = label_groups(labels_);
             });
         for (examined_gap& gap : gaps_)
@@ -14805,11 +14773,10 @@ class occlusion_merger {
   private:
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
-        scratch<std::size_t> all(regions_.size());
-        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
         return pairs_to_compare(
-            all, options_.candidates, [this](std::size_t r) { return is_flat_[r] != 0; },
-            [this](std::size_t r) { return regions_[r].fit; });
+            regions_.size(), options_.candidates,
+            [this](std::size_t r) { return regions_[r].is_planar; },
+            [this](std::size_t r) { return regions_[r].fit.centroid; });
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
@@ -14859,9 +14826,8 @@ class occlusion_merger {
     const M& policy_;
     const Options& options_;
     scratch<planar_region> regions_;
-    scratch<char> is_flat_;
     scratch<std::int32_t> labels_;  // of the points on the planes
-    label_groups members_;          // as of the beginning of the round
+    label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;
 };
 
@@ -14943,20 +14909,6 @@ template <merge_policy M, execution X>
     return sets;
 }
 
-/// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
-template <merge_policy M, execution X>
-void merge_occluded_into(segments& result, const spatial_index& points, const segments& parts,
-                         const visibility& visible, const M& policy,
-                         const merge_occluded_options& options, const X& run, auto&& each_gap) {
-    union_find sets = merged_sets(points, parts, visible, policy, options, run, each_gap);
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    for (std::int32_t& label : labels)
-        if (label != unlabeled)
-            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-    number_by_size(labels);
-    result.assign(labels);
-}
-
 }  // namespace detail
 
 /// Merges flat segments that are one surface behind something.
@@ -14978,11 +14930,12 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
-    detail::merge_occluded_into(
-        result.segments, detail::index_of(points, team, projection), parts, visible, policy,
-        options, team, [&](const auto& gap) {
+    detail::union_find sets = detail::merged_sets(
+        detail::index_of(points, team, projection), parts, visible, policy, options, team,
+        [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
+    result.segments = detail::united_segments(parts, sets);
     return result;
 }
 
@@ -15107,11 +15060,13 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     for (std::size_t s = 0; s < parts.size(); ++s)
         frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
     detail::union_find sets(parts.size());
+    const auto is_flat = [&](std::size_t s) {
+        return frames[s].spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
+               frames[s].spectrum.surface_variation() <= options.max_variation;
+    };
+    const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
-             return f.spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
-                    f.spectrum.surface_variation() <= options.max_variation;
-         })) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
@@ -15124,9 +15079,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    segments result;
-    detail::unite_segments(result, parts, sets);
-    return result;
+    return detail::united_segments(parts, sets);
 }
 
 }  // namespace gnomon
@@ -17388,10 +17341,8 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
-    [[nodiscard]] const surface_type& surface() const { return surface_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
-    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
     /// A point of a cell.
     [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
     /// The surface element of a point: that of its cell.
@@ -17410,17 +17361,15 @@ class cell_surfaces {
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
                                                          const X& run) const {
-        struct element {
-            Eigen::Vector3d normal{0.0, 0.0, 0.0};
-            double mean_distance = 0.0;
+        const smooth_link link(surface_, options, index_.size());
+        const auto radius_of = [&](std::size_t c) {
+            return labels()[c] == unlabeled ? link.radius(c) : no_search;
         };
-        scratch<element> rest(surface_.size());
-        for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
-        const smooth_link<scratch<element>> link(rest, options, rest.size());
+        const auto is_linked = [&](std::size_t c, const neighbor& q) {
+            return labels()[q.index] == unlabeled && link(c, q);
+        };
         linker linker(index_);
-        linker.link_listed(
-            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
+        linker.link_listed(*graph_, radius_of, is_linked, run);
         return linker.labels(options.min_points);
     }
 
@@ -17522,7 +17471,7 @@ class perception_memory {
   public:
     spatial_index cells;                    ///< the index of the cells
     spatial_index sparse;                   ///< that of some of the points
-    segments parts, merged;                 ///< of the cells, or of the kept points
+    segments parts;                         ///< of the cells, or of the kept points
     std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;
@@ -17685,15 +17634,6 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    /// Calls work(visibility) if segments may be merged.
-    void merging(auto&& work) {
-        step("merging", [&] {
-            if (result_.noise.is_across_surface) return;
-            const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
-            work(visibility(points_, options, run_, projection_));
-        });
-    }
-
     /// `planes_first`
     void find_on_cells() {
         const noise_curve& noise = result_.noise.of_planes;
@@ -17718,19 +17658,9 @@ class perception_run {
             result_.surfaces = result_.initial_segments;
         });
         if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& parts = result_.memory.parts;
-                parts.assign(found->labels());
-                union_find sets = merged_sets(
-                    found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
-                    run_, [&](const examined_gap& gap) {
-                        note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
-                    });
-                for (std::int32_t& label : labels)
-                    if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
-                        label =
-                            static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-                set_segments(result_.surfaces, labels);
+            step("merging", [&] {
+                result_.memory.parts.assign(found->labels());
+                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
             });
     }
 
@@ -17753,24 +17683,30 @@ class perception_run {
             for (std::size_t i = 0; i < surface.size(); ++i)
                 result_.surface[result_.kept[i]] = surface[i];
         });
-        segments& parts = result_.memory.parts;
+        scratch<std::int32_t> labels;
         step("segmentation", [&] {
+            segments& parts = result_.memory.parts;
             segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
-            scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+            labels.assign(parts.labels().begin(), parts.labels().end());
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& merged = result_.memory.merged;
-                merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
-                                    at_noise(chain_.merging, result_.noise.of_planes), run_,
-                                    [&](const examined_gap& gap) {
-                                        note(gap, [&](point_index i) { return result_.kept[i]; });
-                                    });
-                scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
-                set_segments(result_.surfaces, labels);
-            });
+        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+    }
+
+    /// Merges the segments in memory, of things that are cells or kept points, where the noise
+    /// along the rays is known.
+    /// @param labels    the segments of the kept points
+    /// @param point_of  point_of(thing): the number of a kept point of it
+    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+        if (result_.noise.is_across_surface) return;
+        const noise_curve& noise = result_.noise.of_planes;
+        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
+        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
+                                      at_noise(chain_.merging, noise), run_,
+                                      [&](const examined_gap& gap) { note(gap, point_of); });
+        unite_labels(labels, sets);
+        set_segments(result_.surfaces, labels);
     }
 
     /// Makes segments of all points from labels of the kept ones.
@@ -17782,12 +17718,12 @@ class perception_run {
     }
 
     /// Writes a gap to the result.
-    /// @param point_of  the number in the cloud of the things the gap is between
+    /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
         for (auto& line : to.lines) {
-            line.first = point_of(line.first);
-            line.second = point_of(line.second);
+            line.first = result_.kept[point_of(line.first)];
+            line.second = result_.kept[point_of(line.second)];
         }
         result_.gaps.push_back(std::move(to));
     }

@@ -122,15 +122,10 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        observation most = observation::unobserved;
-        std::size_t votes = 0;
-        for (const observation s :
-             {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] <= votes) continue;
-            most = s;
-            votes = count[s];
-        }
-        return most;
+        const auto most = std::ranges::max(
+            {observation::free_space, observation::on_surface, observation::occluded}, {},
+            [&count](observation s) { return count[s]; });
+        return count[most] > 0 ? most : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:

@@ -19,7 +19,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>

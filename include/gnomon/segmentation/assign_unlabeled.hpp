@@ -11,8 +11,8 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <utility>
 
-#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -63,10 +63,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
-    detail::scratch<std::int32_t> labels(result.labels().begin(), result.labels().end());
-    detail::number_by_size(labels);
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(result).labels());
 }
 
 }  // namespace gnomon

@@ -52,9 +52,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
                              [](std::size_t, const neighbor&) { return true; });
         return detail::segments_of(linker.labels(options.min_points));
     }
-    auto labels = detail::components_within(index.tree(), options.radius, team);
-    detail::number_by_size(labels, options.min_points);
-    return detail::segments_of(labels);
+    return detail::numbered_segments_of(
+        detail::components_within(index.tree(), options.radius, team), options.min_points);
 }
 
 }  // namespace gnomon

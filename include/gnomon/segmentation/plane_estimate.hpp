@@ -68,7 +68,7 @@ struct plane_of_members {
         constexpr int most_passes = 5;  // performance only
         for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
             const planar_region on =
-                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
+                sums_of(cloud, members, [&](point_index i) { return cloud.is_on(i, region.fit); });
             if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
             const bool rests = on.sums.count == region.sums.count;
             region = on;
@@ -76,16 +76,13 @@ struct plane_of_members {
         }
         is_planar = region.fit.is_determined && region.fit.is_seen &&
                     region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
-        is_flat = is_planar && off_it(exact, members) < fewest_off;
-    }
-
-    /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
-        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+        is_flat = is_planar && std::ranges::count_if(members, [&](point_index i) {
+                                   return is_off(exact, i);
+                               }) < fewest_off;
     }
 
   private:
-    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
+    static constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
 
     [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
                                                std::span<const point_index> members, auto&& of) {
@@ -99,17 +96,9 @@ struct plane_of_members {
     /// Whether point i is certainly not on the plane, however rough it is.
     [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
         const plane& p = region.fit.plane;
-        return std::abs(p.signed_distance(cloud.offsets[i])) >
-               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
-    }
-
-    /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
-                                     std::span<const point_index> members) const {
-        std::size_t off = 0;
-        for (const point_index i : members)
-            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
-        return off;
+        return cloud.is_finite(i) &&
+               std::abs(p.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
     }
 };
 

@@ -98,13 +98,10 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
             detail::require(j < index.size(),
                             "segment_planes: the graph has an index out of range");
     const detail::planar_cloud cloud(index, options.noise, team);
-    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
-                                            options.max_angle, team)
-                      .labels();
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+                                                                  options.min_points,
+                                                                  options.max_angle, team)
+                                            .labels());
 }
 
 }  // namespace gnomon

@@ -145,6 +145,12 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
         if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
+/// Replaces labels by the smallest of their sets.
+void unite_labels(auto& labels, union_find& sets) {
+    for (std::int32_t& l : labels)
+        if (l != unlabeled) l = static_cast<std::int32_t>(sets.find(static_cast<point_index>(l)));
+}
+
 /// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
 /// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
@@ -162,6 +168,13 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
     segments result;
     result.assign(labels);
     return result;
+}
+
+/// The segments of these labels, largest first. (A template, so that only its users compile a
+/// sort.)
+[[nodiscard]] segments numbered_segments_of(auto labels, std::size_t min_points = 0) {
+    number_by_size(labels, min_points);
+    return segments_of(labels);
 }
 
 }  // namespace detail

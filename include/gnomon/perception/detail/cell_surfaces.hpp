@@ -16,7 +16,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -130,10 +129,8 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
-    [[nodiscard]] const surface_type& surface() const { return surface_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
-    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
     /// A point of a cell.
     [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
     /// The surface element of a point: that of its cell.
@@ -152,17 +149,15 @@ class cell_surfaces {
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,
                                                          const X& run) const {
-        struct element {
-            Eigen::Vector3d normal{0.0, 0.0, 0.0};
-            double mean_distance = 0.0;
+        const smooth_link link(surface_, options, index_.size());
+        const auto radius_of = [&](std::size_t c) {
+            return labels()[c] == unlabeled ? link.radius(c) : no_search;
         };
-        scratch<element> rest(surface_.size());
-        for (std::size_t c = 0; c < rest.size(); ++c)
-            if (labels()[c] == unlabeled) rest[c] = {surface_[c].normal, surface_[c].mean_distance};
-        const smooth_link<scratch<element>> link(rest, options, rest.size());
+        const auto is_linked = [&](std::size_t c, const neighbor& q) {
+            return labels()[q.index] == unlabeled && link(c, q);
+        };
         linker linker(index_);
-        linker.link_listed(
-            *graph_, [&link](std::size_t c) { return link.radius(c); }, link, run);
+        linker.link_listed(*graph_, radius_of, is_linked, run);
         return linker.labels(options.min_points);
     }
 

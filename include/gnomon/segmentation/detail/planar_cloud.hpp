@@ -11,7 +11,6 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
@@ -54,9 +53,11 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
-    [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
-        return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
+    /// Whether point i is on the plane of a region: within three standard deviations.
+    [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
+        const double distance = std::abs(to.plane.signed_distance(offsets[i]));
+        return distance / noise[i].across(to.plane.normal) <=
+               most_deviations * std::sqrt(to.excess());
     }
 
   private:

@@ -9,9 +9,6 @@
 #include <cstdint>
 #include <utility>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
