@@ -11708,6 +11708,14 @@ class planar_cloud {
     const spatial_index& index_;
 };
 
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "segmentation: graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "segmentation: the graph has an index out of range");
+}
+
 }  // namespace gnomon::detail
 
 // -------- gnomon/core/detail/union_find.hpp ------------------------------------------------------
@@ -12140,67 +12148,50 @@ struct plane_estimate {
 namespace detail {
 
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half.
+/// left out again and again, unless they are more than half. Planar if most points are on it.
 template <class Cloud>
-struct plane_of_members {
-    planar_region region;
-    bool is_planar = false;  ///< most points are on the plane
-    bool is_flat = false;    ///< and hardly any is certainly off it
-
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members)
-        : plane_of_members(cloud, members, cloud) {}
-
-    /// @param exact  the same points, with the noise of each for itself
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
-        region = sums_of(cloud, members, [](point_index) { return true; });
-        const std::size_t all = region.sums.count;
-        constexpr int most_passes = 5;  // performance only
-        for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
-            const planar_region on =
-                sums_of(cloud, members, [&](point_index i) { return cloud.is_on(i, region.fit); });
-            if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
-            const bool rests = on.sums.count == region.sums.count;
-            region = on;
-            if (rests) break;
-        }
-        is_planar = region.fit.is_determined && region.fit.is_seen &&
-                    region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
-        is_flat = is_planar && std::ranges::count_if(members, [&](point_index i) {
-                                   return is_off(exact, i);
-                               }) < fewest_off;
-    }
-
-  private:
-    static constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
-
-    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
-                                               std::span<const point_index> members, auto&& of) {
+[[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
+    const auto sums_of = [&](auto&& is_of) {
         planar_region some;
         for (const point_index i : members)
-            if (cloud.is_finite(i) && of(i)) cloud.add(i, some.sums);
+            if (cloud.is_finite(i) && is_of(i)) cloud.add(i, some.sums);
         some.fit = some.sums.fit();
         return some;
+    };
+    planar_region region = sums_of([](point_index) { return true; });
+    const std::size_t all = region.sums.count;
+    constexpr int most_passes = 5;  // performance only
+    for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
+        const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
+        if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+        const bool rests = on.sums.count == region.sums.count;
+        region = on;
+        if (rests) break;
     }
+    region.is_planar = region.fit.is_determined && region.fit.is_seen &&
+                       region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
+    return region;
+}
 
-    /// Whether point i is certainly not on the plane, however rough it is.
-    [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
-        const plane& p = region.fit.plane;
+/// Whether hardly any points are certainly not on a plane, however rough it is.
+template <class Cloud>
+[[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
+                               const region_plane& of) {
+    constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
+    const auto is_off = [&](point_index i) {
         return cloud.is_finite(i) &&
-               std::abs(p.signed_distance(cloud.offsets[i])) >
-                   std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
-    }
-};
+               std::abs(of.plane.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
+    };
+    return std::ranges::count_if(members, is_off) < fewest_off;
+}
 
 /// The planes of segments, as regions.
 template <execution X>
 [[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
                                                 const X& run) {
     scratch<planar_region> regions(parts.size());
-    run(parts.size(), [&](std::size_t s) {
-        const plane_of_members found(cloud, parts[s]);
-        regions[s] = found.region;
-        regions[s].is_planar = found.is_planar;
-    });
+    run(parts.size(), [&](std::size_t s) { regions[s] = region_of(cloud, parts[s]); });
     return regions;
 }
 
@@ -12209,9 +12200,7 @@ template <execution X>
 template <class Cloud>
 [[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
                                          const Cloud& exact) {
-    const plane_of_members found(cloud, members, exact);
-    const plane_sums& sums = found.region.sums;
-    const region_plane& fit = found.region.fit;
+    const auto& [sums, fit, is_planar] = region_of(cloud, members);
     plane_estimate e;
     e.points = sums.count;
     if (e.points == 0) return e;
@@ -12230,7 +12219,7 @@ template <class Cloud>
     }
     e.plane = {n, dot(n, e.centroid)};
     e.chi2 = fit.chi2;
-    e.is_flat = found.is_flat;
+    e.is_flat = is_planar && has_few_off(exact, members, fit);
     // A turn about one axis moves the points along the other one.
     const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
     e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
@@ -12300,12 +12289,9 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                                         Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
-                    "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "assign_unlabeled: the graph has an index out of range");
+    detail::require(parts.labels().size() == index.size(),
+                    "assign_unlabeled: the numbers of points and of labels differ");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     auto is_border = detail::borders_of(graph, parts.labels(), team);
@@ -12662,6 +12648,27 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/hash_of.hpp ---------------------------------------------------------
+
+/// @file
+/// A hash of whole numbers, for tables of cells.
+
+namespace gnomon::detail {
+
+/// Fibonacci hashing (Knuth), one number after the other: the multiplier is 2^64 over the golden
+/// ratio.
+template <std::size_t N>
+[[nodiscard]] constexpr std::uint64_t hash_of(const std::array<std::int64_t, N>& numbers) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t number : numbers) {
+        hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/height_histogram.hpp ----------------------------------------
 
 /// @file
@@ -12887,17 +12894,12 @@ class floor_search {
     /// with the points. A few share their number with another one.
     [[nodiscard]] std::size_t cell_of(const floor_fit& fit,
                                       const Eigen::Vector3d& from_centroid) const {
-        std::uint64_t hash = 0;
-        for (int a = 0; a < 2; ++a) {
+        const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
-            const double number = std::floor(std::clamp(sides, -exact, exact));
-            // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
-            hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
-                   0x9E3779B97F4A7C15u;
-            hash ^= hash >> 32;
-        }
-        return hash & (cells_.size() - 1);
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
+            return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
+        };
+        return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
     }
 
     const Points& points_;
@@ -13645,15 +13647,10 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
                                       Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(graph.size() == index.size(),
-                    "segment_planes: graph and points differ in size");
     detail::require(std::ranges::size(surface) == index.size(),
                     "segment_planes: surface and points differ in size");
     detail::require_valid(options);
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "segment_planes: the graph has an index out of range");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
     return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
                                                                   options.min_points,
@@ -17183,7 +17180,7 @@ struct cells {
             if (!index.is_finite(i)) continue;
             const Eigen::Vector3d p = index[i];
             const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash(own) & (slots - 1);
+            std::size_t at = hash_of(own) & (slots - 1);
             while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
             if (slot[at] == no_cell) {
                 slot[at] = static_cast<point_index>(keys.size());
@@ -17230,16 +17227,6 @@ struct cells {
         };
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
     }
-
-    [[nodiscard]] static std::size_t hash(const key& k) {
-        std::uint64_t h = 0;
-        for (const std::int64_t part : k) {
-            h ^= static_cast<std::uint64_t>(part);
-            h *= 0x9e3779b97f4a7c15U;
-            h ^= h >> 32;
-        }
-        return static_cast<std::size_t>(h);
-    }
 };
 
 }  // namespace gnomon::detail
@@ -17277,7 +17264,10 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
+        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
+            index.viewpoints = cells_.viewpoints.empty()
+                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
+                                   : cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -17352,11 +17342,6 @@ class cell_surfaces {
     }
 
   private:
-    [[nodiscard]] viewpoint_table known_viewpoints() const {
-        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
-        return cells_.viewpoints;
-    }
-
     /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,

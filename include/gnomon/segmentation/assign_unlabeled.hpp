@@ -47,12 +47,9 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                                         Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
-                    "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "assign_unlabeled: the graph has an index out of range");
+    detail::require(parts.labels().size() == index.size(),
+                    "assign_unlabeled: the numbers of points and of labels differ");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     auto is_border = detail::borders_of(graph, parts.labels(), team);

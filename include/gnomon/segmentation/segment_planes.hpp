@@ -88,15 +88,10 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
                                       Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(graph.size() == index.size(),
-                    "segment_planes: graph and points differ in size");
     detail::require(std::ranges::size(surface) == index.size(),
                     "segment_planes: surface and points differ in size");
     detail::require_valid(options);
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "segment_planes: the graph has an index out of range");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
     return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
                                                                   options.min_points,

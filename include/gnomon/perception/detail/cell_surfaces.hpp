@@ -65,7 +65,10 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
+        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
+            index.viewpoints = cells_.viewpoints.empty()
+                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
+                                   : cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -140,11 +143,6 @@ class cell_surfaces {
     }
 
   private:
-    [[nodiscard]] viewpoint_table known_viewpoints() const {
-        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
-        return cells_.viewpoints;
-    }
-
     /// The smooth surfaces (Alg. 4.2) in the cells that have no label, numbered from 0 on.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> smooth_remainder(const segment_surfaces_options& options,

@@ -9,6 +9,7 @@
 
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
@@ -63,5 +64,13 @@ class planar_cloud {
   private:
     const spatial_index& index_;
 };
+
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "segmentation: graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "segmentation: the graph has an index out of range");
+}
 
 }  // namespace gnomon::detail
