@@ -13466,11 +13466,8 @@ namespace gnomon::detail {
 template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
-                  scratch<std::int32_t> labels)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
-        refit();
-    }
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
+        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
@@ -13619,7 +13616,7 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
+    plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
@@ -13906,28 +13903,18 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 
 namespace gnomon::detail {
 
-/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
-/// (A template, so that only its users compile a search.)
-/// @param number  what to call each point in the pairs
-void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
-    const spatial_index index(points);
-    scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < points.size(); ++f) {
-        knn{.k = k}.find(index, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
-    }
-}
-
-/// Each flat one of some segments with those `wanted` flat ones whose centroids are nearest, by
+/// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
 /// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+/// O(m log m) for m segments, or O(m^2) for all pairs of few. (A template, so that only its users
+/// compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
-[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t segments, std::size_t wanted,
+[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of) {
     constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < segments; ++s) {
+    for (std::size_t s = 0; s < parts; ++s) {
         if (!is_flat(s)) continue;
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
@@ -13939,7 +13926,12 @@ void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const 
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    append_nearest_pairs(pairs, centroids, wanted, flat);
+    const spatial_index index(centroids);
+    scratch<neighbor> nearest;
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        knn{.k = wanted}.find(index, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    }
     make_unique(pairs);
     return pairs;
 }
@@ -13974,6 +13966,21 @@ enum class observation : char {
     free_space   ///< something behind it: the place is empty
 };
 
+/// How often something was seen, by kind of observation.
+struct observation_count {
+    std::array<std::size_t, 4> of{};
+
+    [[nodiscard]] std::size_t operator[](observation s) const {
+        return of[static_cast<std::size_t>(s)];
+    }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    observation_count& operator+=(const observation_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+};
+
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
 /// one observation of free space keeps any gap open, unless the policy merges even there.
@@ -13994,6 +14001,30 @@ struct liberal {
     }
 };
 
+namespace detail {
+
+/// Whether a policy accepts a line: more of its observations are in favor of merging than against
+/// it. Observations on the surface are never against it; a line without observations counts as
+/// unobserved.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
+    if (seen.total() == 0) return policy(observation::unobserved);
+    std::size_t against = 0;
+    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+    for (const observation s :
+         {observation::unobserved, observation::occluded, observation::free_space})
+        (policy(s) ? in_favor : against) += seen[s];
+    return in_favor > against;
+}
+
+/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
+/// observed.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
+    return seen[observation::free_space] > 0 && !policy(observation::free_space);
+}
+
+}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
@@ -14523,21 +14554,6 @@ inline void require_valid(const visibility_options& options) {
 
 }  // namespace detail
 
-/// How often something was seen, by kind of observation.
-struct observation_count {
-    std::array<std::size_t, 4> of{};
-
-    [[nodiscard]] std::size_t operator[](observation s) const {
-        return of[static_cast<std::size_t>(s)];
-    }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
-    observation_count& operator+=(const observation_count& other) {
-        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
-        return *this;
-    }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
-};
-
 /// Knows what was seen towards any place.
 class visibility {
   public:
@@ -14678,37 +14694,6 @@ class visibility {
 };
 
 }  // namespace gnomon
-
-// -------- gnomon/occlusion/detail/gap_verdict.hpp ------------------------------------------------
-
-/// @file
-/// The evidence of a line across a gap, from the observations along it (Klasing 2010, Sec. 4.3.5;
-/// docs/thesis-notes.md, A19).
-
-namespace gnomon::detail {
-
-/// Whether a policy accepts a line: more of its observations are in favor of merging than against
-/// it. Observations on the surface are never against it; a line without observations counts as
-/// unobserved.
-template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
-    if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t against = 0;
-    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
-    for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space})
-        (policy(s) ? in_favor : against) += seen[s];
-    return in_favor > against;
-}
-
-/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
-/// observed.
-template <merge_policy M>
-[[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
-    return seen[observation::free_space] > 0 && !policy(observation::free_space);
-}
-
-}  // namespace gnomon::detail
 
 // -------- gnomon/occlusion/detail/occlusion_merger.hpp -------------------------------------------
 

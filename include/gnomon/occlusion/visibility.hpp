@@ -10,7 +10,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -61,21 +60,6 @@ inline void require_valid(const visibility_options& options) {
 }
 
 }  // namespace detail
-
-/// How often something was seen, by kind of observation.
-struct observation_count {
-    std::array<std::size_t, 4> of{};
-
-    [[nodiscard]] std::size_t operator[](observation s) const {
-        return of[static_cast<std::size_t>(s)];
-    }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
-    observation_count& operator+=(const observation_count& other) {
-        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
-        return *this;
-    }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
-};
 
 /// Knows what was seen towards any place.
 class visibility {

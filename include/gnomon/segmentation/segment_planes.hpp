@@ -47,7 +47,7 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
+    plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle

@@ -18,7 +18,6 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/detail/gap_verdict.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>

@@ -21,28 +21,18 @@
 
 namespace gnomon::detail {
 
-/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
-/// (A template, so that only its users compile a search.)
-/// @param number  what to call each point in the pairs
-void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
-    const spatial_index index(points);
-    scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < points.size(); ++f) {
-        knn{.k = k}.find(index, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
-    }
-}
-
-/// Each flat one of some segments with those `wanted` flat ones whose centroids are nearest, by
+/// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
 /// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+/// O(m log m) for m segments, or O(m^2) for all pairs of few. (A template, so that only its users
+/// compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
-[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t segments, std::size_t wanted,
+[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of) {
     constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < segments; ++s) {
+    for (std::size_t s = 0; s < parts; ++s) {
         if (!is_flat(s)) continue;
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
@@ -54,7 +44,12 @@ void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const 
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    append_nearest_pairs(pairs, centroids, wanted, flat);
+    const spatial_index index(centroids);
+    scratch<neighbor> nearest;
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        knn{.k = wanted}.find(index, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    }
     make_unique(pairs);
     return pairs;
 }

@@ -19,11 +19,8 @@ namespace gnomon::detail {
 template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
-                  scratch<std::int32_t> labels)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
-        refit();
-    }
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
+        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
