@@ -11658,7 +11658,8 @@ struct planar_region {
 // -------- gnomon/segmentation/detail/planar_cloud.hpp --------------------------------------------
 
 /// @file
-/// What all steps of a segmentation into planes read of points: positions and noise.
+/// What all steps of a segmentation into planes read of points: positions and noise. The headers of
+/// segmentation that include it do not include again what it does.
 
 namespace gnomon::detail {
 
@@ -11697,14 +11698,24 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
-    [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
-        return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
+    /// Whether point i is on the plane of a region: within three standard deviations.
+    [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
+        const double distance = std::abs(to.plane.signed_distance(offsets[i]));
+        return distance / noise[i].across(to.plane.normal) <=
+               most_deviations * std::sqrt(to.excess());
     }
 
   private:
     const spatial_index& index_;
 };
+
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "segmentation: graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "segmentation: the graph has an index out of range");
+}
 
 }  // namespace gnomon::detail
 
@@ -11783,7 +11794,8 @@ class union_find {
 
 /// @file
 /// Which points are one surface: the partition that every segmentation here returns, seen both
-/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1).
+/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1). The
+/// headers of segmentation that include it do not include again what it does.
 
 namespace gnomon {
 
@@ -11913,6 +11925,12 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
         if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
+/// Replaces labels by the smallest of their sets.
+void unite_labels(auto& labels, union_find& sets) {
+    for (std::int32_t& l : labels)
+        if (l != unlabeled) l = static_cast<std::int32_t>(sets.find(static_cast<point_index>(l)));
+}
+
 /// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
 /// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
@@ -11930,6 +11948,13 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
     segments result;
     result.assign(labels);
     return result;
+}
+
+/// The segments of these labels, largest first. (A template, so that only its users compile a
+/// sort.)
+[[nodiscard]] segments numbered_segments_of(auto labels, std::size_t min_points = 0) {
+    number_by_size(labels, min_points);
+    return segments_of(labels);
 }
 
 }  // namespace detail
@@ -12125,78 +12150,50 @@ struct plane_estimate {
 namespace detail {
 
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half.
+/// left out again and again, unless they are more than half. Planar if most points are on it.
 template <class Cloud>
-struct plane_of_members {
-    planar_region region;
-    bool is_planar = false;  ///< most points are on the plane
-    bool is_flat = false;    ///< and hardly any is certainly off it
-
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members)
-        : plane_of_members(cloud, members, cloud) {}
-
-    /// @param exact  the same points, with the noise of each for itself
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
-        region = sums_of(cloud, members, [](point_index) { return true; });
-        const std::size_t all = region.sums.count;
-        constexpr int most_passes = 5;  // performance only
-        for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
-            const planar_region on =
-                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
-            if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
-            const bool rests = on.sums.count == region.sums.count;
-            region = on;
-            if (rests) break;
-        }
-        is_planar = region.fit.is_determined && region.fit.is_seen &&
-                    region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
-        is_flat = is_planar && off_it(exact, members) < fewest_off;
-    }
-
-    /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
-        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
-    }
-
-  private:
-    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
-
-    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
-                                               std::span<const point_index> members, auto&& of) {
+[[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
+    const auto sums_of = [&](auto&& is_of) {
         planar_region some;
         for (const point_index i : members)
-            if (cloud.is_finite(i) && of(i)) cloud.add(i, some.sums);
+            if (cloud.is_finite(i) && is_of(i)) cloud.add(i, some.sums);
         some.fit = some.sums.fit();
         return some;
+    };
+    planar_region region = sums_of([](point_index) { return true; });
+    const std::size_t all = region.sums.count;
+    constexpr int most_passes = 5;  // performance only
+    for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
+        const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
+        if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+        const bool rests = on.sums.count == region.sums.count;
+        region = on;
+        if (rests) break;
     }
+    region.is_planar = region.fit.is_determined && region.fit.is_seen &&
+                       region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
+    return region;
+}
 
-    /// Whether point i is certainly not on the plane, however rough it is.
-    [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
-        const plane& p = region.fit.plane;
-        return std::abs(p.signed_distance(cloud.offsets[i])) >
-               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
-    }
-
-    /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
-                                     std::span<const point_index> members) const {
-        std::size_t off = 0;
-        for (const point_index i : members)
-            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
-        return off;
-    }
-};
+/// Whether hardly any points are certainly not on a plane, however rough it is.
+template <class Cloud>
+[[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
+                               const region_plane& of) {
+    constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
+    const auto is_off = [&](point_index i) {
+        return cloud.is_finite(i) &&
+               std::abs(of.plane.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
+    };
+    return std::ranges::count_if(members, is_off) < fewest_off;
+}
 
 /// The planes of segments, as regions.
 template <execution X>
 [[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
                                                 const X& run) {
     scratch<planar_region> regions(parts.size());
-    run(parts.size(), [&](std::size_t s) {
-        const plane_of_members found(cloud, parts[s]);
-        regions[s] = found.region;
-        regions[s].is_planar = found.is_planar;
-    });
+    run(parts.size(), [&](std::size_t s) { regions[s] = region_of(cloud, parts[s]); });
     return regions;
 }
 
@@ -12205,9 +12202,7 @@ template <execution X>
 template <class Cloud>
 [[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
                                          const Cloud& exact) {
-    const plane_of_members found(cloud, members, exact);
-    const plane_sums& sums = found.region.sums;
-    const region_plane& fit = found.region.fit;
+    const auto& [sums, fit, is_planar] = region_of(cloud, members);
     plane_estimate e;
     e.points = sums.count;
     if (e.points == 0) return e;
@@ -12226,7 +12221,7 @@ template <class Cloud>
     }
     e.plane = {n, dot(n, e.centroid)};
     e.chi2 = fit.chi2;
-    e.is_flat = found.is_flat;
+    e.is_flat = is_planar && has_few_off(exact, members, fit);
     // A turn about one axis moves the points along the other one.
     const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
     e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
@@ -12296,12 +12291,9 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                                         Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
-                    "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "assign_unlabeled: the graph has an index out of range");
+    detail::require(parts.labels().size() == index.size(),
+                    "assign_unlabeled: the numbers of points and of labels differ");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     auto is_border = detail::borders_of(graph, parts.labels(), team);
@@ -12312,10 +12304,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
-    detail::scratch<std::int32_t> labels(result.labels().begin(), result.labels().end());
-    detail::number_by_size(labels);
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(result).labels());
 }
 
 }  // namespace gnomon
@@ -12655,12 +12644,32 @@ template <class R, execution X = sequential, class Proj = std::identity>
                              [](std::size_t, const neighbor&) { return true; });
         return detail::segments_of(linker.labels(options.min_points));
     }
-    auto labels = detail::components_within(index.tree(), options.radius, team);
-    detail::number_by_size(labels, options.min_points);
-    return detail::segments_of(labels);
+    return detail::numbered_segments_of(
+        detail::components_within(index.tree(), options.radius, team), options.min_points);
 }
 
 }  // namespace gnomon
+
+// -------- gnomon/core/detail/hash_of.hpp ---------------------------------------------------------
+
+/// @file
+/// A hash of whole numbers, for tables of cells.
+
+namespace gnomon::detail {
+
+/// Fibonacci hashing (Knuth), one number after the other: the multiplier is 2^64 over the golden
+/// ratio.
+template <std::size_t N>
+[[nodiscard]] constexpr std::uint64_t hash_of(const std::array<std::int64_t, N>& numbers) {
+    std::uint64_t hash = 0;
+    for (const std::int64_t number : numbers) {
+        hash = (hash ^ static_cast<std::uint64_t>(number)) * 0x9e3779b97f4a7c15u;
+        hash ^= hash >> 32;
+    }
+    return hash;
+}
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/segmentation/detail/height_histogram.hpp ----------------------------------------
 
@@ -12887,17 +12896,12 @@ class floor_search {
     /// with the points. A few share their number with another one.
     [[nodiscard]] std::size_t cell_of(const floor_fit& fit,
                                       const Eigen::Vector3d& from_centroid) const {
-        std::uint64_t hash = 0;
-        for (int a = 0; a < 2; ++a) {
+        const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
-            const double number = std::floor(std::clamp(sides, -exact, exact));
-            // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
-            hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
-                   0x9E3779B97F4A7C15u;
-            hash ^= hash >> 32;
-        }
-        return hash & (cells_.size() - 1);
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
+            return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
+        };
+        return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
     }
 
     const Points& points_;
@@ -13186,144 +13190,6 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
-
-/// @file
-/// Growth of planes: from the flattest points on, those neighbors join whose normals agree and
-/// which are within three standard deviations of the plane of the region, which is fit again as the
-/// region grows (after Poppinga et al. 2008).
-
-namespace gnomon::detail {
-
-/// Grows planes in a cloud.
-template <neighborhood_graph G, normal_range S>
-class plane_growth {
-  public:
-    /// @param min_cosine  of the angle between normals of points and planes
-    /// @param labels      those of the regions; grown ones are added
-    plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
-                 std::size_t min_points, double min_cosine, scratch<std::int32_t>& labels)
-        : cloud_(cloud),
-          graph_(graph),
-          surface_(surface),
-          min_points_(min_points),
-          min_cosine_(min_cosine),
-          labels_(labels),
-          visit_(cloud.size(), no_seed) {
-        members_.reserve(cloud.size());
-    }
-
-    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
-    /// @param next  the label of the first new region
-    template <execution X>
-    void operator()(std::int32_t next, const X& run) {
-        for (const point_index seed : flattest_first(run)) {
-            if (visit_[seed] != no_seed || !is_free(seed)) continue;
-            if (!grow_from(seed)) continue;
-            for (const point_index i : members_) labels_[i] = next;
-            ++next;
-        }
-    }
-
-  private:
-    [[nodiscard]] bool is_free(std::size_t i) const {
-        return labels_[i] == unlabeled && !is_missing(normal(i));
-    }
-
-    [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
-
-    /// The free points by the mean squared distance of their neighbors from the plane of their
-    /// normal, in variances of the noise.
-    template <execution X>
-    [[nodiscard]] scratch<point_index> flattest_first(const X& run) const {
-        scratch<double> roughness(cloud_.size(), std::numeric_limits<double>::infinity());
-        for_each_chunk(run, cloud_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                if (is_free(i)) roughness[i] = roughness_at(i);
-        });
-        scratch<point_index> order;
-        for (std::size_t i = 0; i < cloud_.size(); ++i)
-            if (is_free(i)) order.push_back(static_cast<point_index>(i));
-        std::sort(order.begin(), order.end(), [&](point_index a, point_index b) {
-            return roughness[a] != roughness[b] ? roughness[a] < roughness[b] : a < b;
-        });
-        return order;
-    }
-
-    [[nodiscard]] double roughness_at(std::size_t i) const {
-        const Eigen::Vector3d n = normal(i);
-        double sum = 0.0, count = 1.0, mean = 0.0;
-        for (const point_index j : graph_[i]) {
-            const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
-            sum += d * d;
-            mean += d;
-            count += 1.0;
-        }
-        const double dev = cloud_.noise[i].across(n);
-        mean /= count;
-        return (sum / count - mean * mean) / (dev * dev);
-    }
-
-    /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
-    /// has doubled.
-    /// @return whether they are enough, and most fit the final plane
-    bool grow_from(point_index seed) {
-        region_plane to;
-        to.plane = plane_about(seed);
-        plane_sums sums;
-        members_.assign(1, seed);
-        visit_[seed] = seed;
-        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
-        std::size_t refit_at = first_refit;
-        for (std::size_t next = 0; next < members_.size(); ++next) {
-            cloud_.add(members_[next], sums);
-            for (const point_index j : graph_[members_[next]]) {
-                if (visit_[j] == seed || !fits(j, to)) continue;
-                visit_[j] = seed;
-                members_.push_back(j);
-            }
-            if (sums.summands < refit_at) continue;
-            if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
-            refit_at *= 2;
-        }
-        if (const region_plane f = sums.fit(); f.is_determined) to = f;
-        const auto fitting =
-            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
-        return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
-    }
-
-    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
-        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
-               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
-    }
-
-    /// The plane through the mean of the seed and those of its neighbors whose normals agree.
-    [[nodiscard]] plane plane_about(point_index seed) const {
-        const Eigen::Vector3d n = normal(seed);
-        Eigen::Vector3d sum = cloud_.offsets[seed];
-        double count = 1.0;
-        for (const point_index j : graph_[seed]) {
-            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
-            sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
-            count += 1.0;
-        }
-        return {n, dot(n, sum) / count};
-    }
-
-    static constexpr point_index no_seed = std::numeric_limits<point_index>::max();
-
-    const planar_cloud& cloud_;
-    const G& graph_;
-    const S& surface_;
-    std::size_t min_points_;
-    double min_cosine_;
-    scratch<std::int32_t>& labels_;
-    scratch<point_index> visit_;  // the seed of the last region that a point was in
-    scratch<point_index> members_;
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
 
 /// @file
@@ -13451,6 +13317,140 @@ class agglomeration {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
+
+/// @file
+/// Growth of planes: from the flattest points on, those neighbors join whose normals agree and
+/// which are within three standard deviations of the plane of the region, which is fit again as the
+/// region grows (after Poppinga et al. 2008).
+
+namespace gnomon::detail {
+
+/// Grows planes in a cloud.
+template <neighborhood_graph G, normal_range S>
+class plane_growth {
+  public:
+    /// @param min_cosine  of the angle between normals of points and planes
+    /// @param labels      those of the regions; grown ones are added
+    plane_growth(const planar_cloud& cloud, const G& graph, const S& surface,
+                 std::size_t min_points, double min_cosine, scratch<std::int32_t>& labels)
+        : cloud_(cloud),
+          graph_(graph),
+          surface_(surface),
+          min_points_(min_points),
+          min_cosine_(min_cosine),
+          labels_(labels),
+          visit_(cloud.size(), no_seed) {
+        members_.reserve(cloud.size());
+    }
+
+    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// @param next  the label of the first new region
+    template <execution X>
+    void operator()(std::int32_t next, const X& run) {
+        for (const auto& [roughness, seed] : flattest_first(run)) {
+            if (visit_[seed] != no_seed || !is_free(seed) || !grow_from(seed)) continue;
+            for (const point_index i : members_) labels_[i] = next;
+            ++next;
+        }
+    }
+
+  private:
+    [[nodiscard]] bool is_free(std::size_t i) const {
+        return labels_[i] == unlabeled && !is_missing(normal(i));
+    }
+
+    [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
+
+    /// The free points by the mean squared distance of their neighbors from the plane of their
+    /// normal, in variances of the noise.
+    template <execution X>
+    [[nodiscard]] auto flattest_first(const X& run) const {
+        scratch<std::pair<double, point_index>> order;
+        for (std::size_t i = 0; i < cloud_.size(); ++i)
+            if (is_free(i)) order.emplace_back(0.0, static_cast<point_index>(i));
+        for_each_chunk(run, order.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t o = begin; o < end; ++o)
+                order[o].first = roughness_at(order[o].second);
+        });
+        std::sort(order.begin(), order.end());
+        return order;
+    }
+
+    [[nodiscard]] double roughness_at(std::size_t i) const {
+        const Eigen::Vector3d n = normal(i);
+        double sum = 0.0, count = 1.0, mean = 0.0;
+        for (const point_index j : graph_[i]) {
+            const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
+            sum += d * d;
+            mean += d;
+            count += 1.0;
+        }
+        const double dev = cloud_.noise[i].across(n);
+        mean /= count;
+        return (sum / count - mean * mean) / (dev * dev);
+    }
+
+    /// Sets members_ to the region of a seed, whose plane is fit again each time that their number
+    /// has doubled.
+    /// @return whether they are enough, and most fit the final plane
+    bool grow_from(point_index seed) {
+        region_plane to;
+        to.plane = plane_about(seed);
+        plane_sums sums;
+        members_.assign(1, seed);
+        visit_[seed] = seed;
+        constexpr std::size_t first_refit = 8;  // performance only: then at each doubling
+        std::size_t refit_at = first_refit;
+        for (std::size_t next = 0; next < members_.size(); ++next) {
+            cloud_.add(members_[next], sums);
+            for (const point_index j : graph_[members_[next]]) {
+                if (visit_[j] == seed || !fits(j, to)) continue;
+                visit_[j] = seed;
+                members_.push_back(j);
+            }
+            if (sums.summands < refit_at) continue;
+            if (const region_plane f = sums.fit(); f.is_determined) to.plane = f.plane;
+            refit_at *= 2;
+        }
+        if (const region_plane f = sums.fit(); f.is_determined) to = f;
+        const auto fitting =
+            std::ranges::count_if(members_, [&](point_index i) { return fits(i, to); });
+        return members_.size() >= min_points_ && 2 * fitting > std::ssize(members_);
+    }
+
+    [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
+        return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
+               cloud_.is_on(i, to);
+    }
+
+    /// The plane through the mean of the seed and those of its neighbors whose normals agree.
+    [[nodiscard]] plane plane_about(point_index seed) const {
+        const Eigen::Vector3d n = normal(seed);
+        Eigen::Vector3d sum = cloud_.offsets[seed];
+        double count = 1.0;
+        for (const point_index j : graph_[seed]) {
+            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
+            sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
+            count += 1.0;
+        }
+        return {n, dot(n, sum) / count};
+    }
+
+    static constexpr point_index no_seed = std::numeric_limits<point_index>::max();
+
+    const planar_cloud& cloud_;
+    const G& graph_;
+    const S& surface_;
+    std::size_t min_points_;
+    double min_cosine_;
+    scratch<std::int32_t>& labels_;
+    scratch<point_index> visit_;  // the seed of the last region that a point was in
+    scratch<point_index> members_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
 
 /// @file
@@ -13463,11 +13463,8 @@ namespace gnomon::detail {
 template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
-                  scratch<std::int32_t> labels)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
-        refit();
-    }
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
+        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
@@ -13604,7 +13601,7 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
+    plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
@@ -13634,23 +13631,15 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
                                       Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(graph.size() == index.size(),
-                    "segment_planes: graph and points differ in size");
     detail::require(std::ranges::size(surface) == index.size(),
                     "segment_planes: surface and points differ in size");
     detail::require_valid(options);
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "segment_planes: the graph has an index out of range");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
-                                            options.max_angle, team)
-                      .labels();
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+                                                                  options.min_points,
+                                                                  options.max_angle, team)
+                                            .labels());
 }
 
 }  // namespace gnomon
@@ -13812,16 +13801,13 @@ template <class R, execution X = sequential, class Proj = std::identity>
                     "split_outliers: the numbers of points and of labels differ");
     const detail::planar_cloud cloud(index, noise, team);
     const auto regions = detail::regions_of(cloud, parts, team);
-    detail::scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    std::vector<std::int32_t> labels = parts.labels();
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == unlabeled || !cloud.is_finite(i)) continue;
         const auto& of = regions[static_cast<std::size_t>(labels[i])];
         if (detail::misfit_of(cloud, i, of) < 0.0) labels[i] = unlabeled;
     }
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(labels));
 }
 
 }  // namespace gnomon
@@ -13902,59 +13888,45 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 
 namespace gnomon::detail {
 
-/// The pairs of each of some points with its k nearest ones. O(m log m) for m points.
-/// (A template, so that only its users compile a search.)
-/// @param number  what to call each point in the pairs
-void append_nearest_pairs(auto& pairs, const auto& points, std::size_t k, const auto& number) {
-    const spatial_index index(points);
-    scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < points.size(); ++f) {
-        knn{.k = k}.find(index, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(number[f], number[n.index]));
-    }
-}
-
-/// Each flat segment with those `wanted` flat ones whose centroids are nearest, by their numbers,
-/// ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// @param all      an object for each segment
-/// @param is_flat  of that object
-/// @param frame    the principal_frame of that object
-template <class Frame = std::identity>
-[[nodiscard]] scratch<std::pair<point_index, point_index>> pairs_to_compare(const auto& all,
-                                                                            std::size_t wanted,
-                                                                            auto&& is_flat,
-                                                                            Frame&& frame = {}) {
+/// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
+/// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
+/// O(m log m) for m segments, or O(m^2) for all pairs of few. (A template, so that only its users
+/// compile a search.)
+/// @param is_flat      is_flat(s): whether segment s is
+/// @param centroid_of  centroid_of(s) [m]
+[[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
+                                                    auto&& is_flat, auto&& centroid_of) {
     constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
-    for (std::size_t s = 0; s < all.size(); ++s) {
-        if (!std::invoke(is_flat, all[s])) continue;
+    for (std::size_t s = 0; s < parts; ++s) {
+        if (!is_flat(s)) continue;
         flat.push_back(static_cast<point_index>(s));
-        centroids.push_back(std::invoke(frame, all[s]).centroid);
+        centroids.push_back(centroid_of(s));
     }
     if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
-    scratch<std::pair<point_index, point_index>> pairs;
+    scratch<region_pair> pairs;
     if (wanted + 1 >= flat.size()) {
         for (std::size_t f = 0; f < flat.size(); ++f)
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    append_nearest_pairs(pairs, centroids, wanted, flat);
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+    const spatial_index index(centroids);
+    scratch<neighbor> nearest;
+    for (std::size_t f = 0; f < flat.size(); ++f) {
+        knn{.k = wanted}.find(index, f, nearest);
+        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    }
+    make_unique(pairs);
     return pairs;
 }
 
 /// The segments of which those of a set of a `union_find` are one, largest first.
 /// (A template, so that only its users compile a sort.)
-/// @param result  may be `parts`
-void unite_segments(segments& result, const segments& parts, auto& sets) {
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    for (std::int32_t& label : labels)
-        if (label != unlabeled)
-            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-    number_by_size(labels);
-    result.assign(labels);
+[[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
+    std::vector<std::int32_t> labels = parts.labels();
+    unite_labels(labels, sets);
+    return numbered_segments_of(std::move(labels));
 }
 
 }  // namespace gnomon::detail
@@ -13979,6 +13951,21 @@ enum class observation : char {
     free_space   ///< something behind it: the place is empty
 };
 
+/// How often something was seen, by kind of observation.
+struct observation_count {
+    std::array<std::size_t, 4> of{};
+
+    [[nodiscard]] std::size_t operator[](observation s) const {
+        return of[static_cast<std::size_t>(s)];
+    }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    observation_count& operator+=(const observation_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+};
+
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
 /// a gap must be; narrow gaps are closed without evidence (merge_occluded_options::max_gap), and
 /// one observation of free space keeps any gap open, unless the policy merges even there.
@@ -13999,6 +13986,30 @@ struct liberal {
     }
 };
 
+namespace detail {
+
+/// Whether a policy accepts a line: more of its observations are in favor of merging than against
+/// it. Observations on the surface are never against it; a line without observations counts as
+/// unobserved.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
+    if (seen.total() == 0) return policy(observation::unobserved);
+    std::size_t against = 0;
+    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+    for (const observation s :
+         {observation::unobserved, observation::occluded, observation::free_space})
+        (policy(s) ? in_favor : against) += seen[s];
+    return in_favor > against;
+}
+
+/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
+/// observed.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
+    return seen[observation::free_space] > 0 && !policy(observation::free_space);
+}
+
+}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
@@ -14528,21 +14539,6 @@ inline void require_valid(const visibility_options& options) {
 
 }  // namespace detail
 
-/// How often something was seen, by kind of observation.
-struct observation_count {
-    std::array<std::size_t, 4> of{};
-
-    [[nodiscard]] std::size_t operator[](observation s) const {
-        return of[static_cast<std::size_t>(s)];
-    }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
-    observation_count& operator+=(const observation_count& other) {
-        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
-        return *this;
-    }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
-};
-
 /// Knows what was seen towards any place.
 class visibility {
   public:
@@ -14588,15 +14584,10 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        observation most = observation::unobserved;
-        std::size_t votes = 0;
-        for (const observation s :
-             {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] <= votes) continue;
-            most = s;
-            votes = count[s];
-        }
-        return most;
+        const auto most = std::ranges::max(
+            {observation::free_space, observation::on_surface, observation::occluded}, {},
+            [&count](observation s) { return count[s]; });
+        return count[most] > 0 ? most : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -14689,37 +14680,6 @@ class visibility {
 
 }  // namespace gnomon
 
-// -------- gnomon/occlusion/detail/gap_verdict.hpp ------------------------------------------------
-
-/// @file
-/// The evidence of a line across a gap, from the observations along it (Klasing 2010, Sec. 4.3.5;
-/// docs/thesis-notes.md, A19).
-
-namespace gnomon::detail {
-
-/// Whether a policy accepts a line: more of its observations are in favor of merging than against
-/// it. Observations on the surface are never against it; a line without observations counts as
-/// unobserved.
-template <merge_policy M>
-[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
-    if (seen.total() == 0) return policy(observation::unobserved);
-    std::size_t against = 0;
-    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
-    for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space})
-        (policy(s) ? in_favor : against) += seen[s];
-    return in_favor > against;
-}
-
-/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
-/// observed.
-template <merge_policy M>
-[[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
-    return seen[observation::free_space] > 0 && !policy(observation::free_space);
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/occlusion/detail/occlusion_merger.hpp -------------------------------------------
 
 /// @file
@@ -14748,17 +14708,12 @@ class occlusion_merger {
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(parts.size()),
-          is_flat_(parts.size(), false),
+          regions_(regions_of(cloud, parts, run)),
           labels_(parts.labels().size(), unlabeled),
           members_(labels_) {
         run(parts.size(), [&](std::size_t s) {
-            if (parts[s].empty()) return;
-            const plane_of_members found(cloud, parts[s]);
-            regions_[s] = found.region;
-            is_flat_[s] = found.is_planar;
             for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
+                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
                     labels_[i] = static_cast<std::int32_t>(s);
         });
         members_ = label_groups(labels_);
@@ -14773,10 +14728,7 @@ class occlusion_merger {
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                for (std::int32_t& label : labels_)
-                    if (label != unlabeled)
-                        label =
-                            static_cast<std::int32_t>(merged.find(static_cast<point_index>(label)));
+                unite_labels(labels_, merged);
                 members_ = label_groups(labels_);
             });
         for (examined_gap& gap : gaps_)
@@ -14790,11 +14742,10 @@ class occlusion_merger {
   private:
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
-        scratch<std::size_t> all(regions_.size());
-        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
         return pairs_to_compare(
-            all, options_.candidates, [this](std::size_t r) { return is_flat_[r] != 0; },
-            [this](std::size_t r) { return regions_[r].fit; });
+            regions_.size(), options_.candidates,
+            [this](std::size_t r) { return regions_[r].is_planar; },
+            [this](std::size_t r) { return regions_[r].fit.centroid; });
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
@@ -14844,9 +14795,8 @@ class occlusion_merger {
     const M& policy_;
     const Options& options_;
     scratch<planar_region> regions_;
-    scratch<char> is_flat_;
     scratch<std::int32_t> labels_;  // of the points on the planes
-    label_groups members_;          // as of the beginning of the round
+    label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;
 };
 
@@ -14928,20 +14878,6 @@ template <merge_policy M, execution X>
     return sets;
 }
 
-/// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
-template <merge_policy M, execution X>
-void merge_occluded_into(segments& result, const spatial_index& points, const segments& parts,
-                         const visibility& visible, const M& policy,
-                         const merge_occluded_options& options, const X& run, auto&& each_gap) {
-    union_find sets = merged_sets(points, parts, visible, policy, options, run, each_gap);
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    for (std::int32_t& label : labels)
-        if (label != unlabeled)
-            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-    number_by_size(labels);
-    result.assign(labels);
-}
-
 }  // namespace detail
 
 /// Merges flat segments that are one surface behind something.
@@ -14963,11 +14899,12 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
-    detail::merge_occluded_into(
-        result.segments, detail::index_of(points, team, projection), parts, visible, policy,
-        options, team, [&](const auto& gap) {
+    detail::union_find sets = detail::merged_sets(
+        detail::index_of(points, team, projection), parts, visible, policy, options, team,
+        [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
+    result.segments = detail::united_segments(parts, sets);
     return result;
 }
 
@@ -15092,11 +15029,13 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     for (std::size_t s = 0; s < parts.size(); ++s)
         frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
     detail::union_find sets(parts.size());
+    const auto is_flat = [&](std::size_t s) {
+        return frames[s].spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
+               frames[s].spectrum.surface_variation() <= options.max_variation;
+    };
+    const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
-             return f.spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
-                    f.spectrum.surface_variation() <= options.max_variation;
-         })) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
@@ -15109,9 +15048,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    segments result;
-    detail::unite_segments(result, parts, sets);
-    return result;
+    return detail::united_segments(parts, sets);
 }
 
 }  // namespace gnomon
@@ -17215,7 +17152,7 @@ struct cells {
             if (!index.is_finite(i)) continue;
             const Eigen::Vector3d p = index[i];
             const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash(own) & (slots - 1);
+            std::size_t at = hash_of(own) & (slots - 1);
             while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
             if (slot[at] == no_cell) {
                 slot[at] = static_cast<point_index>(keys.size());
@@ -17262,16 +17199,6 @@ struct cells {
         };
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
     }
-
-    [[nodiscard]] static std::size_t hash(const key& k) {
-        std::uint64_t h = 0;
-        for (const std::int64_t part : k) {
-            h ^= static_cast<std::uint64_t>(part);
-            h *= 0x9e3779b97f4a7c15U;
-            h ^= h >> 32;
-        }
-        return static_cast<std::size_t>(h);
-    }
 };
 
 }  // namespace gnomon::detail
@@ -17309,7 +17236,10 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
+        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
+            index.viewpoints = cells_.viewpoints.empty()
+                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
+                                   : cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -17371,10 +17301,8 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
-    [[nodiscard]] const surface_type& surface() const { return surface_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
-    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
     /// A point of a cell.
     [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
     /// The surface element of a point: that of its cell.
@@ -17384,10 +17312,6 @@ class cell_surfaces {
     }
 
   private:
-    [[nodiscard]] viewpoint_table known_viewpoints() const {
-        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
-        return cells_.viewpoints;
-    }
 
     const spatial_index& points_;
     const noise_curve& noise_;        // of wide planes
@@ -17487,7 +17411,7 @@ class perception_memory {
   public:
     spatial_index cells;                    ///< the index of the cells
     spatial_index sparse;                   ///< that of some of the points
-    segments parts, merged;                 ///< of the cells, or of the kept points
+    segments parts;                         ///< of the cells, or of the kept points
     std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;
@@ -17650,15 +17574,6 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    /// Calls work(visibility) if segments may be merged.
-    void merging(auto&& work) {
-        step("merging", [&] {
-            if (result_.noise.is_across_surface) return;
-            const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
-            work(visibility(points_, options, run_, projection_));
-        });
-    }
-
     /// `planes_on_cells`
     void find_on_cells() {
         const noise_curve& noise = result_.noise.of_planes;
@@ -17682,19 +17597,9 @@ class perception_run {
             result_.surfaces = result_.initial_segments;
         });
         if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& parts = result_.memory.parts;
-                parts.assign(found->labels());
-                union_find sets = merged_sets(
-                    found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
-                    run_, [&](const examined_gap& gap) {
-                        note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
-                    });
-                for (std::int32_t& label : labels)
-                    if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
-                        label =
-                            static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-                set_segments(result_.surfaces, labels);
+            step("merging", [&] {
+                result_.memory.parts.assign(found->labels());
+                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
             });
     }
 
@@ -17717,24 +17622,30 @@ class perception_run {
             for (std::size_t i = 0; i < surface.size(); ++i)
                 result_.surface[result_.kept[i]] = surface[i];
         });
-        segments& parts = result_.memory.parts;
+        scratch<std::int32_t> labels;
         step("segmentation", [&] {
+            segments& parts = result_.memory.parts;
             segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
-            scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+            labels.assign(parts.labels().begin(), parts.labels().end());
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& merged = result_.memory.merged;
-                merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
-                                    at_noise(chain_.merging, result_.noise.of_planes), run_,
-                                    [&](const examined_gap& gap) {
-                                        note(gap, [&](point_index i) { return result_.kept[i]; });
-                                    });
-                scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
-                set_segments(result_.surfaces, labels);
-            });
+        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+    }
+
+    /// Merges the segments in memory, of things that are cells or kept points, where the noise
+    /// along the rays is known.
+    /// @param labels    the segments of the kept points
+    /// @param point_of  point_of(thing): the number of a kept point of it
+    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+        if (result_.noise.is_across_surface) return;
+        const noise_curve& noise = result_.noise.of_planes;
+        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
+        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
+                                      at_noise(chain_.merging, noise), run_,
+                                      [&](const examined_gap& gap) { note(gap, point_of); });
+        unite_labels(labels, sets);
+        set_segments(result_.surfaces, labels);
     }
 
     /// Makes segments of all points from labels of the kept ones.
@@ -17746,12 +17657,12 @@ class perception_run {
     }
 
     /// Writes a gap to the result.
-    /// @param point_of  the number in the cloud of the things the gap is between
+    /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
         for (auto& line : to.lines) {
-            line.first = point_of(line.first);
-            line.second = point_of(line.second);
+            line.first = result_.kept[point_of(line.first)];
+            line.second = result_.kept[point_of(line.second)];
         }
         result_.gaps.push_back(std::move(to));
     }

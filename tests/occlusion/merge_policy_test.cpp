@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <cstddef>
+
 #include <gtest/gtest.h>
 
 #include "laws/merge_policy_laws.hpp"
@@ -6,7 +8,8 @@
 
 namespace {
 
-using gnomon::observation;
+using gnomon::conservative, gnomon::liberal, gnomon::observation, gnomon::observation_count,
+    gnomon::detail::keeps_open;
 
 static_assert(gnomon::merge_policy<gnomon::conservative>);
 static_assert(gnomon::merge_policy<gnomon::liberal>);
@@ -14,6 +17,18 @@ static_assert(gnomon::merge_policy<bool (*)(observation)>);
 static_assert(!gnomon::merge_policy<bool (*)(int*)>);
 static_assert(!gnomon::merge_policy<void (*)(observation)>);  // decides nothing
 static_assert(!gnomon::merge_policy<observation>);
+
+TEST(observation_count, counts_each_kind) {
+    observation_count count;
+    EXPECT_EQ(count.total(), 0u);
+    count.add(observation::occluded);
+    count.add(observation::occluded);
+    count.add(observation::unobserved);
+    EXPECT_EQ(count[observation::occluded], 2u);
+    EXPECT_EQ(count[observation::unobserved], 1u);
+    EXPECT_EQ(count[observation::free_space], 0u);
+    EXPECT_EQ(count.total(), 3u);
+}
 
 TEST(merge_policies, obey_the_laws) {
     laws::merge_policy_laws(gnomon::conservative{});
@@ -35,6 +50,39 @@ TEST(merge_policies, accept_the_observations_of_the_thesis) {
     EXPECT_FALSE(gnomon::liberal{}(observation::free_space));
     EXPECT_TRUE(gnomon::liberal{}(observation::unobserved));
     EXPECT_TRUE(gnomon::liberal{}(observation::on_surface));
+}
+
+/// Positions where the surface itself is seen are evidence neither for nor against a merge.
+TEST(merge_policies, weigh_the_places_of_a_line) {
+    const auto accepted = [](const auto& policy, std::size_t unseen, std::size_t closer,
+                             std::size_t level, std::size_t farther) {
+        return gnomon::detail::accepts(policy, {{unseen, closer, level, farther}});
+    };
+    EXPECT_TRUE(accepted(conservative{}, 0, 1, 8, 0));
+    EXPECT_TRUE(accepted(conservative{}, 3, 4, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 4, 4, 0, 0)) << "more than half, not half";
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 5, 0));
+    EXPECT_TRUE(accepted(liberal{}, 4, 0, 0, 0));
+    EXPECT_FALSE(accepted(conservative{}, 0, 0, 0, 0));
+    EXPECT_TRUE(accepted(liberal{}, 0, 0, 0, 0));
+}
+
+/// One position in free space keeps a gap open if the policy does not merge across free space.
+TEST(merge_policies, keep_a_gap_open_that_is_seen_through_at_one_place) {
+    // Unseen, closer, level, farther.
+    for (const observation_count& seen :
+         {observation_count{{0, 9, 0, 1}}, observation_count{{0, 8, 0, 1}},
+          observation_count{{0, 98, 0, 2}}}) {
+        EXPECT_TRUE(keeps_open(conservative{}, seen));
+        EXPECT_TRUE(keeps_open(liberal{}, seen));
+    }
+    for (const observation_count& seen :
+         {observation_count{{0, 9, 0, 0}}, observation_count{{9, 0, 9, 0}}}) {
+        EXPECT_FALSE(keeps_open(conservative{}, seen));
+        EXPECT_FALSE(keeps_open(liberal{}, seen));
+    }
+    const auto always = [](gnomon::observation) { return true; };
+    EXPECT_FALSE(keeps_open(always, {{0, 0, 0, 9}}));
 }
 
 }  // namespace

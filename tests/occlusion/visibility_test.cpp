@@ -14,21 +14,9 @@ namespace sim = gnomon::simulation;
 
 namespace {
 
-using gnomon::visibility, gnomon::observation, gnomon::observation_count, gnomon::constant_noise;
+using gnomon::visibility, gnomon::observation, gnomon::constant_noise;
 
 using looks::origin;
-
-TEST(observation_count, counts_each_kind) {
-    observation_count count;
-    EXPECT_EQ(count.total(), 0u);
-    count.add(observation::occluded);
-    count.add(observation::occluded);
-    count.add(observation::unobserved);
-    EXPECT_EQ(count[observation::occluded], 2u);
-    EXPECT_EQ(count[observation::unobserved], 1u);
-    EXPECT_EQ(count[observation::free_space], 0u);
-    EXPECT_EQ(count.total(), 3u);
-}
 
 /// Positions in front of a wall 3 m ahead, on it, behind it and next to it.
 TEST(visibility, classifies_positions) {

@@ -142,11 +142,13 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     for (std::size_t s = 0; s < parts.size(); ++s)
         frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
     detail::union_find sets(parts.size());
+    const auto is_flat = [&](std::size_t s) {
+        return frames[s].spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
+               frames[s].spectrum.surface_variation() <= options.max_variation;
+    };
+    const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames, options.candidates, [&](const principal_frame& f) {
-             return f.spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place
-                    f.spectrum.surface_variation() <= options.max_variation;
-         })) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
@@ -159,9 +161,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
             2 * static_cast<std::size_t>(occluded) > lines.size())
             sets.unite(i, j);
     }
-    segments result;
-    detail::unite_segments(result, parts, sets);
-    return result;
+    return detail::united_segments(parts, sets);
 }
 
 }  // namespace gnomon

@@ -11,18 +11,13 @@
 #pragma once
 
 #include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <vector>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
@@ -96,20 +91,6 @@ template <merge_policy M, execution X>
     return sets;
 }
 
-/// merge_occluded(index, surface, parts, ...), in the memory of `result`, which may be `parts`.
-template <merge_policy M, execution X>
-void merge_occluded_into(segments& result, const spatial_index& points, const segments& parts,
-                         const visibility& visible, const M& policy,
-                         const merge_occluded_options& options, const X& run, auto&& each_gap) {
-    union_find sets = merged_sets(points, parts, visible, policy, options, run, each_gap);
-    scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
-    for (std::int32_t& label : labels)
-        if (label != unlabeled)
-            label = static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-    number_by_size(labels);
-    result.assign(labels);
-}
-
 }  // namespace detail
 
 /// Merges flat segments that are one surface behind something.
@@ -131,11 +112,12 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
-    detail::merge_occluded_into(
-        result.segments, detail::index_of(points, team, projection), parts, visible, policy,
-        options, team, [&](const auto& gap) {
+    detail::union_find sets = detail::merged_sets(
+        detail::index_of(points, team, projection), parts, visible, policy, options, team,
+        [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
+    result.segments = detail::united_segments(parts, sets);
     return result;
 }
 

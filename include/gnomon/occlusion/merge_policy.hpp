@@ -8,7 +8,9 @@
 /// `observation`.
 #pragma once
 
+#include <array>
 #include <concepts>
+#include <cstddef>
 
 namespace gnomon {
 
@@ -18,6 +20,21 @@ enum class observation : char {
     occluded,    ///< something in front of it
     on_surface,  ///< something at its distance
     free_space   ///< something behind it: the place is empty
+};
+
+/// How often something was seen, by kind of observation.
+struct observation_count {
+    std::array<std::size_t, 4> of{};
+
+    [[nodiscard]] std::size_t operator[](observation s) const {
+        return of[static_cast<std::size_t>(s)];
+    }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    observation_count& operator+=(const observation_count& other) {
+        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
+        return *this;
+    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
@@ -40,4 +57,28 @@ struct liberal {
     }
 };
 
+namespace detail {
+
+/// Whether a policy accepts a line: more of its observations are in favor of merging than against
+/// it. Observations on the surface are never against it; a line without observations counts as
+/// unobserved.
+template <merge_policy M>
+[[nodiscard]] bool accepts(const M& policy, const observation_count& seen) {
+    if (seen.total() == 0) return policy(observation::unobserved);
+    std::size_t against = 0;
+    std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
+    for (const observation s :
+         {observation::unobserved, observation::occluded, observation::free_space})
+        (policy(s) ? in_favor : against) += seen[s];
+    return in_favor > against;
+}
+
+/// Whether a line alone keeps a gap open: free space was observed on it, whatever else was
+/// observed.
+template <merge_policy M>
+[[nodiscard]] bool keeps_open(const M& policy, const observation_count& seen) {
+    return seen[observation::free_space] > 0 && !policy(observation::free_space);
+}
+
+}  // namespace detail
 }  // namespace gnomon

@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <numbers>
 #include <tuple>
-#include <utility>
 
 #include <Eigen/Core>
 

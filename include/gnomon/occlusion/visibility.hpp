@@ -10,7 +10,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <numbers>
@@ -62,21 +61,6 @@ inline void require_valid(const visibility_options& options) {
 
 }  // namespace detail
 
-/// How often something was seen, by kind of observation.
-struct observation_count {
-    std::array<std::size_t, 4> of{};
-
-    [[nodiscard]] std::size_t operator[](observation s) const {
-        return of[static_cast<std::size_t>(s)];
-    }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
-    observation_count& operator+=(const observation_count& other) {
-        for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
-        return *this;
-    }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
-};
-
 /// Knows what was seen towards any place.
 class visibility {
   public:
@@ -122,15 +106,10 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        observation most = observation::unobserved;
-        std::size_t votes = 0;
-        for (const observation s :
-             {observation::free_space, observation::on_surface, observation::occluded}) {
-            if (count[s] <= votes) continue;
-            most = s;
-            votes = count[s];
-        }
-        return most;
+        const auto most = std::ranges::max(
+            {observation::free_space, observation::on_surface, observation::occluded}, {},
+            [&count](observation s) { return count[s]; });
+        return count[most] > 0 ? most : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:

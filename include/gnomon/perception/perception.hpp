@@ -18,7 +18,6 @@
 #pragma once
 
 #include <concepts>
-#include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>

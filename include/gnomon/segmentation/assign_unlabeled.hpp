@@ -7,19 +7,10 @@
 /// model of Isack and Boykov 2012.)
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/error.hpp>
-#include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
@@ -47,12 +38,9 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
                                         Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(parts.labels().size() == index.size() && graph.size() == index.size(),
-                    "assign_unlabeled: the numbers of points, neighborhoods and labels differ");
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "assign_unlabeled: the graph has an index out of range");
+    detail::require(parts.labels().size() == index.size(),
+                    "assign_unlabeled: the numbers of points and of labels differ");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, noise, team);
     segments result = parts;
     auto is_border = detail::borders_of(graph, parts.labels(), team);
@@ -63,10 +51,7 @@ template <class R, neighborhood_graph G, execution X = sequential, class Proj = 
         if (std::equal(labels.begin(), labels.end(), result.labels().begin())) break;
         result.assign(labels);
     }
-    detail::scratch<std::int32_t> labels(result.labels().begin(), result.labels().end());
-    detail::number_by_size(labels);
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(result).labels());
 }
 
 }  // namespace gnomon

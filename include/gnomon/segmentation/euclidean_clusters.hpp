@@ -7,11 +7,9 @@
 /// points at most r apart (the whole radius, no cap at k neighbors).
 #pragma once
 
-#include <cstddef>
 #include <functional>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -52,9 +50,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
                              [](std::size_t, const neighbor&) { return true; });
         return detail::segments_of(linker.labels(options.min_points));
     }
-    auto labels = detail::components_within(index.tree(), options.radius, team);
-    detail::number_by_size(labels, options.min_points);
-    return detail::segments_of(labels);
+    return detail::numbered_segments_of(
+        detail::components_within(index.tree(), options.radius, team), options.min_points);
 }
 
 }  // namespace gnomon

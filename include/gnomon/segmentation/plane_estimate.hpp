@@ -6,27 +6,12 @@
 ///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
 #include <functional>
-#include <span>
-#include <vector>
 
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
-#include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/error.hpp>
-#include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
-#include <gnomon/segmentation/detail/plane_sums.hpp>
-#include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {
@@ -51,78 +36,50 @@ struct plane_estimate {
 namespace detail {
 
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half.
+/// left out again and again, unless they are more than half. Planar if most points are on it.
 template <class Cloud>
-struct plane_of_members {
-    planar_region region;
-    bool is_planar = false;  ///< most points are on the plane
-    bool is_flat = false;    ///< and hardly any is certainly off it
-
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members)
-        : plane_of_members(cloud, members, cloud) {}
-
-    /// @param exact  the same points, with the noise of each for itself
-    plane_of_members(const Cloud& cloud, std::span<const point_index> members, const Cloud& exact) {
-        region = sums_of(cloud, members, [](point_index) { return true; });
-        const std::size_t all = region.sums.count;
-        constexpr int most_passes = 5;  // performance only
-        for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
-            const planar_region on =
-                sums_of(cloud, members, [&](point_index i) { return is_on(cloud, i, region.fit); });
-            if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
-            const bool rests = on.sums.count == region.sums.count;
-            region = on;
-            if (rests) break;
-        }
-        is_planar = region.fit.is_determined && region.fit.is_seen &&
-                    region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
-        is_flat = is_planar && off_it(exact, members) < fewest_off;
-    }
-
-    /// Whether point i is on the plane of a region.
-    [[nodiscard]] static bool is_on(const Cloud& cloud, point_index i, const region_plane& to) {
-        return cloud.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
-    }
-
-  private:
-    static constexpr std::size_t fewest_off = 30;  // n_min of the thesis: no noise
-
-    [[nodiscard]] static planar_region sums_of(const Cloud& cloud,
-                                               std::span<const point_index> members, auto&& of) {
+[[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
+    const auto sums_of = [&](auto&& is_of) {
         planar_region some;
         for (const point_index i : members)
-            if (cloud.is_finite(i) && of(i)) cloud.add(i, some.sums);
+            if (cloud.is_finite(i) && is_of(i)) cloud.add(i, some.sums);
         some.fit = some.sums.fit();
         return some;
+    };
+    planar_region region = sums_of([](point_index) { return true; });
+    const std::size_t all = region.sums.count;
+    constexpr int most_passes = 5;  // performance only
+    for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
+        const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
+        if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+        const bool rests = on.sums.count == region.sums.count;
+        region = on;
+        if (rests) break;
     }
+    region.is_planar = region.fit.is_determined && region.fit.is_seen &&
+                       region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
+    return region;
+}
 
-    /// Whether point i is certainly not on the plane, however rough it is.
-    [[nodiscard]] bool is_off(const Cloud& cloud, point_index i) const {
-        const plane& p = region.fit.plane;
-        return std::abs(p.signed_distance(cloud.offsets[i])) >
-               std::sqrt(region.fit.excess()) * cloud.noise[i].certain_reach(p.normal);
-    }
-
-    /// How many points are certainly not on the plane.
-    [[nodiscard]] std::size_t off_it(const Cloud& cloud,
-                                     std::span<const point_index> members) const {
-        std::size_t off = 0;
-        for (const point_index i : members)
-            if (cloud.is_finite(i) && is_off(cloud, i)) ++off;
-        return off;
-    }
-};
+/// Whether hardly any points are certainly not on a plane, however rough it is.
+template <class Cloud>
+[[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
+                               const region_plane& of) {
+    constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
+    const auto is_off = [&](point_index i) {
+        return cloud.is_finite(i) &&
+               std::abs(of.plane.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
+    };
+    return std::ranges::count_if(members, is_off) < fewest_off;
+}
 
 /// The planes of segments, as regions.
 template <execution X>
 [[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
                                                 const X& run) {
     scratch<planar_region> regions(parts.size());
-    run(parts.size(), [&](std::size_t s) {
-        const plane_of_members found(cloud, parts[s]);
-        regions[s] = found.region;
-        regions[s].is_planar = found.is_planar;
-    });
+    run(parts.size(), [&](std::size_t s) { regions[s] = region_of(cloud, parts[s]); });
     return regions;
 }
 
@@ -131,9 +88,7 @@ template <execution X>
 template <class Cloud>
 [[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
                                          const Cloud& exact) {
-    const plane_of_members found(cloud, members, exact);
-    const plane_sums& sums = found.region.sums;
-    const region_plane& fit = found.region.fit;
+    const auto& [sums, fit, is_planar] = region_of(cloud, members);
     plane_estimate e;
     e.points = sums.count;
     if (e.points == 0) return e;
@@ -152,7 +107,7 @@ template <class Cloud>
     }
     e.plane = {n, dot(n, e.centroid)};
     e.chi2 = fit.chi2;
-    e.is_flat = found.is_flat;
+    e.is_flat = is_planar && has_few_off(exact, members, fit);
     // A turn about one axis moves the points along the other one.
     const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
     e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);

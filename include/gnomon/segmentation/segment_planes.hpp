@@ -15,25 +15,14 @@
 /// multiples of the noise, so that no distance need be set.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 #include <iterator>
 
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/error.hpp>
-#include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
-#include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -58,7 +47,7 @@ template <neighborhood_graph G, normal_range S, execution X>
 [[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                  const S& surface, std::size_t min_points,
                                                  angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points, scratch<std::int32_t>(cloud.size(), unlabeled));
+    plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
@@ -88,23 +77,15 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
                                       Proj projection = {}) {
     const auto& team = detail::staying(run);
     const auto& index = detail::index_of(points, team, projection);
-    detail::require(graph.size() == index.size(),
-                    "segment_planes: graph and points differ in size");
     detail::require(std::ranges::size(surface) == index.size(),
                     "segment_planes: surface and points differ in size");
     detail::require_valid(options);
-    for (std::size_t i = 0; i < index.size(); ++i)
-        for (const point_index j : graph[i])
-            detail::require(j < index.size(),
-                            "segment_planes: the graph has an index out of range");
+    detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    auto labels = detail::regions_of_planes(cloud, graph, surface, options.min_points,
-                                            options.max_angle, team)
-                      .labels();
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+                                                                  options.min_points,
+                                                                  options.max_angle, team)
+                                            .labels());
 }
 
 }  // namespace gnomon

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Which points are one surface: the partition that every segmentation here returns, seen both
-/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1).
+/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1). The
+/// headers of segmentation that include it do not include again what it does.
 #pragma once
 
 #include <algorithm>
@@ -145,6 +146,12 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
         if (l != unlabeled) l = renumbered[static_cast<point_index>(l)];
 }
 
+/// Replaces labels by the smallest of their sets.
+void unite_labels(auto& labels, union_find& sets) {
+    for (std::int32_t& l : labels)
+        if (l != unlabeled) l = static_cast<std::int32_t>(sets.find(static_cast<point_index>(l)));
+}
+
 /// The label of each element: its set, numbered as by number_by_size, where counts(i) returns
 /// whether element i is a member of it.
 [[nodiscard]] scratch<std::int32_t> labels_of_sets(union_find& sets, std::size_t min_points,
@@ -162,6 +169,13 @@ void number_by_size(auto& labels, std::size_t min_points = 0) {
     segments result;
     result.assign(labels);
     return result;
+}
+
+/// The segments of these labels, largest first. (A template, so that only its users compile a
+/// sort.)
+[[nodiscard]] segments numbered_segments_of(auto labels, std::size_t min_points = 0) {
+    number_by_size(labels, min_points);
+    return segments_of(labels);
 }
 
 }  // namespace detail

@@ -5,16 +5,9 @@
 /// the rim. (Not in the thesis; assign_unlabeled gives what was split off to its neighbors.)
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <functional>
 
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/error.hpp>
-#include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
@@ -43,16 +36,13 @@ template <class R, execution X = sequential, class Proj = std::identity>
                     "split_outliers: the numbers of points and of labels differ");
     const detail::planar_cloud cloud(index, noise, team);
     const auto regions = detail::regions_of(cloud, parts, team);
-    detail::scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+    std::vector<std::int32_t> labels = parts.labels();
     for (std::size_t i = 0; i < labels.size(); ++i) {
         if (labels[i] == unlabeled || !cloud.is_finite(i)) continue;
         const auto& of = regions[static_cast<std::size_t>(labels[i])];
         if (detail::misfit_of(cloud, i, of) < 0.0) labels[i] = unlabeled;
     }
-    detail::number_by_size(labels);
-    segments result;
-    result.assign(labels);
-    return result;
+    return detail::numbered_segments_of(std::move(labels));
 }
 
 }  // namespace gnomon

@@ -18,7 +18,6 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/occlusion/boundary_pairs.hpp>
-#include <gnomon/occlusion/detail/gap_verdict.hpp>
 #include <gnomon/occlusion/detail/segment_groups.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
@@ -52,17 +51,12 @@ class occlusion_merger {
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(parts.size()),
-          is_flat_(parts.size(), false),
+          regions_(regions_of(cloud, parts, run)),
           labels_(parts.labels().size(), unlabeled),
           members_(labels_) {
         run(parts.size(), [&](std::size_t s) {
-            if (parts[s].empty()) return;
-            const plane_of_members found(cloud, parts[s]);
-            regions_[s] = found.region;
-            is_flat_[s] = found.is_planar;
             for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && found.is_on(cloud, i, found.region.fit))
+                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
                     labels_[i] = static_cast<std::int32_t>(s);
         });
         members_ = label_groups(labels_);
@@ -77,10 +71,7 @@ class occlusion_merger {
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                for (std::int32_t& label : labels_)
-                    if (label != unlabeled)
-                        label =
-                            static_cast<std::int32_t>(merged.find(static_cast<point_index>(label)));
+                unite_labels(labels_, merged);
                 members_ = label_groups(labels_);
             });
         for (examined_gap& gap : gaps_)
@@ -94,11 +85,10 @@ class occlusion_merger {
   private:
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
-        scratch<std::size_t> all(regions_.size());
-        for (std::size_t r = 0; r < all.size(); ++r) all[r] = r;
         return pairs_to_compare(
-            all, options_.candidates, [this](std::size_t r) { return is_flat_[r] != 0; },
-            [this](std::size_t r) { return regions_[r].fit; });
+            regions_.size(), options_.candidates,
+            [this](std::size_t r) { return regions_[r].is_planar; },
+            [this](std::size_t r) { return regions_[r].fit.centroid; });
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
@@ -148,9 +138,8 @@ class occlusion_merger {
     const M& policy_;
     const Options& options_;
     scratch<planar_region> regions_;
-    scratch<char> is_flat_;
     scratch<std::int32_t> labels_;  // of the points on the planes
-    label_groups members_;          // as of the beginning of the round
+    label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;
 };
 

@@ -16,7 +16,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -64,7 +63,10 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface) index.viewpoints = known_viewpoints();
+        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
+            index.viewpoints = cells_.viewpoints.empty()
+                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
+                                   : cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -126,10 +128,8 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
-    [[nodiscard]] const surface_type& surface() const { return surface_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
-    [[nodiscard]] std::size_t regions() const { return regions_->regions().size(); }
     /// A point of a cell.
     [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
     /// The surface element of a point: that of its cell.
@@ -139,11 +139,6 @@ class cell_surfaces {
     }
 
   private:
-    [[nodiscard]] viewpoint_table known_viewpoints() const {
-        if (cells_.viewpoints.empty()) return viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0));
-        return cells_.viewpoints;
-    }
-
     const spatial_index& points_;
     const noise_curve& noise_;        // of wide planes
     const noise_curve& exact_noise_;  // of each point for itself

@@ -18,7 +18,7 @@ class perception_memory {
   public:
     spatial_index cells;                    ///< the index of the cells
     spatial_index sparse;                   ///< that of some of the points
-    segments parts, merged;                 ///< of the cells, or of the kept points
+    segments parts;                         ///< of the cells, or of the kept points
     std::vector<surfel<Estimate>> surface;  ///< of the cells, or of the kept points
 
     perception_memory() = default;

@@ -118,15 +118,6 @@ class perception_run {
         given_ = &result_.index;
     }
 
-    /// Calls work(visibility) if segments may be merged.
-    void merging(auto&& work) {
-        step("merging", [&] {
-            if (result_.noise.is_across_surface) return;
-            const auto options = at_noise(chain_.visibility, result_.noise.of_planes);
-            work(visibility(points_, options, run_, projection_));
-        });
-    }
-
     /// `planes_on_cells`
     void find_on_cells() {
         const noise_curve& noise = result_.noise.of_planes;
@@ -150,19 +141,9 @@ class perception_run {
             result_.surfaces = result_.initial_segments;
         });
         if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& parts = result_.memory.parts;
-                parts.assign(found->labels());
-                union_find sets = merged_sets(
-                    found->index(), parts, visible, chain_.merge, at_noise(chain_.merging, noise),
-                    run_, [&](const examined_gap& gap) {
-                        note(gap, [&](point_index c) { return result_.kept[found->point_of(c)]; });
-                    });
-                for (std::int32_t& label : labels)
-                    if (label != unlabeled && static_cast<std::size_t>(label) < parts.size())
-                        label =
-                            static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-                set_segments(result_.surfaces, labels);
+            step("merging", [&] {
+                result_.memory.parts.assign(found->labels());
+                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
             });
     }
 
@@ -185,24 +166,30 @@ class perception_run {
             for (std::size_t i = 0; i < surface.size(); ++i)
                 result_.surface[result_.kept[i]] = surface[i];
         });
-        segments& parts = result_.memory.parts;
+        scratch<std::int32_t> labels;
         step("segmentation", [&] {
+            segments& parts = result_.memory.parts;
             segment_surfaces_into(parts, *given_, surface, chain_.segmentation.surfaces, run_);
-            scratch<std::int32_t> labels(parts.labels().begin(), parts.labels().end());
+            labels.assign(parts.labels().begin(), parts.labels().end());
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges)
-            merging([&](const visibility& visible) {
-                segments& merged = result_.memory.merged;
-                merge_occluded_into(merged, *given_, parts, visible, chain_.merge,
-                                    at_noise(chain_.merging, result_.noise.of_planes), run_,
-                                    [&](const examined_gap& gap) {
-                                        note(gap, [&](point_index i) { return result_.kept[i]; });
-                                    });
-                scratch<std::int32_t> labels(merged.labels().begin(), merged.labels().end());
-                set_segments(result_.surfaces, labels);
-            });
+        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+    }
+
+    /// Merges the segments in memory, of things that are cells or kept points, where the noise
+    /// along the rays is known.
+    /// @param labels    the segments of the kept points
+    /// @param point_of  point_of(thing): the number of a kept point of it
+    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+        if (result_.noise.is_across_surface) return;
+        const noise_curve& noise = result_.noise.of_planes;
+        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
+        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
+                                      at_noise(chain_.merging, noise), run_,
+                                      [&](const examined_gap& gap) { note(gap, point_of); });
+        unite_labels(labels, sets);
+        set_segments(result_.surfaces, labels);
     }
 
     /// Makes segments of all points from labels of the kept ones.
@@ -214,12 +201,12 @@ class perception_run {
     }
 
     /// Writes a gap to the result.
-    /// @param point_of  the number in the cloud of the things the gap is between
+    /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
         for (auto& line : to.lines) {
-            line.first = point_of(line.first);
-            line.second = point_of(line.second);
+            line.first = result_.kept[point_of(line.first)];
+            line.second = result_.kept[point_of(line.second)];
         }
         result_.gaps.push_back(std::move(to));
     }

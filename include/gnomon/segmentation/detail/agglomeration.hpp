@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cstddef>
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>

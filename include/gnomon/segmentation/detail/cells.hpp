@@ -10,12 +10,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/hash_of.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -48,7 +48,7 @@ struct cells {
             if (!index.is_finite(i)) continue;
             const Eigen::Vector3d p = index[i];
             const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash(own) & (slots - 1);
+            std::size_t at = hash_of(own) & (slots - 1);
             while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
             if (slot[at] == no_cell) {
                 slot[at] = static_cast<point_index>(keys.size());
@@ -94,16 +94,6 @@ struct cells {
             return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, most)));
         };
         return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
-    }
-
-    [[nodiscard]] static std::size_t hash(const key& k) {
-        std::uint64_t h = 0;
-        for (const std::int64_t part : k) {
-            h ^= static_cast<std::uint64_t>(part);
-            h *= 0x9e3779b97f4a7c15U;
-            h ^= h >> 32;
-        }
-        return static_cast<std::size_t>(h);
     }
 };
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -15,6 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/hash_of.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
@@ -198,17 +200,12 @@ class floor_search {
     /// with the points. A few share their number with another one.
     [[nodiscard]] std::size_t cell_of(const floor_fit& fit,
                                       const Eigen::Vector3d& from_centroid) const {
-        std::uint64_t hash = 0;
-        for (int a = 0; a < 2; ++a) {
+        const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, a), from_centroid) / side;
-            const double number = std::floor(std::clamp(sides, -exact, exact));
-            // Fibonacci hashing (Knuth): the multiplier is 2^64 over the golden ratio.
-            hash = (hash ^ static_cast<std::uint64_t>(static_cast<std::int64_t>(number))) *
-                   0x9E3779B97F4A7C15u;
-            hash ^= hash >> 32;
-        }
-        return hash & (cells_.size() - 1);
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
+            return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
+        };
+        return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
     }
 
     const Points& points_;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What all steps of a segmentation into planes read of points: positions and noise.
+/// What all steps of a segmentation into planes read of points: positions and noise. The headers of
+/// segmentation that include it do not include again what it does.
 #pragma once
 
 #include <cstddef>
@@ -9,9 +10,9 @@
 
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
@@ -54,13 +55,23 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// The distance of point i from a plane of this cloud, in standard deviations of its noise.
-    [[nodiscard]] double deviations(std::size_t i, const plane& from) const {
-        return std::abs(from.signed_distance(offsets[i])) / noise[i].across(from.normal);
+    /// Whether point i is on the plane of a region: within three standard deviations.
+    [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
+        const double distance = std::abs(to.plane.signed_distance(offsets[i]));
+        return distance / noise[i].across(to.plane.normal) <=
+               most_deviations * std::sqrt(to.excess());
     }
 
   private:
     const spatial_index& index_;
 };
+
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "segmentation: graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "segmentation: the graph has an index out of range");
+}
 
 }  // namespace gnomon::detail

@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <limits>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>

@@ -5,23 +5,13 @@
 /// region grows (after Poppinga et al. 2008).
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
 #include <iterator>
 #include <limits>
 
-#include <Eigen/Core>
-
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
-#include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -48,9 +38,8 @@ class plane_growth {
     /// @param next  the label of the first new region
     template <execution X>
     void operator()(std::int32_t next, const X& run) {
-        for (const point_index seed : flattest_first(run)) {
-            if (visit_[seed] != no_seed || !is_free(seed)) continue;
-            if (!grow_from(seed)) continue;
+        for (const auto& [roughness, seed] : flattest_first(run)) {
+            if (visit_[seed] != no_seed || !is_free(seed) || !grow_from(seed)) continue;
             for (const point_index i : members_) labels_[i] = next;
             ++next;
         }
@@ -66,18 +55,15 @@ class plane_growth {
     /// The free points by the mean squared distance of their neighbors from the plane of their
     /// normal, in variances of the noise.
     template <execution X>
-    [[nodiscard]] scratch<point_index> flattest_first(const X& run) const {
-        scratch<double> roughness(cloud_.size(), std::numeric_limits<double>::infinity());
-        for_each_chunk(run, cloud_.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i)
-                if (is_free(i)) roughness[i] = roughness_at(i);
-        });
-        scratch<point_index> order;
+    [[nodiscard]] auto flattest_first(const X& run) const {
+        scratch<std::pair<double, point_index>> order;
         for (std::size_t i = 0; i < cloud_.size(); ++i)
-            if (is_free(i)) order.push_back(static_cast<point_index>(i));
-        std::sort(order.begin(), order.end(), [&](point_index a, point_index b) {
-            return roughness[a] != roughness[b] ? roughness[a] < roughness[b] : a < b;
+            if (is_free(i)) order.emplace_back(0.0, static_cast<point_index>(i));
+        for_each_chunk(run, order.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t o = begin; o < end; ++o)
+                order[o].first = roughness_at(order[o].second);
         });
+        std::sort(order.begin(), order.end());
         return order;
     }
 
@@ -125,7 +111,7 @@ class plane_growth {
 
     [[nodiscard]] bool fits(std::size_t i, const region_plane& to) const {
         return is_free(i) && std::abs(dot(to.plane.normal, normal(i))) >= min_cosine_ &&
-               cloud_.deviations(i, to.plane) <= most_deviations * std::sqrt(to.excess());
+               cloud_.is_on(i, to);
     }
 
     /// The plane through the mean of the seed and those of its neighbors whose normals agree.

@@ -4,25 +4,13 @@
 /// points, in turns.
 #pragma once
 
-#include <algorithm>
-#include <cstddef>
-#include <cstdint>
-#include <utility>
-
-#include <Eigen/Core>
-
-#include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/scratch.hpp>
-#include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
-#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
-#include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -31,11 +19,8 @@ namespace gnomon::detail {
 template <neighborhood_graph G>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points,
-                  scratch<std::int32_t> labels)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(std::move(labels)) {
-        refit();
-    }
+    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
+        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
