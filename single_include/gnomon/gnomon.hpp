@@ -11658,8 +11658,7 @@ struct planar_region {
 // -------- gnomon/segmentation/detail/planar_cloud.hpp --------------------------------------------
 
 /// @file
-/// What all steps of a segmentation into planes read of points: positions and noise. The headers of
-/// segmentation that include it do not include again what it does.
+/// What all steps of a segmentation into planes read of points: positions and noise.
 
 namespace gnomon::detail {
 
@@ -11794,8 +11793,7 @@ class union_find {
 
 /// @file
 /// Which points are one surface: the partition that every segmentation here returns, seen both
-/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1). The
-/// headers of segmentation that include it do not include again what it does.
+/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1).
 
 namespace gnomon {
 
@@ -13190,133 +13188,6 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
-
-/// @file
-/// Whether one plane explains two regions as well as two planes do: the common plane follows from
-/// the sums of both, and no point is looked at again.
-
-namespace gnomon::detail {
-
-/// The plane of two regions.
-[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
-    plane_sums both = a.sums;
-    both.add(b.sums);
-    return both.fit();
-}
-
-/// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times that
-/// about their own.
-[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
-    const region_plane both = plane_of_both(a, b);
-    if (!both.is_determined) return std::numeric_limits<double>::infinity();
-    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
-    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
-}
-
-/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
-/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
-/// own must be nearly parallel to that of both.
-[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(max_angle);
-    const region_plane both = plane_of_both(a, b);
-    const auto statistic = [&](const auto& r) {
-        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
-        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
-    };
-    const auto is_parallel = [&](const auto& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
-    };
-    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
-        return std::numeric_limits<double>::infinity();
-    return (statistic(a) + statistic(b)) / chi2_of_3;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/segmentation/detail/agglomeration.hpp -------------------------------------------
-
-/// @file
-/// Agglomerative merging of regions: the most alike first, as long as one plane explains all that
-/// become one (after Feng et al. 2014).
-
-namespace gnomon::detail {
-
-/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
-/// they have become is still alike.
-class agglomeration {
-  public:
-    /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
-    explicit agglomeration(scratch<planar_region>& regions)
-        : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
-
-    /// @param pairs    that may be one, each once
-    /// @param unlike   unlike(region, region): at most 1 if they may be one
-    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
-    ///                 beginning of the round; called when all else is in favor
-    /// @param gather   gather(sets), after each round that merged any
-    /// @return the sets of regions that are one
-    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
-                                        auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
-            gather(sets_);
-            for (auto& [a, b] : pairs) {
-                const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
-                a = std::min(root_of_a, root_of_b);
-                b = std::max(root_of_a, root_of_b);
-            }
-            std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
-            make_unique(pairs);
-        }
-        return std::move(sets_);
-    }
-
-  private:
-    struct candidate {
-        double unlikeness;
-        region_pair pair;
-        [[nodiscard]] bool operator<(const candidate& o) const {
-            return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
-        }
-    };
-
-    /// One round.
-    /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
-        scratch<candidate> candidates;
-        for (const auto& pair : pairs) {
-            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
-            const double u = unlike(regions_[pair.first], regions_[pair.second]);
-            if (u <= 1.0) candidates.push_back({u, pair});
-        }
-        std::sort(candidates.begin(), candidates.end());
-        std::fill(is_new_.begin(), is_new_.end(), false);
-        bool any = false;
-        for (const candidate& c : candidates) {
-            const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
-            if (a == b) continue;
-            const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
-            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
-            if (!accepts(c.pair.first, c.pair.second)) continue;
-            plane_sums sums = regions_[a].sums;
-            sums.add(regions_[b].sums);
-            const point_index whole = sets_.unite(a, b);
-            regions_[whole] = {sums, sums.fit()};
-            is_new_[whole] = any = true;
-        }
-        return any;
-    }
-
-    scratch<planar_region>& regions_;
-    union_find sets_;
-    scratch<char> is_new_;  // since the round before
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
 
 /// @file
@@ -13447,6 +13318,133 @@ class plane_growth {
     scratch<std::int32_t>& labels_;
     scratch<point_index> visit_;  // the seed of the last region that a point was in
     scratch<point_index> members_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
+
+/// @file
+/// Whether one plane explains two regions as well as two planes do: the common plane follows from
+/// the sums of both, and no point is looked at again.
+
+namespace gnomon::detail {
+
+/// The plane of two regions.
+[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
+    plane_sums both = a.sums;
+    both.add(b.sums);
+    return both.fit();
+}
+
+/// How much worse one plane explains two regions next to each other than two planes do; at most 1
+/// if they may be one: the variance of either about the common plane is at most 2.5 times that
+/// about their own.
+[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+    const region_plane both = plane_of_both(a, b);
+    if (!both.is_determined) return std::numeric_limits<double>::infinity();
+    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
+    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
+}
+
+/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
+/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
+/// own must be nearly parallel to that of both.
+[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
+    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    const double nearly = min_cosine(max_angle);
+    const region_plane both = plane_of_both(a, b);
+    const auto statistic = [&](const auto& r) {
+        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
+        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
+    };
+    const auto is_parallel = [&](const auto& r) {
+        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
+    };
+    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
+        return std::numeric_limits<double>::infinity();
+    return (statistic(a) + statistic(b)) / chi2_of_3;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/agglomeration.hpp -------------------------------------------
+
+/// @file
+/// Agglomerative merging of regions: the most alike first, as long as one plane explains all that
+/// become one (after Feng et al. 2014).
+
+namespace gnomon::detail {
+
+/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
+/// they have become is still alike.
+class agglomeration {
+  public:
+    /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
+    explicit agglomeration(scratch<planar_region>& regions)
+        : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
+
+    /// @param pairs    that may be one, each once
+    /// @param unlike   unlike(region, region): at most 1 if they may be one
+    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
+    ///                 beginning of the round; called when all else is in favor
+    /// @param gather   gather(sets), after each round that merged any
+    /// @return the sets of regions that are one
+    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
+                                        auto&& gather) {
+        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
+            gather(sets_);
+            for (auto& [a, b] : pairs) {
+                const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
+                a = std::min(root_of_a, root_of_b);
+                b = std::max(root_of_a, root_of_b);
+            }
+            std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
+            make_unique(pairs);
+        }
+        return std::move(sets_);
+    }
+
+  private:
+    struct candidate {
+        double unlikeness;
+        region_pair pair;
+        [[nodiscard]] bool operator<(const candidate& o) const {
+            return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
+        }
+    };
+
+    /// One round.
+    /// @return whether it merged any
+    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
+        scratch<candidate> candidates;
+        for (const auto& pair : pairs) {
+            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+            const double u = unlike(regions_[pair.first], regions_[pair.second]);
+            if (u <= 1.0) candidates.push_back({u, pair});
+        }
+        std::sort(candidates.begin(), candidates.end());
+        std::fill(is_new_.begin(), is_new_.end(), false);
+        bool any = false;
+        for (const candidate& c : candidates) {
+            const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
+            if (a == b) continue;
+            const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
+            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
+            if (!accepts(c.pair.first, c.pair.second)) continue;
+            plane_sums sums = regions_[a].sums;
+            sums.add(regions_[b].sums);
+            const point_index whole = sets_.unite(a, b);
+            regions_[whole] = {sums, sums.fit()};
+            is_new_[whole] = any = true;
+        }
+        return any;
+    }
+
+    scratch<planar_region>& regions_;
+    union_find sets_;
+    scratch<char> is_new_;  // since the round before
 };
 
 }  // namespace gnomon::detail

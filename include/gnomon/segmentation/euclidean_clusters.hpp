@@ -7,9 +7,11 @@
 /// points at most r apart (the whole radius, no cap at k neighbors).
 #pragma once
 
+#include <cstddef>
 #include <functional>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>

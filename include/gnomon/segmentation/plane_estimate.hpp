@@ -6,12 +6,27 @@
 ///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
 #include <functional>
+#include <span>
+#include <vector>
 
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {

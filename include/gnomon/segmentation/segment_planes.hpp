@@ -15,14 +15,25 @@
 /// multiples of the noise, so that no distance need be set.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <iterator>
 
 #include <gnomon/core/angle.hpp>
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
 #include <gnomon/segmentation/segments.hpp>
 

@@ -7,14 +7,18 @@
 /// Klasing 2010, Sec. 4.2.5, Eq. (4.3) and Alg. 4.2, with the parameters of Sec. 4.4.1.
 #pragma once
 
+#include <algorithm>
 #include <concepts>
+#include <cstddef>
 #include <functional>
 #include <iterator>
+#include <utility>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>

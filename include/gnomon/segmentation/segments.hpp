@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Which points are one surface: the partition that every segmentation here returns, seen both
-/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1). The
-/// headers of segmentation that include it do not include again what it does.
+/// ways, as a label per point and as a group of points per label (Klasing 2010, Sec. 4.2.1).
 #pragma once
 
 #include <algorithm>

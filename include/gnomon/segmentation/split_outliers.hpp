@@ -5,9 +5,17 @@
 /// the rim. (Not in the thesis; assign_unlabeled gives what was split off to its neighbors.)
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <utility>
+#include <vector>
 
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>

@@ -12,10 +12,17 @@
 /// it: one edge joins two pieces, and no other edge between them need be looked for.
 #pragma once
 
+#include <algorithm>
 #include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
 
 #include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/segmentation/segments.hpp>
 

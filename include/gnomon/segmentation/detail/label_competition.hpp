@@ -4,13 +4,24 @@
 /// rather to that of most of its neighbors.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <limits>
+#include <utility>
+
+#include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {

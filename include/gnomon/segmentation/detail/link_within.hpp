@@ -7,9 +7,18 @@
 /// components_within.hpp reads fewer pairs.
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/detail/leaf_balls.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>

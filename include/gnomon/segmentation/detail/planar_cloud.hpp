@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What all steps of a segmentation into planes read of points: positions and noise. The headers of
-/// segmentation that include it do not include again what it does.
+/// What all steps of a segmentation into planes read of points: positions and noise.
 #pragma once
 
 #include <cstddef>

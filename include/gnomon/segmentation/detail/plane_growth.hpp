@@ -5,13 +5,24 @@
 /// region grows (after Poppinga et al. 2008).
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <limits>
+#include <utility>
+
+#include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {

@@ -4,13 +4,22 @@
 /// points, in turns.
 #pragma once
 
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
