@@ -108,6 +108,15 @@ class overlaps {
         return c;
     }
 
+    /// The number of regions that have this part in common with a segment, of it and of the
+    /// segment, even if together with another region they fit the segment better. O(regions *
+    /// segments).
+    [[nodiscard]] std::size_t matched(double tolerance) const {
+        std::vector<instance> found;
+        find_correct(tolerance, found);
+        return found.size();
+    }
+
   private:
     /// Regions and segments that are the same thing, and how well: the mean of the parts of both
     /// that overlap.

@@ -12147,8 +12147,32 @@ struct plane_estimate {
 
 namespace detail {
 
+/// Whether a point is of the half of its segment that is nearest to the median of each coordinate.
+/// A few far points, which turn the plane of all, are not.
+[[nodiscard]] auto is_central(const auto& cloud, std::span<const point_index> members) {
+    scratch<double> values;
+    const auto median = [&](auto&& value_of) {
+        values.clear();
+        for (const point_index i : members)
+            if (cloud.is_finite(i)) values.push_back(value_of(i));
+        if (values.empty()) return 0.0;
+        const auto half = values.begin() + std::ssize(values) / 2;
+        std::nth_element(values.begin(), half, values.end());
+        return *half;
+    };
+    Eigen::Vector3d middle(0.0, 0.0, 0.0);
+    for (int j = 0; j < 3; ++j)
+        middle[j] = median([&](point_index i) { return cloud.offsets[i][j]; });
+    const auto distance = [&cloud, middle](point_index i) {
+        return std::sqrt(squared_distance(cloud.offsets[i], middle));
+    };
+    const double reach = median(distance);
+    return [distance, reach](point_index i) { return distance(i) <= reach; };
+}
+
 /// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half. Planar if most points are on it.
+/// left out again and again, unless they are more than half. If they are from the plane of all,
+/// that of the half around the middle is tried. Planar if most points are on it.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -12163,7 +12187,11 @@ template <class Cloud>
     constexpr int most_passes = 5;  // performance only
     for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
         const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
-        if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) break;
+        if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) {
+            if (pass > 0) break;
+            region = sums_of(is_central(cloud, members));
+            continue;
+        }
         const bool rests = on.sums.count == region.sums.count;
         region = on;
         if (rests) break;
@@ -17310,7 +17338,6 @@ class cell_surfaces {
     }
 
   private:
-
     const spatial_index& points_;
     const noise_curve& noise_;        // of wide planes
     const noise_curve& exact_noise_;  // of each point for itself
