@@ -27,7 +27,7 @@ SECTIONS = [
      "the number of segments in the result. The first table is of the thesis's chain: smooth surfaces "
      "(Alg. 4.2) of normals from 50 neighbors, and merging; its noise of 15 mm is given. t_nve has the "
      "search tree, t_m the range images; the planes of surfaces are not in the thesis and in no sum of "
-     "this chain. The default chain, planes first on cells of the noise, has steps of its own: \"all\" is "
+     "this chain. The default chain, of planes on cells of the noise, has steps of its own: \"all\" is "
      "the sum of every one of them, measuring the noise and the planes of surfaces included."),
     ("fig_4_1", "Fig. 4.1: groups of points",
      "The thesis shows a laboratory whose objects are separate groups once the floor is removed, without "
