@@ -14610,9 +14610,9 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
-        const auto most = std::ranges::max(
-            {observation::free_space, observation::on_surface, observation::occluded}, {},
-            [&count](observation s) { return count[s]; });
+        auto most = observation::free_space;
+        for (const auto other : {observation::on_surface, observation::occluded})
+            if (count[other] > count[most]) most = other;
         return count[most] > 0 ? most : observation::unobserved;
     }
 
