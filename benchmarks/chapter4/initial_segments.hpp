@@ -109,7 +109,7 @@ struct merge_tally {
     [[nodiscard]] double recall() const { return wanted > 0.0 ? right / wanted : 1.0; }
 };
 
-/// Tallies where each pair counts as one, and as the number of points of both.
+/// Tallies where each pair counts as one, and by its points.
 struct merge_tallies {
     merge_tally pairs, by_points;
 };

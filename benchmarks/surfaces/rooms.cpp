@@ -81,7 +81,7 @@ struct score {
     std::uint64_t seed = 0;
     double iou = 0.0, iou_by_points = 0.0, impurity = 0.0, seconds = 0.0;
     std::size_t surfaces = 0, segments = 0;
-    merge_tally merging;  // by points
+    merge_tallies merging;
     // Not of an older version of the library:
     std::size_t blobs = 0;                          // flat segments that have a blob
     double ceiling = 0.0, ceiling_by_points = 0.0;  // IoU, as above
@@ -118,7 +118,7 @@ score score_of(const setting& how, std::uint64_t seed) {
                  taken.count(),
                  found.size(),
                  seen.surfaces.size(),
-                 merging_by_points(caster, truth, surfaces, seen.initial_segments, seen.surfaces)};
+                 merging_of(caster, truth, surfaces, seen.initial_segments, seen.surfaces)};
     add_scores_of_planes(result, truth, surfaces, seen, fewest);
     return result;
 }
@@ -135,12 +135,17 @@ json pooled(json row, const std::vector<score>& rooms) {
     const auto mean = [&](auto member) { return mean_of(rooms, member); };
     std::size_t blobs = 0;
     for (const score& s : rooms) blobs += s.blobs;
-    merge_tally merging;
-    for (const score& s : rooms) merging.add(s.merging, 1.0);
+    merge_tally merging;  // by points
+    double pairs = 0.0;
+    for (const score& s : rooms) {
+        merging.add(s.merging.by_points, 1.0);
+        pairs += s.merging.pairs.wanted;
+    }
     row.update({{"rooms", rooms.size()},
                 {"mean IoU", rounded(mean(&score::iou), 4)},
                 {"by points", rounded(mean(&score::iou_by_points), 4)},
                 {"impurity", rounded(mean(&score::impurity), 4)},
+                {"wanted pairs", pairs},
                 {"wanted", merging.wanted},
                 {"right", merging.right},
                 {"wrong", merging.wrong},
@@ -169,9 +174,9 @@ json row_of(json row, const score& s) {
                 {"IoU", rounded(s.iou, 5)},
                 {"by points", rounded(s.iou_by_points, 5)},
                 {"impurity", rounded(s.impurity, 5)},
-                {"wanted", s.merging.wanted},
-                {"right", s.merging.right},
-                {"wrong", s.merging.wrong},
+                {"wanted", s.merging.by_points.wanted},
+                {"right", s.merging.by_points.right},
+                {"wrong", s.merging.by_points.wrong},
                 {"segments", s.segments},
                 {"time [s]", rounded(s.seconds, 3)}});
     if (!is_older) row.update({{"blobs", s.blobs}, {"from the truth", rounded(s.ceiling, 5)}});

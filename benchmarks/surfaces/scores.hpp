@@ -80,12 +80,12 @@ inline std::int32_t most_frequent(const auto& points, auto&& value_of) {
         ->first;
 }
 
-/// The tally of merging, over pairs of initial segments that count with the points of the smaller
-/// one. Each is of the true surface of most of its points. A pair is wanted if an occluder
-/// interrupts one flat surface between them, also by a chain of such pairs.
-inline merge_tally merging_by_points(const sim::bvh_caster& caster, const sim::true_scan& truth,
-                                     const joined_surfaces& surfaces, const gnomon::segments& parts,
-                                     const gnomon::segments& merged) {
+/// The tallies of merging, over pairs of initial segments that count once, or with the points of
+/// the smaller one. Each is of the true surface of most of its points. A pair is wanted if an
+/// occluder interrupts one flat surface between them, also by a chain of such pairs.
+inline merge_tallies merging_of(const sim::bvh_caster& caster, const sim::true_scan& truth,
+                                const joined_surfaces& surfaces, const gnomon::segments& parts,
+                                const gnomon::segments& merged) {
     std::vector<std::int32_t> surface, label;
     for (std::size_t s = 0; s < parts.size(); ++s) {
         surface.push_back(most_frequent(parts[s], [&](auto i) { return surfaces.of(i); }));
@@ -96,7 +96,7 @@ inline merge_tally merging_by_points(const sim::bvh_caster& caster, const sim::t
             return surface[i] == surface[j] && surface[i] != sim::nothing &&
                    surfaces.is_flat(surface[i]);
         });
-    merge_tally total;
+    merge_tallies total;
     for (std::size_t i = 0; i < parts.size(); ++i) {
         for (std::size_t j = i + 1; j < parts.size(); ++j) {
             const bool is_done = label[i] == label[j] && label[i] != gnomon::unlabeled;
@@ -107,7 +107,9 @@ inline merge_tally merging_by_points(const sim::bvh_caster& caster, const sim::t
             } else if (is_done && surface[i] != surface[j]) {
                 pair.wrong = 1.0;
             }
-            total.add(pair, static_cast<double>(std::min(parts[i].size(), parts[j].size())));
+            total.pairs.add(pair, 1.0);
+            total.by_points.add(pair,
+                                static_cast<double>(std::min(parts[i].size(), parts[j].size())));
         }
     }
     return total;
