@@ -67,7 +67,7 @@ void print_room(const loaded_chain& chain, const selection& chosen, std::uint64_
     const gnomon::segments parts(seen.initial), found(chosen.merges ? seen.merged : seen.initial);
     const joined_surfaces surfaces(truth, seen.kept);
     const auto scores = recovered(surfaces, seen.kept, found, fewest);
-    const merge_tally merging = merging_by_points(caster, truth, surfaces, parts, found);
+    const merge_tally merging = merging_of(caster, truth, surfaces, parts, found).by_points;
     std::printf(
         "{\"noise [mm]\": %g, \"seed\": %llu, \"IoU\": %.5f, \"by points\": %.5f, "
         "\"impurity\": %.5f, \"wanted\": %.0f, \"right\": %.0f, \"wrong\": %.0f}\n",
