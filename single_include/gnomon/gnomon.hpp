@@ -11454,13 +11454,14 @@ struct besl_jain {
 // -------- gnomon/segmentation/detail/surface_noise.hpp -------------------------------------------
 
 /// @file
-/// How far noise displaces the points of a cloud across a surface. This is the only place where
-/// noise enters segmentation and merging: all else is counted in these deviations.
+/// How far noise displaces the points of a cloud across a surface: by these deviations planes are
+/// fit, compared and assigned.
 ///
 /// Noise acts along the rays, so that at oblique incidence its component across the surface is
 /// small; where no view point is known, it is the same in all directions. No surface is an exact
-/// plane, and no ray exactly known: neither is a deviation smaller than a flatness of 2 mm, nor
-/// than a third of the noise along the ray, nor than the rounding of the coordinates.
+/// plane, and no ray exactly known: the variance along the ray is that of the noise, of a flatness
+/// of 2 mm and of the rounding of the coordinates, and across a surface the deviation is at least a
+/// third of that along the ray.
 
 namespace gnomon::detail {
 
@@ -11697,7 +11698,8 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// Whether point i is on the plane of a region: within three standard deviations.
+    /// Whether point i is on the plane of a region: within three standard deviations of the noise,
+    /// times the root of its excess.
     [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
         const double distance = std::abs(to.plane.signed_distance(offsets[i]));
         return distance / noise[i].across(to.plane.normal) <=
@@ -12170,9 +12172,10 @@ namespace detail {
     return [distance, reach](point_index i) { return distance(i) <= reach; };
 }
 
-/// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half. If they are from the plane of all,
-/// that of the half around the middle is tried. Planar if most points are on it.
+/// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
+/// out, and it is fit again, until none is. If more than half are off the plane of all, the plane
+/// of the half around the middle is the first one. Planar if most points are on it, their variance
+/// is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -12262,9 +12265,10 @@ template <class Cloud>
 ///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
 /// @param noise   of the sensor
-/// @return an estimate for each segment. It is flat if most of its points are on the plane,
-///         within three standard deviations, fewer than 30 are farther from it than five, and their
-///         variance is at most 2.5 times that of the noise
+/// @return an estimate for each segment. It is flat if most of its points are on the plane, within
+///         three standard deviations of the region (at least those of the noise); fewer than 30 are
+///         farther from it than five of these and 1 cm; their variance is at most 2.5 times that of
+///         the noise; and the plane is not seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -12776,11 +12780,13 @@ class floor_search {
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
         constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
+        if (heights.bins.empty()) return std::nullopt;
+        const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (fewer * count < fullest(heights).count) continue;
+            if (fewer * count < most) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -13029,8 +13035,8 @@ inline void require_valid(const find_ceiling_options& search) {
 /// its view points are known, above it, and is clear of other things over a width that furniture
 /// does not have. It is fitted where nothing stands on it.
 ///
-/// @param up  unit vector against gravity; the floor is tilted by 3 degrees at most, perhaps twice
-///            that where it is wide
+/// @param up  unit vector against gravity; the floor is tilted by less than atan(2 band / width), 8
+///            degrees by default (tested up to 3 degrees, docs/results/surfaces.md)
 /// @return the plane, its normal on the side of `up`; nothing if no plane is a floor
 /// @throws std::invalid_argument  unless band and width are positive and `up` is of unit length,
 ///                                or if the view points are for another number of points
@@ -13183,7 +13189,7 @@ struct segment_oriented_points_options {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy O(n log n).
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy as well.
 template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -13495,9 +13501,10 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
-    /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
-    /// goes to the region, among those of its neighbors and its own, that explains it best, or to
-    /// none if all are too far; and regions next to each other that one plane explains are merged.
+    /// Grows new regions in what is unlabeled, and merges regions next to each other that one plane
+    /// explains. Then, in at most `most_rounds` rounds, each point goes to the region, among those
+    /// of its neighbors and its own, that explains it best, or to none if all are too far, and
+    /// regions are merged again.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
@@ -13779,7 +13786,9 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 /// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
 /// it differs from the exact one only at points repaired from a wider neighborhood, and where more
 /// neighbors tie than the graph lists.
-/// @throws std::invalid_argument  also if graph and points differ in size
+/// @throws std::invalid_argument  also if graph and points differ in size, or the graph lists an
+///                                index out of range
+/// Complexity: O(n k) for k neighbors in the graph. The same bytes for every execution.
 template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -14041,8 +14050,8 @@ template <merge_policy M>
 // -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
 
 /// @file
-/// The places of a moving sensor: view points nearer to each other than the standard deviation of
-/// the ranges are one place.
+/// The places of a moving sensor: view points in a cube as wide as the standard deviation of the
+/// ranges are one place.
 
 namespace gnomon::detail {
 
@@ -14533,7 +14542,7 @@ struct cloud_ray {
 /// What a sensor observed towards a place: a range image for each of its view points, whether one,
 /// one for each of several scans, or one for each point of a sensor that moves. Therefore queries
 /// are places, not pixels of one image, and gaps between points are sampled in space. View points
-/// nearer to each other than noise displaces points share an image.
+/// in a cube as wide as the typical noise share an image.
 ///
 /// Klasing 2010, Sec. 4.3.5, with the depth of the line at the ray of each pixel instead of an
 /// interpolated one (docs/thesis-notes.md, A19).
@@ -14600,7 +14609,7 @@ class visibility {
         });
     }
 
-    /// The images, one for each view point.
+    /// The images, one for each cube of view points.
     [[nodiscard]] std::span<const range_image> images() const { return images_; }
     /// The angle of a pixel.
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
@@ -14774,8 +14783,8 @@ class occlusion_merger {
             [this](std::size_t r) { return regions_[r].fit.centroid; });
     }
 
-    /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
-    /// (4.6).
+    /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
+    /// rho_o, Eq. (4.6), which is the smaller distance of both.
     [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
         const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
         const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
@@ -14908,10 +14917,12 @@ template <merge_policy M, execution X>
 
 /// Merges flat segments that are one surface behind something.
 ///
-/// @param points   any point range of n points; their view points as in `visibility`
+/// @param points   any point range of n points [m]; their view points as in `visibility`
 /// @param parts    segments of these points
 /// @param visible  what was seen from where, best by the whole cloud
 /// @param policy   `conservative`, `liberal` or another
+/// @return the segments afterwards, largest first, and all gaps that were examined; the same for
+///         every execution
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, or a negative or NaN
 ///                                threshold
@@ -17478,7 +17489,7 @@ struct perception_result {
         std::string_view name;
         double seconds;
     };
-    /// The noise that all steps went by.
+    /// The noise of the points, which all steps share.
     struct known_noise {
         noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
         /// That of wide planes: more, where neighbors have errors in common.
@@ -17721,8 +17732,8 @@ class perception_run {
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
 /// noise of the sensor, normals, planes, and merging of surfaces that an occluder interrupts. Each
-/// step is a policy of its own floor; the result holds what each step returned, and how long it
-/// took. All steps share one index of the points, one of their cells, and one noise.
+/// step is a policy of its own; the result holds what each step returned, and how long it took.
+/// All steps share one index of the points, one of their cells, and one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
@@ -17755,8 +17766,8 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes (`segment_planes`), on cells of the points: right for every sensor, as all lengths are
-/// multiples of its noise. Curved surfaces are several planes.
+/// Planes (`segment_planes`), on cells of the points: right for every sensor, as the lengths follow
+/// from its noise. Curved surfaces are several planes. `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};
 };
@@ -17809,9 +17820,8 @@ struct perception {
     using result_type = perception_result<estimate_t<Estimator>>;
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if
-    /// the
-    ///                                view point of a point with a normal is not finite
+    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
+    ///                                point with a normal has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -95,10 +95,12 @@ template <merge_policy M, execution X>
 
 /// Merges flat segments that are one surface behind something.
 ///
-/// @param points   any point range of n points; their view points as in `visibility`
+/// @param points   any point range of n points [m]; their view points as in `visibility`
 /// @param parts    segments of these points
 /// @param visible  what was seen from where, best by the whole cloud
 /// @param policy   `conservative`, `liberal` or another
+/// @return the segments afterwards, largest first, and all gaps that were examined; the same for
+///         every execution
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, or a negative or NaN
 ///                                threshold

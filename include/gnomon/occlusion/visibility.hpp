@@ -3,7 +3,7 @@
 /// What a sensor observed towards a place: a range image for each of its view points, whether one,
 /// one for each of several scans, or one for each point of a sensor that moves. Therefore queries
 /// are places, not pixels of one image, and gaps between points are sampled in space. View points
-/// nearer to each other than noise displaces points share an image.
+/// in a cube as wide as the typical noise share an image.
 ///
 /// Klasing 2010, Sec. 4.3.5, with the depth of the line at the ray of each pixel instead of an
 /// interpolated one (docs/thesis-notes.md, A19).
@@ -96,7 +96,7 @@ class visibility {
         });
     }
 
-    /// The images, one for each view point.
+    /// The images, one for each cube of view points.
     [[nodiscard]] std::span<const range_image> images() const { return images_; }
     /// The angle of a pixel.
     [[nodiscard]] angle pixel() const { return radians(pixel_); }

@@ -2,8 +2,8 @@
 /// @file
 /// The whole chain in one object, from a scan to its surfaces: removal of floor and ceiling, the
 /// noise of the sensor, normals, planes, and merging of surfaces that an occluder interrupts. Each
-/// step is a policy of its own floor; the result holds what each step returned, and how long it
-/// took. All steps share one index of the points, one of their cells, and one noise.
+/// step is a policy of its own; the result holds what each step returned, and how long it took.
+/// All steps share one index of the points, one of their cells, and one noise.
 ///
 ///     const gnomon::perception<> chain;
 ///     auto seen = chain(scan, gnomon::threads{});
@@ -59,8 +59,8 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes (`segment_planes`), on cells of the points: right for every sensor, as all lengths are
-/// multiples of its noise. Curved surfaces are several planes.
+/// Planes (`segment_planes`), on cells of the points: right for every sensor, as the lengths follow
+/// from its noise. Curved surfaces are several planes. `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};
 };
@@ -113,9 +113,8 @@ struct perception {
     using result_type = perception_result<estimate_t<Estimator>>;
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if
-    /// the
-    ///                                view point of a point with a normal is not finite
+    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
+    ///                                point with a normal has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -29,7 +29,7 @@ struct perception_result {
         std::string_view name;
         double seconds;
     };
-    /// The noise that all steps went by.
+    /// The noise of the points, which all steps share.
     struct known_noise {
         noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
         /// That of wide planes: more, where neighbors have errors in common.

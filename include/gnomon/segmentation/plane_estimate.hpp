@@ -74,9 +74,10 @@ namespace detail {
     return [distance, reach](point_index i) { return distance(i) <= reach; };
 }
 
-/// Some points of a cloud and their plane, in coordinates of the cloud: points off the plane are
-/// left out again and again, unless they are more than half. If they are from the plane of all,
-/// that of the half around the middle is tried. Planar if most points are on it.
+/// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
+/// out, and it is fit again, until none is. If more than half are off the plane of all, the plane
+/// of the half around the middle is the first one. Planar if most points are on it, their variance
+/// is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -166,9 +167,10 @@ template <class Cloud>
 ///                the rays, else it is the same in all directions
 /// @param parts   segments of these points
 /// @param noise   of the sensor
-/// @return an estimate for each segment. It is flat if most of its points are on the plane,
-///         within three standard deviations, fewer than 30 are farther from it than five, and their
-///         variance is at most 2.5 times that of the noise
+/// @return an estimate for each segment. It is flat if most of its points are on the plane, within
+///         three standard deviations of the region (at least those of the noise); fewer than 30 are
+///         farther from it than five of these and 1 cm; their variance is at most 2.5 times that of
+///         the noise; and the plane is not seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>

@@ -105,8 +105,8 @@ inline void require_valid(const find_ceiling_options& search) {
 /// its view points are known, above it, and is clear of other things over a width that furniture
 /// does not have. It is fitted where nothing stands on it.
 ///
-/// @param up  unit vector against gravity; the floor is tilted by 3 degrees at most, perhaps twice
-///            that where it is wide
+/// @param up  unit vector against gravity; the floor is tilted by less than atan(2 band / width), 8
+///            degrees by default (tested up to 3 degrees, docs/results/surfaces.md)
 /// @return the plane, its normal on the side of `up`; nothing if no plane is a floor
 /// @throws std::invalid_argument  unless band and width are positive and `up` is of unit length,
 ///                                or if the view points are for another number of points

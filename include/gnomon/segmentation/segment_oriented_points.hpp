@@ -81,7 +81,7 @@ struct segment_oriented_points_options {
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if surface and points differ in size, for a radius that is
 ///                                negative, infinite or NaN, or an angle outside [0, 90] degrees
-/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy O(n log n).
+/// Complexity: O(n (log n + k_r)) for k_r points within the radius; greedy as well.
 template <class R, normal_range Surface, oriented_dissimilarity D, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>

@@ -128,7 +128,9 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 /// that the graph lists (k_r <= k in Alg. 4.2). For the graph that the surface was estimated from
 /// it differs from the exact one only at points repaired from a wider neighborhood, and where more
 /// neighbors tie than the graph lists.
-/// @throws std::invalid_argument  also if graph and points differ in size
+/// @throws std::invalid_argument  also if graph and points differ in size, or the graph lists an
+///                                index out of range
+/// Complexity: O(n k) for k neighbors in the graph. The same bytes for every execution.
 template <class R, neighborhood_graph G, surfel_range Surface, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>

@@ -91,8 +91,8 @@ class occlusion_merger {
             [this](std::size_t r) { return regions_[r].fit.centroid; });
     }
 
-    /// Whether the centroid of the smaller segment is near the plane of the larger one: rho_o, Eq.
-    /// (4.6).
+    /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
+    /// rho_o, Eq. (4.6), which is the smaller distance of both.
     [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
         const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
         const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The places of a moving sensor: view points nearer to each other than the standard deviation of
-/// the ranges are one place.
+/// The places of a moving sensor: view points in a cube as wide as the standard deviation of the
+/// ranges are one place.
 #pragma once
 
 #include <algorithm>

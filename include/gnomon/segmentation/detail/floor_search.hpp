@@ -54,11 +54,13 @@ class floor_search {
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
         constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
+        if (heights.bins.empty()) return std::nullopt;
+        const std::size_t most = fullest(heights).count;
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (fewer * count < fullest(heights).count) continue;
+            if (fewer * count < most) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;

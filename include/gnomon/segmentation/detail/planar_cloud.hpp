@@ -54,7 +54,8 @@ class planar_cloud {
     void add(std::size_t i, plane_sums& to) const {
         to.add(offsets[i], noise[i], counts.empty() ? 1 : counts[i]);
     }
-    /// Whether point i is on the plane of a region: within three standard deviations.
+    /// Whether point i is on the plane of a region: within three standard deviations of the noise,
+    /// times the root of its excess.
     [[nodiscard]] bool is_on(std::size_t i, const region_plane& to) const {
         const double distance = std::abs(to.plane.signed_distance(offsets[i]));
         return distance / noise[i].across(to.plane.normal) <=

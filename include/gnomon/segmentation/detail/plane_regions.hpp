@@ -34,9 +34,10 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
-    /// Grows new regions in what is unlabeled. Then, in rounds, until nothing changes, each point
-    /// goes to the region, among those of its neighbors and its own, that explains it best, or to
-    /// none if all are too far; and regions next to each other that one plane explains are merged.
+    /// Grows new regions in what is unlabeled, and merges regions next to each other that one plane
+    /// explains. Then, in at most `most_rounds` rounds, each point goes to the region, among those
+    /// of its neighbors and its own, that explains it best, or to none if all are too far, and
+    /// regions are merged again.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How far noise displaces the points of a cloud across a surface. This is the only place where
-/// noise enters segmentation and merging: all else is counted in these deviations.
+/// How far noise displaces the points of a cloud across a surface: by these deviations planes are
+/// fit, compared and assigned.
 ///
 /// Noise acts along the rays, so that at oblique incidence its component across the surface is
 /// small; where no view point is known, it is the same in all directions. No surface is an exact
-/// plane, and no ray exactly known: neither is a deviation smaller than a flatness of 2 mm, nor
-/// than a third of the noise along the ray, nor than the rounding of the coordinates.
+/// plane, and no ray exactly known: the variance along the ray is that of the noise, of a flatness
+/// of 2 mm and of the rounding of the coordinates, and across a surface the deviation is at least a
+/// third of that along the ray.
 #pragma once
 
 #include <algorithm>
