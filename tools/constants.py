@@ -43,8 +43,6 @@ FORMULAS = [
     (r"std::array<[\w:]+, (\d+)>", "components", "the number of components"),
     (r"(?<=[\w\]])\[(\d)\]", "component", "a component, or their number"),
     (r"\bcount < (3)\b", "points of a plane", "three points determine a plane"),
-    (r"(0x9e3779b97f4a7c15)u", "multiplier", "2^64 over the golden ratio (Knuth)"),
-    (r">> (32)\b", "half of a word", "the upper half of 64 bits"),
     (r"\b(1\.4826)\b", "deviations per median", "the median of a normal distribution"),
     (r"\b(12\.0) \* \S*values\[", "squares per variance", "a rectangle has side^2 / 12"),
     (r"\bexp2\((0\.5) \*", "one half", "a square root"),

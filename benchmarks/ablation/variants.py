@@ -44,7 +44,7 @@ STEPS = {
         ("gnomon/perception/detail/cell_surfaces.hpp", "        cloud_->counts = cells_.counts;\n", "")]},
     "competition of planes for points": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp",
-         "competition.begin((*graph_)[c], of_cells, of_cells[c]);", "labels[i] = of_cells[c]; continue;")]},
+         "competition.begin(graph[c], of_cells, of_cells[c]);", "labels[i] = of_cells[c]; continue;")]},
 }
 
 

@@ -18,25 +18,24 @@
 
 /// The competition of the true surfaces, with the noise that was measured. Floor and ceiling take
 /// no part.
+template <class Estimate>
 class true_competition {
   public:
     /// @param seen  what `perception` returned for this scan
-    template <class Estimate>
     true_competition(const sim::true_scan& truth, const joined_surfaces& surfaces,
                      const gnomon::perception_result<Estimate>& seen)
         : kept_(seen.kept),
           points_(kept_points(truth, seen.kept)),
-          noise_(seen.noise.of_planes),
-          exact_noise_(seen.noise.curve),
-          is_seen_(!seen.noise.is_across_surface),
+          noise_(seen.noise),
           cells_(points_,
                  [&](std::size_t i) {
                      constexpr double least = 1e-6;  // [m], as in the chain
-                     return std::max(noise_.along(points_[i] - points_.viewpoints[i]), least);
+                     return std::max(noise_.of_planes.along(points_[i] - points_.viewpoints[i]),
+                                     least);
                  }),
           index_(index_of(cells_)),
           graph_(gnomon::knn{.k = gnomon::noise_knn{}.k}(index_)),
-          cloud_(index_, noise_, gnomon::sequential{}, is_seen_) {
+          cloud_(index_, noise_.of_planes, gnomon::sequential{}, !noise_.is_across_surface) {
         cloud_.counts = cells_.counts;
         std::vector<std::vector<gnomon::point_index>> members(index_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
@@ -52,22 +51,10 @@ class true_competition {
 
     /// The labels of all points of the scan.
     [[nodiscard]] gnomon::segments segments(std::size_t points) const {
+        const auto of_kept = gnomon::detail::labels_of_points(
+            points_, noise_, cells_, cloud_, graph_, labels_, regions_, gnomon::sequential{});
         std::vector<std::int32_t> labels(points, gnomon::unlabeled);
-        gnomon::detail::label_competition<std::int32_t> competition;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (!points_.is_finite(i)) continue;
-            const auto c = cells_.of_point[i];
-            competition.begin(graph_[c], labels_, labels_[c]);
-            const auto noise = gnomon::detail::noise_of_point(points_, noise_, i, is_seen_);
-            const auto exact = gnomon::detail::noise_of_point(points_, exact_noise_, i, is_seen_);
-            const Eigen::Vector3d offset = points_[i] - cloud_.origin;
-            labels[kept_[i]] = competition.winner([&](std::int32_t label) {
-                const auto& to = regions_[static_cast<std::size_t>(label)];
-                return gnomon::detail::is_certainly_off(offset, exact, to)
-                           ? -1.0
-                           : gnomon::detail::misfit_of(offset, noise, to);
-            });
-        }
+        for (std::size_t i = 0; i < kept_.size(); ++i) labels[kept_[i]] = of_kept[i];
         return gnomon::segments(labels);
     }
 
@@ -104,7 +91,8 @@ class true_competition {
         }
     }
 
-    /// The planes of the labels. Curved surfaces have none, nor surfaces of too few cells.
+    /// The planes of the labels. Curved surfaces have none, nor have surfaces of cells that do not
+    /// determine one.
     void fit() {
         regions_.assign(is_flat_.size(), {});
         for (std::size_t c = 0; c < labels_.size(); ++c)
@@ -118,9 +106,7 @@ class true_competition {
 
     std::vector<gnomon::point_index> kept_;
     gnomon::spatial_index points_;  // those kept
-    gnomon::noise_curve noise_;     // of wide planes
-    gnomon::noise_curve exact_noise_;
-    bool is_seen_;  // noise lies along the rays
+    typename gnomon::perception_result<Estimate>::known_noise noise_;
     gnomon::detail::cells cells_;
     gnomon::spatial_index index_;  // of the cells
     gnomon::adjacency graph_;

@@ -2,7 +2,6 @@
 // Merging of occluded segments where its work could grow faster than the cloud: with very many
 // coplanar segments, and with a view point for each point. And with a point that is far from all
 // others of its segment.
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -14,6 +13,7 @@
 #include <Eigen/Core>
 
 #include "../chapter4/record.hpp"
+#include <gnomon/core/detail/stopwatch.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 
@@ -31,9 +31,9 @@ struct drawn {
 };
 
 double seconds_of(auto&& work) {
-    const auto start = std::chrono::steady_clock::now();
+    const gnomon::detail::stopwatch watch;
     work();
-    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return watch.seconds();
 }
 
 /// A wall 3 m away of segments of 3 x 2 points each, 2 cm apart.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The chain that these programs test, in its default form: all that they use of `perception`, and
-/// of its result only the members `initial_segments`, `surfaces`, `kept`, `floor` and `seconds`.
+/// The default chain as rooms.cpp, cameras.cpp and floors.cpp call it. Of the result of an older
+/// version they use only `initial_segments`, `surfaces`, `kept` and `floor`.
 ///
 /// For a comparison, rooms.cpp also compiles with older versions of the library, which require
 /// the noise as a parameter; see older_library.hpp.
@@ -33,13 +33,9 @@ struct older_result {
     gnomon::segments initial_segments, surfaces;
     std::vector<gnomon::point_index> kept;
     std::optional<gnomon::plane> floor;
-    decltype(Result::seconds) seconds;
 
     explicit older_result(Result r)
-        : surfaces(std::move(r.surfaces)),
-          kept(std::move(r.kept)),
-          floor(r.floor),
-          seconds(r.seconds) {
+        : surfaces(std::move(r.surfaces)), kept(std::move(r.kept)), floor(r.floor) {
         if constexpr (requires { r.fragments; })
             initial_segments = std::move(r.fragments);
         else

@@ -134,12 +134,12 @@ double mean_of(const std::vector<score>& rooms, auto member) {
 json pooled(json row, const std::vector<score>& rooms) {
     const auto mean = [&](auto member) { return mean_of(rooms, member); };
     std::size_t blobs = 0;
-    for (const score& s : rooms) blobs += s.blobs;
     merge_tally merging;  // by points
     double pairs = 0.0;
     for (const score& s : rooms) {
         merging.add(s.merging.by_points, 1.0);
         pairs += s.merging.pairs.wanted;
+        blobs += s.blobs;
     }
     row.update({{"rooms", rooms.size()},
                 {"mean IoU", rounded(mean(&score::iou), 4)},

@@ -4,7 +4,6 @@
 // with more and more noise. The scans are not part of the repository; without them the tables are
 // empty.
 #include <algorithm>
-#include <chrono>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
@@ -19,6 +18,7 @@
 #include "../chapter4/plane_scans.hpp"
 #include "../chapter4/record.hpp"
 #include "flatness_check.hpp"
+#include <gnomon/core/detail/stopwatch.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io/read.hpp>
 #include <gnomon/perception.hpp>
@@ -55,9 +55,9 @@ json row_of(const files::path& file) {
     constexpr std::size_t fewest = 30;  // points of a surface that counts
     const gnomon::scan scan = gnomon::io::read(file.string());
     const gnomon::perception<> chain;
-    const auto start = std::chrono::steady_clock::now();
+    const gnomon::detail::stopwatch watch;
     const auto seen = chain(scan);
-    const std::chrono::duration<double> taken = std::chrono::steady_clock::now() - start;
+    const double taken = watch.seconds();
 
     std::vector<double> ranges;
     for (std::size_t i = 0; i < scan.size(); ++i)
@@ -83,7 +83,7 @@ json row_of(const files::path& file) {
             {"labeled [%]", rounded(100.0 * static_cast<double>(labeled) / finite, 1)},
             {"flat", flat.flat},
             {"flat with a blob", flat.with_blob},
-            {"time [s]", rounded(taken.count(), 2)}};
+            {"time [s]", rounded(taken, 2)}};
 }
 
 /// All real scans, or the smallest one.

@@ -11562,8 +11562,8 @@ struct region_plane {
     bool is_determined = false;
     bool is_seen = false;  ///< not edge-on, as the planes of scan lines are
 
-    /// The variance of points of the region, in variances of their noise: more than that where
-    /// surfaces are rough.
+    /// The variance of points of the region, in variances of their noise: chi2, clamped to
+    /// [1, 2.5]; more than 1 where the surface is rough.
     [[nodiscard]] double excess() const { return std::clamp(chi2, 1.0, most_excess); }
 
     /// Of the roughest surface; chosen on furnished rooms 20,001 to 20,008 and an office
@@ -11973,7 +11973,6 @@ inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
-template <class Label>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -12009,11 +12008,11 @@ class label_competition {
 
   private:
     struct candidate {
-        Label label;
+        std::int32_t label;
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(Label label) {
+    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
@@ -12085,7 +12084,7 @@ template <neighborhood_graph G, execution X>
     } after{scratch<std::int32_t>(labels.size(), unlabeled)};
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        label_competition<std::int32_t> competition;
+        label_competition competition;
         scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;
@@ -12149,9 +12148,9 @@ struct plane_estimate {
 
 namespace detail {
 
-/// Whether a point is of the half of its segment that is nearest to the median of each coordinate.
-/// A few far points, which turn the plane of all, are not.
-[[nodiscard]] auto is_central(const auto& cloud, std::span<const point_index> members) {
+/// The half of a segment that is nearest to the median of each coordinate, as a predicate of its
+/// points. A few far points, which turn the plane of all, are not of it. O(n).
+[[nodiscard]] auto central_half(const auto& cloud, std::span<const point_index> members) {
     scratch<double> values;
     const auto median = [&](auto&& value_of) {
         values.clear();
@@ -12192,7 +12191,7 @@ template <class Cloud>
         const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
         if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) {
             if (pass > 0) break;
-            region = sums_of(is_central(cloud, members));
+            region = sums_of(central_half(cloud, members));
             continue;
         }
         const bool rests = on.sums.count == region.sums.count;
@@ -12267,7 +12266,8 @@ template <class Cloud>
 /// @param noise   of the sensor
 /// @return an estimate for each segment. It is flat if most of its points are on the plane, within
 ///         three standard deviations of the region (at least those of the noise); fewer than 30 are
-///         farther from it than five of these and 1 cm; their variance is at most 2.5 times that of
+///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
+///         to [1, 2.5]; their variance is at most 2.5 times that of
 ///         the noise; and the plane is not seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
@@ -13267,7 +13267,7 @@ class plane_growth {
 
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
 
-    /// The free points by the mean squared distance of their neighbors from the plane of their
+    /// The free points by their roughness, each with it: the variance of the neighborhood along the
     /// normal, in variances of the noise.
     template <execution X>
     [[nodiscard]] auto flattest_first(const X& run) const {
@@ -13356,53 +13356,6 @@ class plane_growth {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
-
-/// @file
-/// Whether one plane explains two regions as well as two planes do: the common plane follows from
-/// the sums of both, and no point is looked at again.
-
-namespace gnomon::detail {
-
-/// The plane of two regions.
-[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
-    plane_sums both = a.sums;
-    both.add(b.sums);
-    return both.fit();
-}
-
-/// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times that
-/// about their own.
-[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
-    const region_plane both = plane_of_both(a, b);
-    if (!both.is_determined) return std::numeric_limits<double>::infinity();
-    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
-    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
-}
-
-/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
-/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
-/// own must be nearly parallel to that of both.
-[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
-    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
-    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
-    const double nearly = min_cosine(max_angle);
-    const region_plane both = plane_of_both(a, b);
-    const auto statistic = [&](const auto& r) {
-        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
-        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
-    };
-    const auto is_parallel = [&](const auto& r) {
-        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
-    };
-    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
-        return std::numeric_limits<double>::infinity();
-    return (statistic(a) + statistic(b)) / chi2_of_3;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/agglomeration.hpp -------------------------------------------
 
 /// @file
@@ -13480,6 +13433,53 @@ class agglomeration {
     union_find sets_;
     scratch<char> is_new_;  // since the round before
 };
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/plane_comparison.hpp ----------------------------------------
+
+/// @file
+/// Whether one plane explains two regions as well as two planes do: the common plane follows from
+/// the sums of both, and no point is looked at again.
+
+namespace gnomon::detail {
+
+/// The plane of two regions.
+[[nodiscard]] region_plane plane_of_both(const auto& a, const auto& b) {
+    plane_sums both = a.sums;
+    both.add(b.sums);
+    return both.fit();
+}
+
+/// How much worse one plane explains two regions next to each other than two planes do; at most 1
+/// if they may be one: the variance of either about the common plane is at most 2.5 times the
+/// larger of those about their own, which count as 1 to 2.5 times that of the noise.
+[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+    const region_plane both = plane_of_both(a, b);
+    if (!both.is_determined) return std::numeric_limits<double>::infinity();
+    const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
+    return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
+}
+
+/// How much worse one plane explains two regions apart, by Chow's test of the equality of two
+/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
+/// own must be nearly parallel to that of both.
+[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
+    constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
+    constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
+    const double nearly = min_cosine(max_angle);
+    const region_plane both = plane_of_both(a, b);
+    const auto statistic = [&](const auto& r) {
+        const double worse = std::max(0.0, r.sums.chi2_about(both.plane) - r.fit.chi2);
+        return static_cast<double>(r.sums.count) * worse / r.fit.excess();
+    };
+    const auto is_parallel = [&](const auto& r) {
+        return std::abs(dot(r.fit.plane.normal, both.plane.normal)) >= nearly;
+    };
+    if (!both.is_determined || !is_parallel(a) || !is_parallel(b))
+        return std::numeric_limits<double>::infinity();
+    return (statistic(a) + statistic(b)) / chi2_of_3;
+}
 
 }  // namespace gnomon::detail
 
@@ -13610,8 +13610,8 @@ class plane_regions {
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths are
-/// multiples of the noise, so that no distance need be set.
+/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths
+/// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 
 namespace gnomon {
 
@@ -14670,35 +14670,37 @@ class visibility {
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
             expected * pixel_;
-        const auto told_by = [&](const range_image::pixel& other) {
+        const auto observation_in = [&](const range_image::pixel& other) {
             const double range = image.range(other);
             if (range < 0.0) return observation::unobserved;
             if (range < expected - margin) return observation::occluded;
             return range > expected + margin ? observation::free_space : observation::on_surface;
         };
         const range_image::pixel at = image.pixel_of(place);
-        const observation here = told_by(at);
+        const observation here = observation_in(at);
         if (here != observation::unobserved) return here;
         // Rays are not spaced as evenly as pixels: the adjacent pixels count as well. Across the
         // lines of a scan the next ray may be two pixels away; beyond one pixel only occlusion
         // counts as evidence.
-        const observation beside = told_about(at, 1, image, told_by);
-        const bool is_hidden = beside == observation::unobserved &&
-                               told_about(at, 2, image, told_by) == observation::occluded;
-        return is_hidden ? observation::occluded : beside;
+        const observation nearby = observation_around(at, 1, image, observation_in);
+        const bool is_hidden =
+            nearby == observation::unobserved &&
+            observation_around(at, 2, image, observation_in) == observation::occluded;
+        return is_hidden ? observation::occluded : nearby;
     }
 
     /// The observation of all pixels around one with a return. At an edge of an occluder some
     /// pixels show the occluder, and some the surface: the place is neither free nor certainly
     /// occluded.
-    [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
-                                                const range_image& image, const auto& told_by) {
+    [[nodiscard]] static observation observation_around(const range_image::pixel& at,
+                                                        std::size_t reach, const range_image& image,
+                                                        const auto& observation_in) {
         observation_count about;
         for (std::size_t e = at.elevation - std::min(at.elevation, reach);
              e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - reach;
                  a <= at.azimuth + image.width() + reach; ++a)
-                about.add(told_by({a % image.width(), e}));
+                about.add(observation_in({a % image.width(), e}));
         }
         const std::size_t free = about[observation::free_space];
         const std::size_t on = about[observation::on_surface];
@@ -14759,7 +14761,8 @@ class occlusion_merger {
         union_find sets = agglomeration(regions_)(
             pairs(),
             [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
+                return is_near(a, b) ? unlikeness_of_apart(a, b)
+                                     : std::numeric_limits<double>::infinity();
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
@@ -14926,7 +14929,9 @@ template <merge_policy M, execution X>
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, or a negative or NaN
 ///                                threshold
-/// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
+/// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
+/// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
+/// none.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>
@@ -17158,282 +17163,6 @@ class stopwatch {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/detail/cells.hpp ---------------------------------------------------
-
-/// @file
-/// A cloud thinned to its noise: the points of each cube, one standard deviation wide, become their
-/// mean.
-
-namespace gnomon::detail {
-
-/// The cells of the finite points of an index, in the order of their first points.
-struct cells {
-    scratch<Eigen::Vector3d> means;  ///< [m]
-    viewpoint_table viewpoints;      ///< the means of those of the points
-    scratch<point_index> first;      ///< the first point of each
-    scratch<point_index> counts;     ///< of the points of each
-    scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
-
-    /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
-    ///               of the root of 2, so that cells of many widths share a grid
-    cells(const spatial_index& index, auto&& width) {
-        const Eigen::Vector3d least = least_corner(index);
-        of_point.assign(index.size(), no_cell);
-        constexpr std::size_t fewest_slots = 16;  // performance only
-        const std::size_t slots = std::bit_ceil(std::max(2 * index.finite(), fewest_slots));
-        scratch<point_index> slot(slots, no_cell);
-        scratch<key> keys;
-        scratch<Eigen::Vector3d> seen_from;
-        const bool has_many = index.viewpoints.positions().size() > 1;
-        for (std::size_t i = 0; i < index.size(); ++i) {
-            if (!index.is_finite(i)) continue;
-            const Eigen::Vector3d p = index[i];
-            const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash_of(own) & (slots - 1);
-            while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
-            if (slot[at] == no_cell) {
-                slot[at] = static_cast<point_index>(keys.size());
-                keys.push_back(own);
-                means.push_back(p);
-                counts.push_back(0);
-                first.push_back(static_cast<point_index>(i));
-                if (has_many) seen_from.push_back(index.viewpoints[i]);
-            }
-            const point_index c = of_point[i] = slot[at];
-            const double share = 1.0 / static_cast<double>(++counts[c]);
-            means[c] = combined(1.0 - share, means[c], share, p);
-            if (has_many)
-                seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
-        }
-        viewpoints =
-            has_many
-                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
-                : index.viewpoints;
-    }
-
-    static constexpr point_index no_cell = std::numeric_limits<point_index>::max();
-
-  private:
-    using key = std::array<std::int64_t, 4>;
-
-    [[nodiscard]] static Eigen::Vector3d least_corner(const spatial_index& index) {
-        constexpr double infinity = std::numeric_limits<double>::infinity();
-        Eigen::Vector3d least(infinity, infinity, infinity);
-        for (std::size_t i = 0; i < index.size(); ++i) {
-            if (!index.is_finite(i)) continue;
-            const Eigen::Vector3d p = index[i];
-            for (int a = 0; a < 3; ++a) least[a] = std::min(least[a], p[a]);
-        }
-        return least;
-    }
-
-    [[nodiscard]] static key key_of(const Eigen::Vector3d& offset, double width) {
-        const double level = std::floor(2.0 * std::log2(width));
-        const double side = std::exp2(0.5 * level);
-        constexpr double most = 4e18;  // numerical: overflow of std::int64_t
-        const auto cube = [&](int a) {
-            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, most)));
-        };
-        return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
-    }
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/perception/detail/cell_surfaces.hpp ---------------------------------------------
-
-/// @file
-/// The steps of `planes_on_cells`. All of them run on cells, one standard deviation wide, which
-/// determine a surface as well as the points do, and are fewer. The last step gives the points
-/// their segments.
-
-namespace gnomon::detail {
-
-/// The cells of the points of an index, and what is found in them step by step.
-template <class Estimate>
-class cell_surfaces {
-  public:
-    using surface_type = std::vector<surfel<Estimate>>;
-
-    /// @param points   of which the cells are
-    /// @param noise    of the points: perception_result::known_noise
-    /// @param index    memory for the index of the cells
-    /// @param surface  memory for their surface elements
-    template <execution X>
-    cell_surfaces(const spatial_index& points, const auto& noise, spatial_index& index,
-                  surface_type& surface, const X& run)
-        : points_(points),
-          noise_(noise.of_planes),
-          exact_noise_(noise.curve),
-          index_(index),
-          surface_(surface),
-          cells_(points, [&](std::size_t i) {
-              constexpr double least = 1e-6;  // [m]; numerical: at no noise, a cell is a point
-              const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
-              return std::max(noise.of_planes.along(ray), least);
-          }) {
-        index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
-            index.viewpoints = cells_.viewpoints.empty()
-                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
-                                   : cells_.viewpoints;
-    }
-
-    /// The normals of the cells, and the graph of their nearest neighbors.
-    template <class N, class E, execution X>
-    void estimate(const N& neighborhood, const E& estimator, const X& run) {
-        scratch_graph::arrays graph;
-        knn nearest{.k = noise_knn{}.k};
-        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
-        const auto record = [&](auto&& sweep) {
-            const auto k = nearest.neighbors_of_each(index_.tree().size());
-            sweep_equal_sizes(*k, index_, run, graph, sweep);
-        };
-        if constexpr (std::same_as<N, noise_knn>) {
-            record([&](auto&& make_recorder) {  // one search for both
-                estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
-                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
-                });
-            });
-        } else {
-            estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
-        }
-        graph_.emplace(std::move(graph));
-        orient_normals(index_, surface_, run);
-    }
-
-    /// The planes.
-    template <execution X>
-    void find(const segment_planes_options& planes, const X& run) {
-        cloud_.emplace(index_, noise_, run);
-        cloud_->counts = cells_.counts;
-        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
-                                           planes.max_angle, run));
-    }
-
-    /// The labels of the points, of the regions.
-    template <execution X>
-    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        scratch<std::int32_t> labels(points_.size(), unlabeled);
-        const auto& of_cells = regions_->labels();
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            label_competition<std::int32_t> competition;
-            for (std::size_t i = begin; i < end; ++i) {
-                const point_index c = cells_.of_point[i];
-                if (c == cells::no_cell) continue;
-                competition.begin((*graph_)[c], of_cells, of_cells[c]);
-                const bool is_seen = !index_.viewpoints.empty();
-                const point_noise noise = noise_of_point(points_, noise_, i, is_seen);
-                const point_noise exact = noise_of_point(points_, exact_noise_, i, is_seen);
-                const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
-                labels[i] = competition.winner([&](std::int32_t label) {
-                    const planar_region& to = regions_->regions()[static_cast<std::size_t>(label)];
-                    return is_certainly_off(offset, exact, to) ? -1.0
-                                                               : misfit_of(offset, noise, to);
-                });
-            }
-        });
-        return labels;
-    }
-
-    [[nodiscard]] const spatial_index& index() const { return index_; }
-    /// The labels of the cells.
-    [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
-    /// A point of a cell.
-    [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
-    /// The surface element of a point: that of its cell.
-    [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
-        const point_index c = cells_.of_point[point];
-        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
-    }
-
-  private:
-    const spatial_index& points_;
-    const noise_curve& noise_;        // of wide planes
-    const noise_curve& exact_noise_;  // of each point for itself
-    spatial_index& index_;
-    surface_type& surface_;
-    cells cells_;
-    std::optional<scratch_graph> graph_;
-    std::optional<planar_cloud> cloud_;
-    std::optional<plane_regions<scratch_graph>> regions_;
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/normals/detail/wide_noise.hpp ---------------------------------------------------
-
-/// @file
-/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
-/// scatter, so that a wide plane deviates more than a small neighborhood. That is
-/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
-
-namespace gnomon::detail {
-
-/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
-/// measured, and is more.
-/// @param noise   that of small neighborhoods
-/// @param sparse  memory for the index of these points
-template <class X>
-[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
-                                               spatial_index& sparse, const X& run) {
-    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
-    if (thinning < 2) return noise;
-    scratch<point_index> some;
-    double range = 0.0;
-    for (std::size_t i = 0; i < index.size(); ++i) {
-        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
-        some.push_back(static_cast<point_index>(i));
-        range += length(difference(index[i], index.viewpoints[i]));
-    }
-    sparse.rebuild(subset_view<spatial_index>(index, some), run);
-    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
-    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
-    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/perception/detail/known_noise.hpp -----------------------------------------------
-
-/// @file
-/// The noise that all steps of `perception` share: that which is given, or measured, or else that
-/// across the surfaces, with the reason.
-
-namespace gnomon::detail {
-
-/// @param noise   becomes that of the points: perception_result::known_noise
-/// @param given   by the user, if any
-/// @param sparse  memory for the index of some of the points
-template <class X>
-void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                spatial_index& sparse, const X& run) {
-    noise = {};
-    if (given) {
-        noise.curve = noise.of_planes = *given;
-        return;
-    }
-    const measured_noise found = measure_noise(points, run);
-    if (found.curve) {
-        noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
-        return;
-    }
-    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
-    noise.is_across_surface = true;
-    noise.reason = found.reason;
-}
-
-/// The same policy for this noise, if it depends on any.
-template <class Policy>
-[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
-    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
-    return policy;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/perception/detail/perception_memory.hpp -----------------------------------------
 
 /// @file
@@ -17523,6 +17252,294 @@ struct perception_result {
 };
 
 }  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/cells.hpp ---------------------------------------------------
+
+/// @file
+/// A cloud thinned to its noise: the points of each cube, at most one standard deviation wide,
+/// become their mean.
+
+namespace gnomon::detail {
+
+/// The cells of the finite points of an index, in the order of their first points.
+struct cells {
+    scratch<Eigen::Vector3d> means;  ///< [m]
+    viewpoint_table viewpoints;      ///< the means of those of the points
+    scratch<point_index> first;      ///< the first point of each
+    scratch<point_index> counts;     ///< of the points of each
+    scratch<point_index> of_point;   ///< the cell of each finite point; else no_cell
+
+    /// @param width  width(i): of the cell of point i [m], greater than 0; rounded down to a power
+    ///               of the root of 2, so that cells of many widths share a grid
+    cells(const spatial_index& index, auto&& width) {
+        const Eigen::Vector3d least = least_corner(index);
+        of_point.assign(index.size(), no_cell);
+        constexpr std::size_t fewest_slots = 16;  // performance only
+        const std::size_t slots = std::bit_ceil(std::max(2 * index.finite(), fewest_slots));
+        scratch<point_index> slot(slots, no_cell);
+        scratch<key> keys;
+        scratch<Eigen::Vector3d> seen_from;
+        const bool has_many = index.viewpoints.positions().size() > 1;
+        for (std::size_t i = 0; i < index.size(); ++i) {
+            if (!index.is_finite(i)) continue;
+            const Eigen::Vector3d p = index[i];
+            const key own = key_of(difference(p, least), width(i));
+            std::size_t at = hash_of(own) & (slots - 1);
+            while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
+            if (slot[at] == no_cell) {
+                slot[at] = static_cast<point_index>(keys.size());
+                keys.push_back(own);
+                means.push_back(p);
+                counts.push_back(0);
+                first.push_back(static_cast<point_index>(i));
+                if (has_many) seen_from.push_back(index.viewpoints[i]);
+            }
+            const point_index c = of_point[i] = slot[at];
+            const double share = 1.0 / static_cast<double>(++counts[c]);
+            means[c] = combined(1.0 - share, means[c], share, p);
+            if (has_many)
+                seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
+        }
+        viewpoints =
+            has_many
+                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
+                : index.viewpoints;
+    }
+
+    static constexpr point_index no_cell = std::numeric_limits<point_index>::max();
+
+  private:
+    using key = std::array<std::int64_t, 4>;
+
+    [[nodiscard]] static Eigen::Vector3d least_corner(const spatial_index& index) {
+        constexpr double infinity = std::numeric_limits<double>::infinity();
+        Eigen::Vector3d least(infinity, infinity, infinity);
+        for (std::size_t i = 0; i < index.size(); ++i) {
+            if (!index.is_finite(i)) continue;
+            const Eigen::Vector3d p = index[i];
+            for (int a = 0; a < 3; ++a) least[a] = std::min(least[a], p[a]);
+        }
+        return least;
+    }
+
+    [[nodiscard]] static key key_of(const Eigen::Vector3d& offset, double width) {
+        const double level = std::floor(2.0 * std::log2(width));
+        const double side = std::exp2(0.5 * level);
+        constexpr double most = 4e18;  // numerical: overflow of std::int64_t
+        const auto cube = [&](int a) {
+            return static_cast<std::int64_t>(std::floor(std::min(offset[a] / side, most)));
+        };
+        return {static_cast<std::int64_t>(level), cube(0), cube(1), cube(2)};
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/perception/detail/cell_surfaces.hpp ---------------------------------------------
+
+/// @file
+/// The steps of `planes_on_cells`. All of them run on cells, at most one deviation wide, which
+/// determine a surface as well as the points do, and are fewer. The last step gives the points
+/// their segments.
+
+namespace gnomon::detail {
+
+/// The labels of points: each goes to the region, among those of its cell and of the cells around
+/// it, that explains it best, or to none.
+/// @param noise     of the points: perception_result::known_noise
+/// @param cloud     of the cells
+/// @param graph     the neighbors of each cell
+/// @param of_cells  the labels of the cells: numbers of `regions`
+template <execution X>
+[[nodiscard]] scratch<std::int32_t> labels_of_points(const spatial_index& points, const auto& noise,
+                                                     const cells& cells, const planar_cloud& cloud,
+                                                     const auto& graph, const auto& of_cells,
+                                                     const scratch<planar_region>& regions,
+                                                     const X& run) {
+    scratch<std::int32_t> labels(points.size(), unlabeled);
+    for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+        label_competition competition;
+        for (std::size_t i = begin; i < end; ++i) {
+            const point_index c = cells.of_point[i];
+            if (c == cells::no_cell) continue;
+            competition.begin(graph[c], of_cells, of_cells[c]);
+            const bool is_seen = !noise.is_across_surface;
+            const point_noise of_plane = noise_of_point(points, noise.of_planes, i, is_seen);
+            const point_noise exact = noise_of_point(points, noise.curve, i, is_seen);
+            const Eigen::Vector3d offset = difference(points[i], cloud.origin);
+            labels[i] = competition.winner([&](std::int32_t label) {
+                const planar_region& to = regions[static_cast<std::size_t>(label)];
+                return is_certainly_off(offset, exact, to) ? -1.0 : misfit_of(offset, of_plane, to);
+            });
+        }
+    });
+    return labels;
+}
+
+/// The cells of the points of an index, and what is found in them step by step.
+template <class Estimate>
+class cell_surfaces {
+  public:
+    using surface_type = std::vector<surfel<Estimate>>;
+    using noise_type = typename perception_result<Estimate>::known_noise;
+
+    /// @param points   of which the cells are
+    /// @param index    memory for the index of the cells
+    /// @param surface  memory for their surface elements
+    template <execution X>
+    cell_surfaces(const spatial_index& points, const noise_type& noise, spatial_index& index,
+                  surface_type& surface, const X& run)
+        : points_(points),
+          noise_(noise),
+          index_(index),
+          surface_(surface),
+          cells_(points, [&](std::size_t i) {
+              constexpr double least = 1e-6;  // [m]; numerical: at no noise, a cell is a point
+              const Eigen::Vector3d ray = difference(points[i], points.viewpoints[i]);
+              return std::max(noise.of_planes.along(ray), least);
+          }) {
+        index.rebuild(cells_.means, run);
+        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
+            index.viewpoints = cells_.viewpoints.empty()
+                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
+                                   : cells_.viewpoints;
+    }
+
+    /// The normals of the cells, and the graph of their nearest neighbors.
+    template <class N, class E, execution X>
+    void estimate(const N& neighborhood, const E& estimator, const X& run) {
+        scratch_graph::arrays graph;
+        knn nearest{.k = noise_knn{}.k};
+        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
+        const auto record = [&](auto&& sweep) {
+            const auto k = nearest.neighbors_of_each(index_.tree().size());
+            sweep_equal_sizes(*k, index_, run, graph, sweep);
+        };
+        if constexpr (std::same_as<N, noise_knn>) {
+            record([&](auto&& make_recorder) {  // one search for both
+                estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
+                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
+                });
+            });
+        } else {
+            estimate_normals_into(surface_, index_, neighborhood, estimator, run);
+            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
+        }
+        graph_.emplace(std::move(graph));
+        orient_normals(index_, surface_, run);
+    }
+
+    /// The planes.
+    template <execution X>
+    void find(const segment_planes_options& planes, const X& run) {
+        cloud_.emplace(index_, noise_.of_planes, run);
+        cloud_->counts = cells_.counts;
+        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
+                                           planes.max_angle, run));
+    }
+
+    /// The labels of the points, of the regions.
+    template <execution X>
+    [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
+        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
+                                        regions_->regions(), run);
+    }
+
+    [[nodiscard]] const spatial_index& index() const { return index_; }
+    /// The labels of the cells.
+    [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
+    /// A point of a cell.
+    [[nodiscard]] point_index point_of(point_index cell) const { return cells_.first[cell]; }
+    /// The surface element of a point: that of its cell.
+    [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
+        const point_index c = cells_.of_point[point];
+        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+    }
+
+  private:
+    const spatial_index& points_;
+    const noise_type& noise_;
+    spatial_index& index_;
+    surface_type& surface_;
+    cells cells_;
+    std::optional<scratch_graph> graph_;
+    std::optional<planar_cloud> cloud_;
+    std::optional<plane_regions<scratch_graph>> regions_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/wide_noise.hpp ---------------------------------------------------
+
+/// @file
+/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
+/// scatter, so that a wide plane deviates more than a small neighborhood. That is
+/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
+
+namespace gnomon::detail {
+
+/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
+/// measured, and is more.
+/// @param noise   that of small neighborhoods
+/// @param sparse  memory for the index of these points
+template <class X>
+[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
+                                               spatial_index& sparse, const X& run) {
+    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
+    if (thinning < 2) return noise;
+    scratch<point_index> some;
+    double range = 0.0;
+    for (std::size_t i = 0; i < index.size(); ++i) {
+        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
+        some.push_back(static_cast<point_index>(i));
+        range += length(difference(index[i], index.viewpoints[i]));
+    }
+    sparse.rebuild(subset_view<spatial_index>(index, some), run);
+    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
+    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
+    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/perception/detail/known_noise.hpp -----------------------------------------------
+
+/// @file
+/// The noise that all steps of `perception` share: that which is given, or measured, or else that
+/// across the surfaces, with the reason.
+
+namespace gnomon::detail {
+
+/// @param noise   becomes that of the points: perception_result::known_noise
+/// @param given   by the user, if any
+/// @param sparse  memory for the index of some of the points
+template <class X>
+void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
+                spatial_index& sparse, const X& run) {
+    noise = {};
+    if (given) {
+        noise.curve = noise.of_planes = *given;
+        return;
+    }
+    const measured_noise found = measure_noise(points, run);
+    if (found.curve) {
+        noise.curve = *found.curve;
+        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
+        return;
+    }
+    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+    noise.is_across_surface = true;
+    noise.reason = found.reason;
+}
+
+/// The same policy for this noise, if it depends on any.
+template <class Policy>
+[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+    if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
+    return policy;
+}
+
+}  // namespace gnomon::detail
 
 // -------- gnomon/perception/detail/perception_run.hpp --------------------------------------------
 
@@ -17744,7 +17761,8 @@ class perception_run {
 ///
 /// The chain of the thesis is (Klasing 2010, Fig. 4.2, Sec. 4.4.1):
 ///
-///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces> chain;
+///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces>
+///         chain{.noise = constant_noise{0.015}};
 
 namespace gnomon {
 

@@ -120,6 +120,25 @@ TEST(merge_occluded, closes_no_gap_that_is_not_narrow) {
     }
 }
 
+/// A point that is 100 m off its plane turns the plane of all points of its segment.
+TEST(merge_occluded, is_not_kept_from_merging_by_a_far_point) {
+    for (const double behind : {0.0, 100.0}) {
+        std::vector<Eigen::Vector3d> points;
+        std::vector<std::int32_t> labels;
+        for (int i = 0; i < 50; ++i)
+            for (int j = 0; j < 25; ++j) {
+                const std::int32_t half = i < 25 ? 0 : 1;
+                points.push_back({3.0, 0.02 * (i - 25) + 0.1 * half, 0.02 * (j - 12)});
+                labels.push_back(half);
+            }
+        points.push_back((1.0 + behind) * Eigen::Vector3d(3.0, 0.3, 0.0));
+        labels.push_back(1);
+        const auto merged =
+            gnomon::merge_occluded(points, segments(labels), gnomon::visibility(points));
+        EXPECT_EQ(merged.segments.size(), 1u) << behind << " m behind the wall";
+    }
+}
+
 /// A third of the gap is seen through, past the column.
 TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
     sim::scene world = looks::opened(0.9);

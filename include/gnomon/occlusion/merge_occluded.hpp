@@ -104,7 +104,9 @@ template <merge_policy M, execution X>
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, or a negative or NaN
 ///                                threshold
-/// Complexity: per round O(candidates * (n + pixels of the gaps * view points)); rounds are few.
+/// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
+/// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
+/// none.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>
     requires point_range<R, Proj>

@@ -157,35 +157,37 @@ class visibility {
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
             expected * pixel_;
-        const auto told_by = [&](const range_image::pixel& other) {
+        const auto observation_in = [&](const range_image::pixel& other) {
             const double range = image.range(other);
             if (range < 0.0) return observation::unobserved;
             if (range < expected - margin) return observation::occluded;
             return range > expected + margin ? observation::free_space : observation::on_surface;
         };
         const range_image::pixel at = image.pixel_of(place);
-        const observation here = told_by(at);
+        const observation here = observation_in(at);
         if (here != observation::unobserved) return here;
         // Rays are not spaced as evenly as pixels: the adjacent pixels count as well. Across the
         // lines of a scan the next ray may be two pixels away; beyond one pixel only occlusion
         // counts as evidence.
-        const observation beside = told_about(at, 1, image, told_by);
-        const bool is_hidden = beside == observation::unobserved &&
-                               told_about(at, 2, image, told_by) == observation::occluded;
-        return is_hidden ? observation::occluded : beside;
+        const observation nearby = observation_around(at, 1, image, observation_in);
+        const bool is_hidden =
+            nearby == observation::unobserved &&
+            observation_around(at, 2, image, observation_in) == observation::occluded;
+        return is_hidden ? observation::occluded : nearby;
     }
 
     /// The observation of all pixels around one with a return. At an edge of an occluder some
     /// pixels show the occluder, and some the surface: the place is neither free nor certainly
     /// occluded.
-    [[nodiscard]] static observation told_about(const range_image::pixel& at, std::size_t reach,
-                                                const range_image& image, const auto& told_by) {
+    [[nodiscard]] static observation observation_around(const range_image::pixel& at,
+                                                        std::size_t reach, const range_image& image,
+                                                        const auto& observation_in) {
         observation_count about;
         for (std::size_t e = at.elevation - std::min(at.elevation, reach);
              e <= std::min(at.elevation + reach, image.height() - 1); ++e) {
             for (std::size_t a = at.azimuth + image.width() - reach;
                  a <= at.azimuth + image.width() + reach; ++a)
-                about.add(told_by({a % image.width(), e}));
+                about.add(observation_in({a % image.width(), e}));
         }
         const std::size_t free = about[observation::free_space];
         const std::size_t on = about[observation::on_surface];

@@ -14,7 +14,8 @@
 ///
 /// The chain of the thesis is (Klasing 2010, Fig. 4.2, Sec. 4.4.1):
 ///
-///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces> chain;
+///     const gnomon::perception<knn, plane_pca, conservative, smooth_surfaces>
+///         chain{.noise = constant_noise{0.015}};
 #pragma once
 
 #include <concepts>

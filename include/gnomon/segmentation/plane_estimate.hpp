@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
@@ -51,9 +52,9 @@ struct plane_estimate {
 
 namespace detail {
 
-/// Whether a point is of the half of its segment that is nearest to the median of each coordinate.
-/// A few far points, which turn the plane of all, are not.
-[[nodiscard]] auto is_central(const auto& cloud, std::span<const point_index> members) {
+/// The half of a segment that is nearest to the median of each coordinate, as a predicate of its
+/// points. A few far points, which turn the plane of all, are not of it. O(n).
+[[nodiscard]] auto central_half(const auto& cloud, std::span<const point_index> members) {
     scratch<double> values;
     const auto median = [&](auto&& value_of) {
         values.clear();
@@ -94,7 +95,7 @@ template <class Cloud>
         const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
         if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) {
             if (pass > 0) break;
-            region = sums_of(is_central(cloud, members));
+            region = sums_of(central_half(cloud, members));
             continue;
         }
         const bool rests = on.sums.count == region.sums.count;
@@ -169,7 +170,8 @@ template <class Cloud>
 /// @param noise   of the sensor
 /// @return an estimate for each segment. It is flat if most of its points are on the plane, within
 ///         three standard deviations of the region (at least those of the noise); fewer than 30 are
-///         farther from it than five of these and 1 cm; their variance is at most 2.5 times that of
+///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
+///         to [1, 2.5]; their variance is at most 2.5 times that of
 ///         the noise; and the plane is not seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.

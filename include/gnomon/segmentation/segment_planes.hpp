@@ -11,8 +11,8 @@
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///
-/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths are
-/// multiples of the noise, so that no distance need be set.
+/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths
+/// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 #pragma once
 
 #include <algorithm>
@@ -21,8 +21,6 @@
 #include <iterator>
 
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>

@@ -6,11 +6,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <utility>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
@@ -67,7 +69,8 @@ class occlusion_merger {
         union_find sets = agglomeration(regions_)(
             pairs(),
             [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? unlikeness_of_apart(a, b) : 2.0;
+                return is_near(a, b) ? unlikeness_of_apart(a, b)
+                                     : std::numeric_limits<double>::infinity();
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The steps of `planes_on_cells`. All of them run on cells, one standard deviation wide, which
+/// The steps of `planes_on_cells`. All of them run on cells, at most one deviation wide, which
 /// determine a surface as well as the points do, and are fewer. The last step gives the points
 /// their segments.
 #pragma once
@@ -18,7 +18,6 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/detail/scratch_graph.hpp>
@@ -29,6 +28,7 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/surfel.hpp>
+#include <gnomon/perception/perception_result.hpp>
 #include <gnomon/segmentation/detail/cells.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
@@ -39,22 +39,53 @@
 
 namespace gnomon::detail {
 
+/// The labels of points: each goes to the region, among those of its cell and of the cells around
+/// it, that explains it best, or to none.
+/// @param noise     of the points: perception_result::known_noise
+/// @param cloud     of the cells
+/// @param graph     the neighbors of each cell
+/// @param of_cells  the labels of the cells: numbers of `regions`
+template <execution X>
+[[nodiscard]] scratch<std::int32_t> labels_of_points(const spatial_index& points, const auto& noise,
+                                                     const cells& cells, const planar_cloud& cloud,
+                                                     const auto& graph, const auto& of_cells,
+                                                     const scratch<planar_region>& regions,
+                                                     const X& run) {
+    scratch<std::int32_t> labels(points.size(), unlabeled);
+    for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
+        label_competition competition;
+        for (std::size_t i = begin; i < end; ++i) {
+            const point_index c = cells.of_point[i];
+            if (c == cells::no_cell) continue;
+            competition.begin(graph[c], of_cells, of_cells[c]);
+            const bool is_seen = !noise.is_across_surface;
+            const point_noise of_plane = noise_of_point(points, noise.of_planes, i, is_seen);
+            const point_noise exact = noise_of_point(points, noise.curve, i, is_seen);
+            const Eigen::Vector3d offset = difference(points[i], cloud.origin);
+            labels[i] = competition.winner([&](std::int32_t label) {
+                const planar_region& to = regions[static_cast<std::size_t>(label)];
+                return is_certainly_off(offset, exact, to) ? -1.0 : misfit_of(offset, of_plane, to);
+            });
+        }
+    });
+    return labels;
+}
+
 /// The cells of the points of an index, and what is found in them step by step.
 template <class Estimate>
 class cell_surfaces {
   public:
     using surface_type = std::vector<surfel<Estimate>>;
+    using noise_type = typename perception_result<Estimate>::known_noise;
 
     /// @param points   of which the cells are
-    /// @param noise    of the points: perception_result::known_noise
     /// @param index    memory for the index of the cells
     /// @param surface  memory for their surface elements
     template <execution X>
-    cell_surfaces(const spatial_index& points, const auto& noise, spatial_index& index,
+    cell_surfaces(const spatial_index& points, const noise_type& noise, spatial_index& index,
                   surface_type& surface, const X& run)
         : points_(points),
-          noise_(noise.of_planes),
-          exact_noise_(noise.curve),
+          noise_(noise),
           index_(index),
           surface_(surface),
           cells_(points, [&](std::size_t i) {
@@ -96,7 +127,7 @@ class cell_surfaces {
     /// The planes.
     template <execution X>
     void find(const segment_planes_options& planes, const X& run) {
-        cloud_.emplace(index_, noise_, run);
+        cloud_.emplace(index_, noise_.of_planes, run);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
@@ -105,26 +136,8 @@ class cell_surfaces {
     /// The labels of the points, of the regions.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        scratch<std::int32_t> labels(points_.size(), unlabeled);
-        const auto& of_cells = regions_->labels();
-        for_each_chunk(run, points_.size(), [&](std::size_t begin, std::size_t end) {
-            label_competition<std::int32_t> competition;
-            for (std::size_t i = begin; i < end; ++i) {
-                const point_index c = cells_.of_point[i];
-                if (c == cells::no_cell) continue;
-                competition.begin((*graph_)[c], of_cells, of_cells[c]);
-                const bool is_seen = !index_.viewpoints.empty();
-                const point_noise noise = noise_of_point(points_, noise_, i, is_seen);
-                const point_noise exact = noise_of_point(points_, exact_noise_, i, is_seen);
-                const Eigen::Vector3d offset = difference(points_[i], cloud_->origin);
-                labels[i] = competition.winner([&](std::int32_t label) {
-                    const planar_region& to = regions_->regions()[static_cast<std::size_t>(label)];
-                    return is_certainly_off(offset, exact, to) ? -1.0
-                                                               : misfit_of(offset, noise, to);
-                });
-            }
-        });
-        return labels;
+        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
+                                        regions_->regions(), run);
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
@@ -140,8 +153,7 @@ class cell_surfaces {
 
   private:
     const spatial_index& points_;
-    const noise_curve& noise_;        // of wide planes
-    const noise_curve& exact_noise_;  // of each point for itself
+    const noise_type& noise_;
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;

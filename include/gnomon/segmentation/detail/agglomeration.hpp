@@ -11,7 +11,7 @@
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
-#include <gnomon/segmentation/detail/plane_comparison.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
 
 namespace gnomon::detail {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A cloud thinned to its noise: the points of each cube, one standard deviation wide, become their
-/// mean.
+/// A cloud thinned to its noise: the points of each cube, at most one standard deviation wide,
+/// become their mean.
 #pragma once
 
 #include <algorithm>

@@ -31,7 +31,6 @@ inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
 /// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
-template <class Label>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -67,11 +66,11 @@ class label_competition {
 
   private:
     struct candidate {
-        Label label;
+        std::int32_t label;
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(Label label) {
+    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
@@ -143,7 +142,7 @@ template <neighborhood_graph G, execution X>
     } after{scratch<std::int32_t>(labels.size(), unlabeled)};
     mutex guard;
     for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
-        label_competition<std::int32_t> competition;
+        label_competition competition;
         scratch<region_pair> touching;
         for (std::size_t i = begin; i < end; ++i) {
             if (!cloud.is_finite(i)) continue;

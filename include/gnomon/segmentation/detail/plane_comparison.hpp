@@ -22,8 +22,8 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times that
-/// about their own.
+/// if they may be one: the variance of either about the common plane is at most 2.5 times the
+/// larger of those about their own, which count as 1 to 2.5 times that of the noise.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();

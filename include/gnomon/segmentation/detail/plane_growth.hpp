@@ -63,7 +63,7 @@ class plane_growth {
 
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
 
-    /// The free points by the mean squared distance of their neighbors from the plane of their
+    /// The free points by their roughness, each with it: the variance of the neighborhood along the
     /// normal, in variances of the noise.
     template <execution X>
     [[nodiscard]] auto flattest_first(const X& run) const {

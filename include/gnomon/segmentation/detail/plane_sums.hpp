@@ -26,8 +26,8 @@ struct region_plane {
     bool is_determined = false;
     bool is_seen = false;  ///< not edge-on, as the planes of scan lines are
 
-    /// The variance of points of the region, in variances of their noise: more than that where
-    /// surfaces are rough.
+    /// The variance of points of the region, in variances of their noise: chi2, clamped to
+    /// [1, 2.5]; more than 1 where the surface is rough.
     [[nodiscard]] double excess() const { return std::clamp(chi2, 1.0, most_excess); }
 
     /// Of the roughest surface; chosen on furnished rooms 20,001 to 20,008 and an office
