@@ -770,7 +770,7 @@ class noise_curve {
     /// The curve of a model: exact for `constant_noise` and `quadratic_noise`; any other is read at
     /// 64 ranges from 5 cm to 500 m, between which the error is below 0.3 % for a sum of powers,
     /// and constant outside of them.
-    /// @throws std::invalid_argument  if a standard deviation is negative or not finite
+    /// @throws std::invalid_argument  if a standard deviation is negative, NaN or above 1e153 m
     template <range_noise N>
         requires(!std::same_as<N, noise_curve>)
     explicit(false) constexpr noise_curve(const N& noise) {
@@ -790,15 +790,15 @@ class noise_curve {
     /// The curve of the variance `variance(x)`, where readings come in steps of the variance
     /// step(x)^2 / 12 = `quantization(x)` [m^2].
     /// @param axis  0 for functions of the range; else they are functions of the depth along it
-    /// @throws std::invalid_argument  if a variance is negative or not finite, or the axis is not
-    ///                                finite
+    /// @throws std::invalid_argument  if a variance is negative, NaN or above 1e306 m^2, or the
+    ///                                axis is not finite
     explicit noise_curve(const quartic& variance, const quartic& quantization = {},
                          const Eigen::Vector3d& axis = {0.0, 0.0, 0.0})
         : variance_(variance), quantization_(quantization) {
         if (detail::dot(axis, axis) != 0.0) set_axis(axis);
         for (std::size_t i = 0; i < knots; ++i) {
-            require_deviation(value(variance, knot(i)));
-            require_deviation(value(quantization, knot(i)));
+            require_deviation(std::sqrt(value(variance, knot(i))));
+            require_deviation(std::sqrt(value(quantization, knot(i))));
             is_zero_ = is_zero_ && (*this)(knot(i)) == 0.0;
         }
     }
@@ -817,8 +817,9 @@ class noise_curve {
         const double range = detail::length(ray);
         if (!is_of_depth()) return variance(range);
         constexpr double least_cosine = 0.17;  // of 80 degrees
+        // In this order, also of a range that overflows.
         const double cosine =
-            range > 0.0 ? std::max(std::abs(detail::dot(ray, axis())) / range, least_cosine) : 1.0;
+            range > 0.0 ? std::max(least_cosine, std::abs(detail::dot(ray, axis())) / range) : 1.0;
         return variance(range * cosine) / (cosine * cosine);
     }
 
@@ -845,10 +846,12 @@ class noise_curve {
   private:
     static constexpr std::size_t knots = 64;
     static constexpr double nearest = 0.05, farthest = 500.0;  // [m]
+    static constexpr double most = 1e153;  // [m]: the square is finite, also times 1 / cos^2
 
     [[nodiscard]] double variance(double x) const {
         if (is_table_) return from_table(x) + added_;
-        return std::max(value(variance_, x), value(quantization_, x)) + added_;
+        const double own = std::max(value(variance_, x), value(quantization_, x));
+        return std::min(most * most, own) + added_;  // in this order, also of NaN
     }
 
     [[nodiscard]] static double value(const quartic& c, double x) {
@@ -892,8 +895,8 @@ class noise_curve {
     }
 
     static constexpr void require_deviation(double sigma) {
-        detail::require(sigma >= 0.0 && sigma <= std::numeric_limits<double>::max(),
-                        "noise: a standard deviation must not be negative, and finite");
+        detail::require(sigma >= 0.0 && sigma <= most,
+                        "noise: a standard deviation must be from 0 to 1e153 m");
     }
 
     /// A variance [m^2].
@@ -13025,8 +13028,16 @@ inline void require_valid(const find_floor_options& search) {
 }
 
 inline void require_valid(const find_ceiling_options& search) {
-    require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    constexpr double finest = 1e-6, widest = 1e6;  // [m]; numerical: heights have a bin each
+    require(search.bin >= finest && search.bin <= widest,
+            "find_ceiling: the bin must be from 1e-6 m to 1e6 m wide");
     require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    require(!std::isnan(search.min_height), "find_ceiling: min_height must not be NaN");
+}
+
+inline void require_valid(const crop_height_options& bands) {
+    require(!std::isnan(bands.floor) && !std::isnan(bands.ceiling),
+            "crop_height: the bands must not be NaN");
 }
 
 }  // namespace detail
@@ -13061,8 +13072,9 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive, the share is not negative, and the
-///                                floor's normal of unit length
+/// @throws std::invalid_argument  unless the bin is from 1e-6 m to 1e6 m wide, the share is not
+///                                negative, and the floor's normal of unit length; if an option is
+///                                NaN
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -13082,11 +13094,12 @@ template <class R, class Proj = std::identity>
     double sum = 0.0, near = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double height = floor.signed_distance(p[i]);
-        if (!(std::abs(height - peak) <= half_width * search.bin)) continue;
+        if (!(height >= search.min_height && std::abs(height - peak) <= half_width * search.bin))
+            continue;
         sum += height;
         near += 1.0;
     }
-    return sum / near;
+    return near > 0.0 ? sum / near : peak;  // the bins of outliers at 1e15 m are of rounding
 }
 
 namespace detail {
@@ -13095,6 +13108,8 @@ namespace detail {
 void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
                       std::optional<double> ceiling, const crop_height_options& bands) {
     require_hesse(floor);
+    require_valid(bands);
+    require(!ceiling || !std::isnan(*ceiling), "crop_height: the ceiling must not be NaN");
     kept.clear();
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
@@ -13110,7 +13125,8 @@ void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane
 /// Points that are not finite are left out.
 ///
 /// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
-/// @throws std::invalid_argument  unless the floor's normal is of unit length
+/// @throws std::invalid_argument  unless the floor's normal is of unit length, or if a height is
+///                                NaN
 /// Complexity: O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -13278,6 +13294,7 @@ class plane_growth {
             for (std::size_t o = begin; o < end; ++o)
                 order[o].first = roughness_at(order[o].second);
         });
+        std::erase_if(order, [](const auto& o) { return std::isnan(o.first); });
         std::sort(order.begin(), order.end());
         return order;
     }
@@ -13286,6 +13303,7 @@ class plane_growth {
         const Eigen::Vector3d n = normal(i);
         double sum = 0.0, count = 1.0, mean = 0.0;
         for (const point_index j : graph_[i]) {
+            if (!cloud_.is_finite(j)) continue;
             const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
             sum += d * d;
             mean += d;
@@ -17300,10 +17318,11 @@ struct cells {
             if (has_many)
                 seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
         }
-        viewpoints =
-            has_many
-                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
-                : index.viewpoints;
+        if (has_many)
+            viewpoints =
+                viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()));
+        else if (!index.viewpoints.empty())
+            viewpoints = viewpoint_table(index.viewpoints.positions().front());
     }
 
     static constexpr point_index no_cell = std::numeric_limits<point_index>::max();
@@ -17615,16 +17634,22 @@ class perception_run {
     }
 
     void index_kept() {
+        given_ = &index_of_kept();
+        for (std::size_t i = 0; i < given_->size(); ++i)
+            require(!given_->is_finite(i) || is_finite(given_->viewpoints[i]),
+                    "perception: a view point is not finite");
+    }
+
+    const spatial_index& index_of_kept() {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
-            given_ = &checked(points_);
             result_.index.clear();
-            return;
+            return checked(points_);
         } else {
             result_.index.rebuild(points_, run_, projection_);
         }
-        given_ = &result_.index;
+        return result_.index;
     }
 
     /// `planes_on_cells`
@@ -17778,6 +17803,7 @@ struct floor_and_ceiling {
         detail::require_hesse({up, 0.0});
         detail::require_valid(floor);
         detail::require_valid(ceiling);
+        detail::require_valid(bands);
     }
 };
 
@@ -17839,7 +17865,7 @@ struct perception {
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
     /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
-    ///                                point with a normal has a view point that is not finite
+    ///                                finite point has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -17858,8 +17884,10 @@ struct perception {
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
         if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
             if (&points == &result.index) {
-                const spatial_index given = std::move(result.index);
-                return into(result, given, run, std::move(projection));
+                spatial_index given = std::move(result.index);
+                into(result, std::as_const(given), run, std::move(projection));
+                if (result.kept.size() == given.size()) result.index = std::move(given);
+                return;
             }
         }
         const auto& team = detail::staying(run);

@@ -75,8 +75,11 @@ TEST(perception_result, gives_its_index_to_the_next_call) {
     const gnomon::perception<> chain;
     auto result = chain(scan);
     const auto surfaces = result.surfaces;
-    chain.into(result, result.index);
-    EXPECT_EQ(result.surfaces, surfaces);
+    for (int call = 0; call < 2; ++call) {
+        chain.into(result, result.index);
+        EXPECT_EQ(result.surfaces, surfaces);
+        EXPECT_EQ(result.index.size(), scan.size());
+    }
 }
 
 /// A caller who follows the progress hears of as many steps as were announced, which are those of

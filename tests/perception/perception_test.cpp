@@ -260,6 +260,32 @@ TEST(perception, finishes_with_a_view_point_for_each_point) {
     EXPECT_EQ(perception<>{}(seen).surfaces.labels().size(), 500u);
 }
 
+/// A table of view points covers the points, whether or not they are finite.
+TEST(perception, finds_the_view_points_of_clouds_with_points_that_are_not_finite) {
+    const Eigen::Vector3d nowhere(clouds::nan, 0, 0);
+    const std::vector<Eigen::Vector3d> one_eye(1, Eigen::Vector3d(0, 0, 2));
+    const auto labels_of = [](const std::vector<Eigen::Vector3d>& points, auto table) {
+        return perception<>{}(gnomon::with_viewpoints(points, table)).surfaces.labels().size();
+    };
+    EXPECT_EQ(labels_of({nowhere}, gnomon::viewpoint_table(one_eye)), 1u);
+    auto points = clouds::sheet(500, 1);
+    points.push_back(nowhere);
+    const std::vector<gnomon::point_index> of_one_scan(points.size(), 0);
+    EXPECT_EQ(labels_of(points, gnomon::viewpoint_table(one_eye, of_one_scan)), points.size());
+}
+
+/// Also where they are so far that squares overflow.
+TEST(perception, refuses_view_points_that_are_not_finite) {
+    const auto points = clouds::sheet(500, 1);
+    for (const double bad : {clouds::nan, std::numeric_limits<double>::infinity(), 1e200}) {
+        const auto seen = gnomon::with_viewpoint(points, Eigen::Vector3d(0, bad, 2));
+        EXPECT_THROW((void)perception<>{}(seen), std::invalid_argument) << bad;
+        const perception<> camera{
+            .noise = {{gnomon::constant_noise{0.01}, Eigen::Vector3d(0, 0, 1)}}};
+        EXPECT_THROW((void)camera(seen), std::invalid_argument) << bad;
+    }
+}
+
 /// Before the first step: who follows the progress hears of none.
 TEST(perception, refuses_bad_parameters_before_the_first_step) {
     const std::vector<Eigen::Vector3d> points(100, Eigen::Vector3d(1, 2, 3));
@@ -283,6 +309,7 @@ TEST(perception, refuses_bad_parameters_before_the_first_step) {
     refused(perception<>{.segmentation = {.planes = {.max_angle = gnomon::degrees(120)}}});
     refused(thesis_chain{.segmentation = {.surfaces = {.max_distance = -1.0}}});
     refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.up = Eigen::Vector3d(0, 0, 2)}});
+    refused(perception<>{.leave_out = gnomon::floor_and_ceiling{.bands = {.floor = clouds::nan}}});
 }
 
 }  // namespace

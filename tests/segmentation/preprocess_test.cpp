@@ -254,6 +254,18 @@ TEST(preprocess, finds_nothing_in_empty_input) {
     }
 }
 
+/// Neither bins that reach below the least height nor outliers, whose bins are of rounding errors.
+TEST(preprocess, finds_no_ceiling_below_the_least_height) {
+    const clouds::cloud points{{0, 0, 0.1}, {0, 0, 0.2}, {0, 0, 2.1}, {0, 0, 2.2}};
+    for (const double bin : {0.02, 1.0, 1e6}) {
+        const auto ceiling = gnomon::find_ceiling(points, gnomon::plane{}, {.bin = bin});
+        ASSERT_TRUE(ceiling) << bin;
+        EXPECT_GE(*ceiling, 1.8) << bin;
+        EXPECT_LE(*ceiling, 2.2) << bin;
+    }
+    EXPECT_EQ(gnomon::find_ceiling(clouds::cloud{{0, 0, 1e140}}, gnomon::plane{}), 1e140);
+}
+
 TEST(preprocess, refuses_bands_without_width) {
     const auto points = clouds::sheet(100, 1);
     const Eigen::Vector3d up(0, 0, 1);
@@ -268,7 +280,15 @@ TEST(preprocess, refuses_bands_without_width) {
         EXPECT_THROW((void)gnomon::find_ceiling(points, {bad, 0.0}), std::invalid_argument);
         EXPECT_THROW((void)gnomon::crop_height(points, {bad, 0.0}, {}), std::invalid_argument);
     }
-    EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = clouds::nan}),
+    for (const double bad : {0.0, 1e-310, 1e300, clouds::nan})
+        EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = bad}),
+                     std::invalid_argument)
+            << bad;
+    EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_height = clouds::nan}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)gnomon::crop_height(points, gnomon::plane{}, clouds::nan),
+                 std::invalid_argument);
+    EXPECT_THROW((void)gnomon::crop_height(points, gnomon::plane{}, {}, {.ceiling = clouds::nan}),
                  std::invalid_argument);
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_share = clouds::nan}),
                  std::invalid_argument);

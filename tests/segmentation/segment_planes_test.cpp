@@ -215,6 +215,21 @@ TEST(segment_planes, survives_every_cloud) {
     }
 }
 
+/// A graph may list them.
+TEST(segment_planes, passes_over_points_and_normals_that_are_not_finite) {
+    auto points = flat(1, 0.003);
+    const auto graph = knn{12}(points);
+    std::vector<std::vector<gnomon::point_index>> lists;
+    for (std::size_t i = 0; i < points.size(); ++i)
+        lists.emplace_back(graph[i].begin(), graph[i].end());
+    auto surface = gnomon::estimate_normals(points, graph, plane_pca{});
+    for (const std::size_t i : {0u, 7u, 90u}) points[i][1] = clouds::nan;
+    surface[200].normal[0] = clouds::nan;
+    const auto found = gnomon::segment_planes(points, lists, surface, at_noise(0.003));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_GT(found[0].size(), points.size() - 10);
+}
+
 TEST(segment_planes, refuses_bad_arguments) {
     const auto points = clouds::sheet(100, 1);
     for (const double degrees : {-1.0, 91.0, clouds::nan})

@@ -16,7 +16,6 @@
 #include <array>
 #include <concepts>
 #include <cstddef>
-#include <limits>
 
 #include <Eigen/Core>
 
@@ -37,7 +36,7 @@ class noise_curve {
     /// The curve of a model: exact for `constant_noise` and `quadratic_noise`; any other is read at
     /// 64 ranges from 5 cm to 500 m, between which the error is below 0.3 % for a sum of powers,
     /// and constant outside of them.
-    /// @throws std::invalid_argument  if a standard deviation is negative or not finite
+    /// @throws std::invalid_argument  if a standard deviation is negative, NaN or above 1e153 m
     template <range_noise N>
         requires(!std::same_as<N, noise_curve>)
     explicit(false) constexpr noise_curve(const N& noise) {
@@ -57,15 +56,15 @@ class noise_curve {
     /// The curve of the variance `variance(x)`, where readings come in steps of the variance
     /// step(x)^2 / 12 = `quantization(x)` [m^2].
     /// @param axis  0 for functions of the range; else they are functions of the depth along it
-    /// @throws std::invalid_argument  if a variance is negative or not finite, or the axis is not
-    ///                                finite
+    /// @throws std::invalid_argument  if a variance is negative, NaN or above 1e306 m^2, or the
+    ///                                axis is not finite
     explicit noise_curve(const quartic& variance, const quartic& quantization = {},
                          const Eigen::Vector3d& axis = {0.0, 0.0, 0.0})
         : variance_(variance), quantization_(quantization) {
         if (detail::dot(axis, axis) != 0.0) set_axis(axis);
         for (std::size_t i = 0; i < knots; ++i) {
-            require_deviation(value(variance, knot(i)));
-            require_deviation(value(quantization, knot(i)));
+            require_deviation(std::sqrt(value(variance, knot(i))));
+            require_deviation(std::sqrt(value(quantization, knot(i))));
             is_zero_ = is_zero_ && (*this)(knot(i)) == 0.0;
         }
     }
@@ -84,8 +83,9 @@ class noise_curve {
         const double range = detail::length(ray);
         if (!is_of_depth()) return variance(range);
         constexpr double least_cosine = 0.17;  // of 80 degrees
+        // In this order, also of a range that overflows.
         const double cosine =
-            range > 0.0 ? std::max(std::abs(detail::dot(ray, axis())) / range, least_cosine) : 1.0;
+            range > 0.0 ? std::max(least_cosine, std::abs(detail::dot(ray, axis())) / range) : 1.0;
         return variance(range * cosine) / (cosine * cosine);
     }
 
@@ -112,10 +112,12 @@ class noise_curve {
   private:
     static constexpr std::size_t knots = 64;
     static constexpr double nearest = 0.05, farthest = 500.0;  // [m]
+    static constexpr double most = 1e153;  // [m]: the square is finite, also times 1 / cos^2
 
     [[nodiscard]] double variance(double x) const {
         if (is_table_) return from_table(x) + added_;
-        return std::max(value(variance_, x), value(quantization_, x)) + added_;
+        const double own = std::max(value(variance_, x), value(quantization_, x));
+        return std::min(most * most, own) + added_;  // in this order, also of NaN
     }
 
     [[nodiscard]] static double value(const quartic& c, double x) {
@@ -159,8 +161,8 @@ class noise_curve {
     }
 
     static constexpr void require_deviation(double sigma) {
-        detail::require(sigma >= 0.0 && sigma <= std::numeric_limits<double>::max(),
-                        "noise: a standard deviation must not be negative, and finite");
+        detail::require(sigma >= 0.0 && sigma <= most,
+                        "noise: a standard deviation must be from 0 to 1e153 m");
     }
 
     /// A variance [m^2].

@@ -54,6 +54,7 @@ struct floor_and_ceiling {
         detail::require_hesse({up, 0.0});
         detail::require_valid(floor);
         detail::require_valid(ceiling);
+        detail::require_valid(bands);
     }
 };
 
@@ -115,7 +116,7 @@ struct perception {
 
     /// Perceives n points: any point range, or an index of it; their view points as everywhere.
     /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
-    ///                                point with a normal has a view point that is not finite
+    ///                                finite point has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -134,8 +135,10 @@ struct perception {
     void into(result_type& result, const R& points, const X& run = {}, Proj projection = {}) const {
         if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
             if (&points == &result.index) {
-                const spatial_index given = std::move(result.index);
-                return into(result, given, run, std::move(projection));
+                spatial_index given = std::move(result.index);
+                into(result, std::as_const(given), run, std::move(projection));
+                if (result.kept.size() == given.size()) result.index = std::move(given);
+                return;
             }
         }
         const auto& team = detail::staying(run);

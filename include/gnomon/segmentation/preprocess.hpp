@@ -95,8 +95,16 @@ inline void require_valid(const find_floor_options& search) {
 }
 
 inline void require_valid(const find_ceiling_options& search) {
-    require(search.bin > 0.0, "find_ceiling: the bin must be positive");
+    constexpr double finest = 1e-6, widest = 1e6;  // [m]; numerical: heights have a bin each
+    require(search.bin >= finest && search.bin <= widest,
+            "find_ceiling: the bin must be from 1e-6 m to 1e6 m wide");
     require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
+    require(!std::isnan(search.min_height), "find_ceiling: min_height must not be NaN");
+}
+
+inline void require_valid(const crop_height_options& bands) {
+    require(!std::isnan(bands.floor) && !std::isnan(bands.ceiling),
+            "crop_height: the bands must not be NaN");
 }
 
 }  // namespace detail
@@ -131,8 +139,9 @@ template <class R, class Proj = std::identity>
 /// The height of the ceiling above the floor [m]: the most frequent one above `min_height`.
 ///
 /// @return nothing if no height holds `min_share` of the points (an open sky, a low view)
-/// @throws std::invalid_argument  unless the bin is positive, the share is not negative, and the
-///                                floor's normal of unit length
+/// @throws std::invalid_argument  unless the bin is from 1e-6 m to 1e6 m wide, the share is not
+///                                negative, and the floor's normal of unit length; if an option is
+///                                NaN
 /// Complexity: O(n log n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -152,11 +161,12 @@ template <class R, class Proj = std::identity>
     double sum = 0.0, near = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double height = floor.signed_distance(p[i]);
-        if (!(std::abs(height - peak) <= half_width * search.bin)) continue;
+        if (!(height >= search.min_height && std::abs(height - peak) <= half_width * search.bin))
+            continue;
         sum += height;
         near += 1.0;
     }
-    return sum / near;
+    return near > 0.0 ? sum / near : peak;  // the bins of outliers at 1e15 m are of rounding
 }
 
 namespace detail {
@@ -165,6 +175,8 @@ namespace detail {
 void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
                       std::optional<double> ceiling, const crop_height_options& bands) {
     require_hesse(floor);
+    require_valid(bands);
+    require(!ceiling || !std::isnan(*ceiling), "crop_height: the ceiling must not be NaN");
     kept.clear();
     for (std::size_t i = 0; i < p.size(); ++i) {
         if (!is_finite(p[i])) continue;
@@ -180,7 +192,8 @@ void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane
 /// Points that are not finite are left out.
 ///
 /// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
-/// @throws std::invalid_argument  unless the floor's normal is of unit length
+/// @throws std::invalid_argument  unless the floor's normal is of unit length, or if a height is
+///                                NaN
 /// Complexity: O(n).
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>

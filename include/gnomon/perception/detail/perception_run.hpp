@@ -15,6 +15,7 @@
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/stopwatch.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
@@ -106,16 +107,22 @@ class perception_run {
     }
 
     void index_kept() {
+        given_ = &index_of_kept();
+        for (std::size_t i = 0; i < given_->size(); ++i)
+            require(!given_->is_finite(i) || is_finite(given_->viewpoints[i]),
+                    "perception: a view point is not finite");
+    }
+
+    const spatial_index& index_of_kept() {
         if (!keeps_all()) {
             result_.index.rebuild(subset_view<R, Proj>(points_, result_.kept, projection_), run_);
         } else if constexpr (std::same_as<R, spatial_index> && std::same_as<Proj, std::identity>) {
-            given_ = &checked(points_);
             result_.index.clear();
-            return;
+            return checked(points_);
         } else {
             result_.index.rebuild(points_, run_, projection_);
         }
-        given_ = &result_.index;
+        return result_.index;
     }
 
     /// `planes_on_cells`

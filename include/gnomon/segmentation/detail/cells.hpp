@@ -64,10 +64,11 @@ struct cells {
             if (has_many)
                 seen_from[c] = combined(1.0 - share, seen_from[c], share, index.viewpoints[i]);
         }
-        viewpoints =
-            has_many
-                ? viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()))
-                : index.viewpoints;
+        if (has_many)
+            viewpoints =
+                viewpoint_table(std::vector<Eigen::Vector3d>(seen_from.begin(), seen_from.end()));
+        else if (!index.viewpoints.empty())
+            viewpoints = viewpoint_table(index.viewpoints.positions().front());
     }
 
     static constexpr point_index no_cell = std::numeric_limits<point_index>::max();

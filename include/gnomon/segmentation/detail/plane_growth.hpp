@@ -74,6 +74,7 @@ class plane_growth {
             for (std::size_t o = begin; o < end; ++o)
                 order[o].first = roughness_at(order[o].second);
         });
+        std::erase_if(order, [](const auto& o) { return std::isnan(o.first); });
         std::sort(order.begin(), order.end());
         return order;
     }
@@ -82,6 +83,7 @@ class plane_growth {
         const Eigen::Vector3d n = normal(i);
         double sum = 0.0, count = 1.0, mean = 0.0;
         for (const point_index j : graph_[i]) {
+            if (!cloud_.is_finite(j)) continue;
             const double d = dot(n, difference(cloud_.offsets[j], cloud_.offsets[i]));
             sum += d * d;
             mean += d;
