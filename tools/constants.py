@@ -6,7 +6,7 @@ Read are the headers of FOLDERS. Every numeric literal other than 0, 1 and 2 has
 
 - a name: that of the constexpr variable, data member or default argument whose initializer it is in;
 - a source, in the comment on the same line or on the lines above, which determines its kind:
-    chosen       "chosen"; such a 1 or 2 is listed as well
+    chosen       "chosen"; such a 1 or 2 is listed as well, but not counted
     performance  "performance only"
     numerical    a guard against "rounding" or "overflow", or "numerical"
     formula      "formula", "quantile", or a significance level in %
@@ -125,8 +125,7 @@ class Header:
             kind, source = kind_of(above)
         before, after = self.code[:literal.start()], self.code[literal.end():]
         is_whole = re.search(rf"\b{name}\s*[={{]\s*$", before) and re.match(r"\s*[;,)}]", after)
-        is_plain = not value.lower().startswith("0x") and float(value.replace("'", "")) in PLAIN
-        if is_plain and not (name and is_whole and kind == "chosen"):
+        if is_plain(value) and not (name and is_whole and kind == "chosen"):
             return None
         unit = UNIT.search(f"{beside} {above}")
         unit = unit[1] if unit and is_whole else ""
@@ -210,6 +209,10 @@ def openings(code):
     return opening_of
 
 
+def is_plain(value):
+    return not value.lower().startswith("0x") and float(value.replace("'", "")) in PLAIN
+
+
 def kind_of(comment):
     """(kind, the clause of the comment that determines it), both empty if none does."""
     for kind, pattern in KINDS.items():
@@ -243,7 +246,7 @@ def main():
     found = list(constants(options.include))
     complete = [c for c in found if c.kind and c.name]
     problems = [c.problem() for c in found if not (c.kind and c.name)]
-    chosen = {(c.path, c.declared, c.name) for c in complete if c.kind == "chosen"}
+    chosen = {(c.path, c.declared, c.name) for c in complete if c.kind == "chosen" and not is_plain(c.value)}
     if len(chosen) > MAX_CHOSEN:
         problems.append(f"{len(chosen)} constants are chosen, at most {MAX_CHOSEN}")
     if options.json:

@@ -34,6 +34,11 @@ STEPS = {
          "return std::max(noise.of_planes.along(ray), least);", "return least;")]},
     "second growth, by twice the angle": {"texts": [
         ("gnomon/segmentation/segment_planes.hpp", "    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle\n", "")]},
+    "cutting of regions at edges": {"texts": [
+        ("gnomon/segmentation/detail/plane_regions.hpp", "if (!cuts[r]) continue;", "continue;")]},
+    "no merging of planes at edges": {"texts": [
+        ("gnomon/segmentation/detail/plane_comparison.hpp",
+         "    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();\n", "")]},
     "merging of neighboring planes": {"texts": [
         ("gnomon/segmentation/detail/plane_regions.hpp",
          "bool merge(scratch<region_pair> pairs) {",

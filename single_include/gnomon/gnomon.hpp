@@ -11618,6 +11618,11 @@ struct plane_sums {
         return std::max(squared_cosine(n), least_cosine * least_cosine) / positions.weight;
     }
 
+    /// The variance of a point along a direction by its noise [m^2].
+    [[nodiscard]] double noise_along(const Eigen::Vector3d& direction) const {
+        return static_cast<double>(count) * squared_cosine(direction) / positions.weight;
+    }
+
     /// The plane of the points, relative to the origin.
     [[nodiscard]] region_plane fit() const {
         region_plane f;
@@ -11971,7 +11976,8 @@ void unite_labels(auto& labels, union_find& sets) {
 
 namespace gnomon::detail {
 
-/// Of the competition: performance only, as later ones change hardly a label.
+/// Of the competition; chosen on furnished rooms 20,001 to 20,012: more take longer, and change the
+/// mean IoU by less than its scatter.
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
@@ -12189,7 +12195,7 @@ template <class Cloud>
     };
     planar_region region = sums_of([](point_index) { return true; });
     const std::size_t all = region.sums.count;
-    constexpr int most_passes = 5;  // performance only
+    constexpr int most_passes = 50;  // numerical: in rooms and real scans five are enough
     for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
         const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
         if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) {
@@ -12778,18 +12784,15 @@ class floor_search {
                  double min_width)
         : points_(points), seen_from_(seen_from), widest_(widest), min_width_(min_width) {}
 
-    /// The lowest floor, of those near heights at which many points lie: a quarter of those at the
-    /// most frequent one.
+    /// The lowest floor, of those near heights at which as many points lie as a floor has cells.
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
-        constexpr std::size_t fewer = 4;  // times fewer than the most; chosen
-        if (heights.bins.empty()) return std::nullopt;
-        const std::size_t most = fullest(heights).count;
+        const double fewest = min_width_ * min_width_ / (side_ * side_);
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
             lower += count;
-            if (fewer * count < most) continue;
+            if (static_cast<double>(count) < fewest) continue;
             if (const auto floor = from({up, height})) return floor;
         }
         return std::nullopt;
@@ -12807,17 +12810,16 @@ class floor_search {
     }
 
     /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
-    /// below, up to three times as far from the plane.
+    /// below, up to twice as far from the plane.
     struct cell {
         std::uint32_t in_band = 0, above = 0, below = 0;
         Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
     };
 
-    static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
     // The share of the points of a floor that may be below it, and of the points of a clear cell
     // that may be above; chosen. In real scans of floors up to 3.4 % are below.
     static constexpr double few = 0.04;
-    static constexpr double bands = 3.0;  // from the plane, within which cells extend; chosen
+    static constexpr double bands = 2.0;  // from the plane, within which cells extend; chosen
 
     /// The plane through the points in a band about itself; nothing if it turns away from the
     /// guess.
@@ -12923,7 +12925,7 @@ class floor_search {
     /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
     /// cover the area of a square as wide: the feet of a table do not.
     [[nodiscard]] bool is_wide(const floor_fit& cells) const {
-        const double area = side * side * static_cast<double>(cells.count);
+        const double area = side_ * side_ * static_cast<double>(cells.count);
         return std::min(area, 12.0 * cells.axes.values[1]) >= min_width_ * min_width_;
     }
 
@@ -12933,7 +12935,7 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side_;
             return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
         };
         return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
@@ -12941,7 +12943,8 @@ class floor_search {
 
     const Points& points_;
     const viewpoint_table& seen_from_;
-    double widest_, min_width_;  // [m]
+    double widest_, min_width_;    // [m]
+    double side_ = 2.0 * widest_;  // of a cell [m]: it is as wide as the band is high
     scratch<double> distances_;
     scratch<cell> cells_;
     scratch<Eigen::Vector3d> means_;
@@ -13469,10 +13472,37 @@ namespace gnomon::detail {
     return both.fit();
 }
 
+/// The variance of the tilt of a plane about an axis in it [rad^2]; infinite for a strip along the
+/// axis that is no wider than its noise.
+[[nodiscard]] double tilt_variance(const auto& region, const Eigen::Vector3d& axis) {
+    const Eigen::Vector3d& n = region.fit.plane.normal;
+    const Eigen::Vector3d across = cross(n, axis);
+    const double spread = dot(across, product(region.sums.positions.covariance(), across));
+    const double own = spread - region.sums.noise_along(across);
+    if (!(own > 0.0)) return std::numeric_limits<double>::infinity();
+    return region.fit.excess() * region.sums.noise_across(n) * spread / (own * own);
+}
+
+/// Whether two planes certainly meet at an edge: they are turned by more than 60 degrees, and by
+/// more than three standard deviations more.
+[[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
+    // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
+    // an office (pcl_office1_kinect).
+    constexpr angle least = degrees(60);
+    if (!a.fit.is_determined || !b.fit.is_determined) return false;
+    const double cosine = std::abs(dot(a.fit.plane.normal, b.fit.plane.normal));
+    if (cosine >= cos(least)) return false;
+    const Eigen::Vector3d axis = direction_of(cross(a.fit.plane.normal, b.fit.plane.normal));
+    const double beyond = std::acos(cosine) - least.radians();
+    return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
+}
+
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: the variance of either about the common plane is at most 2.5 times the
-/// larger of those about their own, which count as 1 to 2.5 times that of the noise.
+/// if they may be one: they do not meet at an edge, and the variance of either about the common
+/// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
+/// that of the noise.
 [[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
@@ -13501,6 +13531,61 @@ namespace gnomon::detail {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/edge_cut.hpp ------------------------------------------------
+
+/// @file
+/// The edge within a region: small faces that meet at one are within the noise of a common plane,
+/// and grow into one region, but two planes explain them better.
+
+namespace gnomon::detail {
+
+/// Where to cut a region in two: across one of its principal axes, at an eighth of its extent, the
+/// one after which two planes that meet at an edge explain the points best.
+/// @param min_points  of each part
+/// @return nothing if one plane explains them as well. O(n).
+[[nodiscard]] inline std::optional<plane> edge_cut(const planar_cloud& cloud,
+                                                   std::span<const point_index> members,
+                                                   const planar_region& whole,
+                                                   std::size_t min_points) {
+    if (members.size() < 2 * min_points) return std::nullopt;
+    const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
+    const auto cost = [](const planar_region& r) {
+        return static_cast<double>(r.sums.count) * r.fit.chi2;
+    };
+    double least = cost(whole);
+    std::optional<plane> best;
+    for (int axis = 0; axis < 2; ++axis) {
+        constexpr std::size_t pieces = 8;  // chosen: of sixteen as many planes are found
+        const Eigen::Vector3d along = column(principal.vectors, axis);
+        const auto position = [&](point_index i) { return dot(along, cloud.offsets[i]); };
+        double first = position(members.front()), last = first;
+        for (const point_index i : members) {
+            first = std::min(first, position(i));
+            last = std::max(last, position(i));
+        }
+        const double width = (last - first) / static_cast<double>(pieces);
+        if (!(width > 0.0)) continue;
+        std::array<plane_sums, pieces> sums;
+        for (const point_index i : members) {
+            const auto piece = static_cast<std::size_t>((position(i) - first) / width);
+            cloud.add(i, sums[std::min(piece, pieces - 1)]);
+        }
+        for (std::size_t cut = 1; cut < pieces; ++cut) {
+            planar_region a, b;
+            for (std::size_t p = 0; p < pieces; ++p) (p < cut ? a : b).sums.add(sums[p]);
+            if (std::min(a.sums.summands, b.sums.summands) < min_points) continue;
+            a.fit = a.sums.fit();
+            b.fit = b.sums.fit();
+            if (!are_at_edge(a, b) || !(cost(a) + cost(b) < least)) continue;
+            least = cost(a) + cost(b);
+            best = plane{along, first + width * static_cast<double>(cut)};
+        }
+    }
+    return best;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
 
 /// @file
@@ -13519,15 +13604,42 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
-    /// Grows new regions in what is unlabeled, and merges regions next to each other that one plane
-    /// explains. Then, in at most `most_rounds` rounds, each point goes to the region, among those
-    /// of its neighbors and its own, that explains it best, or to none if all are too far, and
-    /// regions are merged again.
+    /// Grows new regions in what is unlabeled, and settles them.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
             static_cast<std::int32_t>(regions_.size()), run);
         refit();
+        settle(run);
+        compact();
+    }
+
+    /// Cuts regions at edges, and settles them.
+    template <execution X>
+    void cut(const X& run) {
+        const label_groups parts(labels_);
+        scratch<std::optional<plane>> cuts(parts.size());
+        run(parts.size(),
+            [&](std::size_t r) { cuts[r] = edge_cut(cloud_, parts[r], regions_[r], min_points_); });
+        auto next = static_cast<std::int32_t>(regions_.size());
+        for (std::size_t r = 0; r < parts.size(); ++r) {
+            if (!cuts[r]) continue;
+            for (const point_index i : parts[r])
+                if (cuts[r]->signed_distance(cloud_.offsets[i]) > 0.0) labels_[i] = next;
+            ++next;
+        }
+        if (next == static_cast<std::int32_t>(regions_.size())) return;
+        refit();
+        settle(run);
+        compact();
+    }
+
+  private:
+    /// Merges regions next to each other that one plane explains. Then, in at most `most_rounds`
+    /// rounds, each point goes to the region, among those of its neighbors and its own, that
+    /// explains it best, or to none if all are too far, and regions are merged again.
+    template <execution X>
+    void settle(const X& run) {
         scratch<char> is_border = borders_of(graph_, labels_, run);
         merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
@@ -13537,10 +13649,8 @@ class plane_regions {
             refit();
             if (!merge(std::move(after.touching)) && rests) break;
         }
-        compact();
     }
 
-  private:
     /// Merges regions that one plane explains.
     /// @param pairs  those next to each other
     /// @return whether there were any
@@ -13624,11 +13734,12 @@ class plane_regions {
 ///  1. grow     From the flattest places on, points whose normals roughly agree join while they are
 ///              within three standard deviations of the region's plane, which is fit again as it
 ///              grows.
-///  2. merge    Neighbors that one plane fits as well as two are one.
+///  2. merge    Neighbors that one plane fits as well as two are one, unless they meet at an edge.
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
+///  4. cut      What two planes at an edge explain better is cut in two, merged and competed for.
 ///
-/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths
+/// All of it once more in what is left, by twice the angle, as edges blend normals. All lengths
 /// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 
 namespace gnomon {
@@ -13655,7 +13766,9 @@ template <neighborhood_graph G, normal_range S, execution X>
     plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
+    regions.cut(run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
+    regions.cut(run);
     return regions;
 }
 
@@ -13942,14 +14055,12 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 namespace gnomon::detail {
 
 /// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
-/// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// O(m log m) for m segments, or O(m^2) for all pairs of few. (A template, so that only its users
-/// compile a search.)
+/// their numbers, ascending and each pair once. O(m log m) for m segments, or O(m^2) where all are
+/// wanted. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of) {
-    constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {
@@ -13957,9 +14068,8 @@ namespace gnomon::detail {
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
     }
-    if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     scratch<region_pair> pairs;
-    if (wanted + 1 >= flat.size()) {
+    if (flat.size() <= wanted) {
         for (std::size_t f = 0; f < flat.size(); ++f)
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
@@ -14880,9 +14990,9 @@ struct merge_occluded_options {
     /// them.
     double max_gap = 0.20;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
-    /// k_c, the segments with nearest centroids that each is compared with; 0 stands for all of up
-    /// to 300 segments, and for 20 of more.
-    std::size_t candidates = 0;
+    /// k_c, the segments with nearest centroids that each is compared with; chosen on furnished
+    /// rooms 20,001 to 20,024, where all as candidates give the same result.
+    std::size_t candidates = 20;
 };
 
 /// The gap between two segments whose merging was considered, and whether they were merged.
@@ -14906,13 +15016,14 @@ struct merged_segments {
 namespace detail {
 
 /// @throws std::invalid_argument  for what no form of the algorithm can work with
-inline void require_boundary_pairs(std::size_t pairs) {
-    require(pairs > 0 && pairs % 2 == 0,
+void require_pairs(const auto& options) {
+    require(options.boundary_pairs > 0 && options.boundary_pairs % 2 == 0,
             "merging: the number of boundary pairs must be even and not 0");
+    require(options.candidates > 0, "merging: there must be a candidate");
 }
 
 inline void require_valid(const merge_occluded_options& options) {
-    require_boundary_pairs(options.boundary_pairs);
+    require_pairs(options);
     require(options.max_offset >= 0.0 && options.max_gap >= 0.0,
             "merge_occluded: max_offset and max_gap must not be negative or NaN");
 }
@@ -14945,7 +15056,8 @@ template <merge_policy M, execution X>
 /// @return the segments afterwards, largest first, and all gaps that were examined; the same for
 ///         every execution
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
-///                                for an odd or no number of boundary pairs, or a negative or NaN
+///                                for an odd or no number of boundary pairs, no candidate, or a
+///                                negative or NaN
 ///                                threshold
 /// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
 /// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
@@ -15047,14 +15159,14 @@ struct literal_merging_options {
     double max_offset = 0.05;        ///< rho_o of coplanar segments [m]
     double max_gap = 0.20;           ///< rho_c [m]: narrower gaps are closed
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
-    std::size_t candidates = 0;      ///< k_c, as in `merge_occluded_options`
+    std::size_t candidates = merge_occluded_options{}.candidates;  ///< k_c
 };
 
 /// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
 /// not occluded.
 /// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, and a negative or NaN
-///                                threshold
+///                                an odd or no number of boundary pairs, no candidate, and a
+///                                negative or NaN threshold
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -15064,7 +15176,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
-    detail::require_boundary_pairs(options.boundary_pairs);
+    detail::require_pairs(options);
     detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
                         options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
                     "merge_occluded_literally: a threshold is negative or NaN");

@@ -448,6 +448,7 @@ TEST(merge_occluded, rejects_invalid_input) {
     EXPECT_THROW(merge({.max_gap = -0.1}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 0}), std::invalid_argument);
     EXPECT_THROW(merge({.boundary_pairs = 5}), std::invalid_argument);
+    EXPECT_THROW(merge({.candidates = 0}), std::invalid_argument);
     EXPECT_NO_THROW(merge({.boundary_pairs = 2, .candidates = 1}));
     const segments of_others(std::vector<std::int32_t>(seen.scan.size() + 1, 0));
     EXPECT_THROW((void)merge_occluded(seen.scan, of_others, visible), std::invalid_argument);

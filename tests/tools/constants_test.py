@@ -116,7 +116,7 @@ class Constants(TreeTest):
             // 77 of 88
             inline void f() {
                 for (int a = 0; a < 3; ++a) say("99", '9');
-                h = (h ^ k) * 0x9e3779b97f4a7c15U;
+                h = 1.4826 * k;
             }
             """
         self.assertEqual([c["kind"] for c in self.found(text)], ["formula", "formula"])
@@ -129,6 +129,8 @@ class Constants(TreeTest):
         lines = [f"constexpr int a{i} = 5 + 6;  // chosen\n" for i in range(16)]
         self.assertEqual(self.problems("".join(lines[1:])), [])
         self.assertEqual(self.problems("".join(lines)), ["16 constants are chosen, at most 15"])
+        plain = "constexpr int b = 2;  // chosen\n"
+        self.assertEqual(self.problems("".join(lines[1:]) + plain), [])
 
 
 if __name__ == "__main__":

@@ -100,14 +100,14 @@ struct literal_merging_options {
     double max_offset = 0.05;        ///< rho_o of coplanar segments [m]
     double max_gap = 0.20;           ///< rho_c [m]: narrower gaps are closed
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
-    std::size_t candidates = 0;      ///< k_c, as in `merge_occluded_options`
+    std::size_t candidates = merge_occluded_options{}.candidates;  ///< k_c
 };
 
 /// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
 /// not occluded.
 /// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, and a negative or NaN
-///                                threshold
+///                                an odd or no number of boundary pairs, no candidate, and a
+///                                negative or NaN threshold
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -117,7 +117,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     const position_view<R, Proj> p(points, projection);
     detail::require(parts.labels().size() == p.size(),
                     "merge_occluded_literally: segments and points differ in number");
-    detail::require_boundary_pairs(options.boundary_pairs);
+    detail::require_pairs(options);
     detail::require(options.max_variation >= 0.0 && options.max_offset >= 0.0 &&
                         options.max_gap >= 0.0 && options.max_angle.radians() >= 0.0,
                     "merge_occluded_literally: a threshold is negative or NaN");

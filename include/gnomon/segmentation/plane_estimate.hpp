@@ -90,7 +90,7 @@ template <class Cloud>
     };
     planar_region region = sums_of([](point_index) { return true; });
     const std::size_t all = region.sums.count;
-    constexpr int most_passes = 5;  // performance only
+    constexpr int most_passes = 50;  // numerical: in rooms and real scans five are enough
     for (int pass = 0; pass < most_passes && region.fit.is_determined; ++pass) {
         const planar_region on = sums_of([&](point_index i) { return cloud.is_on(i, region.fit); });
         if (2 * on.sums.count < region.sums.count || !on.fit.is_determined) {

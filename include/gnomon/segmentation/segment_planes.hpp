@@ -7,11 +7,12 @@
 ///  1. grow     From the flattest places on, points whose normals roughly agree join while they are
 ///              within three standard deviations of the region's plane, which is fit again as it
 ///              grows.
-///  2. merge    Neighbors that one plane fits as well as two are one.
+///  2. merge    Neighbors that one plane fits as well as two are one, unless they meet at an edge.
 ///  3. compete  Each point, whatever its normal, goes to the plane among its neighbors' that
 ///              explains it best, and planes are fit again: edges come out sharp.
+///  4. cut      What two planes at an edge explain better is cut in two, merged and competed for.
 ///
-/// All three once more in what is left, by twice the angle, as edges blend normals. All lengths
+/// All of it once more in what is left, by twice the angle, as edges blend normals. All lengths
 /// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 #pragma once
 
@@ -58,7 +59,9 @@ template <neighborhood_graph G, normal_range S, execution X>
     plane_regions regions(cloud, graph, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
+    regions.cut(run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
+    regions.cut(run);
     return regions;
 }
 

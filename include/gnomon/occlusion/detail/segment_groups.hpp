@@ -22,14 +22,12 @@
 namespace gnomon::detail {
 
 /// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
-/// their numbers, ascending and each pair once; 0 stands for all of up to 300, and for 20 of more.
-/// O(m log m) for m segments, or O(m^2) for all pairs of few. (A template, so that only its users
-/// compile a search.)
+/// their numbers, ascending and each pair once. O(m log m) for m segments, or O(m^2) where all are
+/// wanted. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of) {
-    constexpr std::size_t not_many = 300, few = 20;  // performance only: k_c of the thesis is open
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {
@@ -37,9 +35,8 @@ namespace gnomon::detail {
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
     }
-    if (wanted == 0) wanted = flat.size() <= not_many ? flat.size() : few;
     scratch<region_pair> pairs;
-    if (wanted + 1 >= flat.size()) {
+    if (flat.size() <= wanted) {
         for (std::size_t f = 0; f < flat.size(); ++f)
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;

@@ -26,7 +26,8 @@
 
 namespace gnomon::detail {
 
-/// Of the competition: performance only, as later ones change hardly a label.
+/// Of the competition; chosen on furnished rooms 20,001 to 20,012: more take longer, and change the
+/// mean IoU by less than its scatter.
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of

@@ -7,14 +7,17 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
+#include <gnomon/segmentation/detail/edge_cut.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
@@ -34,15 +37,42 @@ class plane_regions {
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
 
-    /// Grows new regions in what is unlabeled, and merges regions next to each other that one plane
-    /// explains. Then, in at most `most_rounds` rounds, each point goes to the region, among those
-    /// of its neighbors and its own, that explains it best, or to none if all are too far, and
-    /// regions are merged again.
+    /// Grows new regions in what is unlabeled, and settles them.
     template <normal_range S, execution X>
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
             static_cast<std::int32_t>(regions_.size()), run);
         refit();
+        settle(run);
+        compact();
+    }
+
+    /// Cuts regions at edges, and settles them.
+    template <execution X>
+    void cut(const X& run) {
+        const label_groups parts(labels_);
+        scratch<std::optional<plane>> cuts(parts.size());
+        run(parts.size(),
+            [&](std::size_t r) { cuts[r] = edge_cut(cloud_, parts[r], regions_[r], min_points_); });
+        auto next = static_cast<std::int32_t>(regions_.size());
+        for (std::size_t r = 0; r < parts.size(); ++r) {
+            if (!cuts[r]) continue;
+            for (const point_index i : parts[r])
+                if (cuts[r]->signed_distance(cloud_.offsets[i]) > 0.0) labels_[i] = next;
+            ++next;
+        }
+        if (next == static_cast<std::int32_t>(regions_.size())) return;
+        refit();
+        settle(run);
+        compact();
+    }
+
+  private:
+    /// Merges regions next to each other that one plane explains. Then, in at most `most_rounds`
+    /// rounds, each point goes to the region, among those of its neighbors and its own, that
+    /// explains it best, or to none if all are too far, and regions are merged again.
+    template <execution X>
+    void settle(const X& run) {
         scratch<char> is_border = borders_of(graph_, labels_, run);
         merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
@@ -52,10 +82,8 @@ class plane_regions {
             refit();
             if (!merge(std::move(after.touching)) && rests) break;
         }
-        compact();
     }
 
-  private:
     /// Merges regions that one plane explains.
     /// @param pairs  those next to each other
     /// @return whether there were any

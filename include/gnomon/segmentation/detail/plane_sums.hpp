@@ -79,6 +79,11 @@ struct plane_sums {
         return std::max(squared_cosine(n), least_cosine * least_cosine) / positions.weight;
     }
 
+    /// The variance of a point along a direction by its noise [m^2].
+    [[nodiscard]] double noise_along(const Eigen::Vector3d& direction) const {
+        return static_cast<double>(count) * squared_cosine(direction) / positions.weight;
+    }
+
     /// The plane of the points, relative to the origin.
     [[nodiscard]] region_plane fit() const {
         region_plane f;
