@@ -11478,9 +11478,9 @@ inline constexpr double certain_deviations = 5.0;
 inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
 /// Of the angle of incidence: three deviations are at least the noise along the ray.
 inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
-/// The cosine of the angle between a ray and the normal of a surface, below which the surface was
-/// not seen: planes of less are those of scan lines, which contain their view point.
-inline constexpr double edge_on = 0.02;  // chosen: one degree
+/// The angle between a ray and a surface below which the surface was not seen: planes of less are
+/// those of scan lines, which contain their view point.
+inline constexpr angle edge_on = degrees(1);  // chosen
 
 /// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
 /// which is zero where no view point is known.
@@ -11636,7 +11636,7 @@ struct plane_sums {
         f.plane = {n, dot(n, f.centroid)};
         f.is_determined = true;
         f.chi2 = chi2_of(std::max(0.0, e.values[2]), n);
-        f.is_seen = squared_cosine(n) >= edge_on * edge_on;
+        f.is_seen = squared_cosine(n) >= sin(edge_on) * sin(edge_on);
         return f;
     }
 
@@ -12787,7 +12787,7 @@ class floor_search {
     /// The lowest floor, of those near heights at which as many points lie as a floor has cells.
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
-        const double fewest = min_width_ * min_width_ / (side_ * side_);
+        const double fewest = min_width_ * min_width_ / (side * side);
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
@@ -12810,7 +12810,7 @@ class floor_search {
     }
 
     /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
-    /// below, up to twice as far from the plane.
+    /// below, up to three times as far from the plane.
     struct cell {
         std::uint32_t in_band = 0, above = 0, below = 0;
         Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
@@ -12819,7 +12819,8 @@ class floor_search {
     // The share of the points of a floor that may be below it, and of the points of a clear cell
     // that may be above; chosen. In real scans of floors up to 3.4 % are below.
     static constexpr double few = 0.04;
-    static constexpr double bands = 2.0;  // from the plane, within which cells extend; chosen
+    static constexpr double bands = 3.0;  // from the plane, within which cells extend; chosen
+    static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
 
     /// The plane through the points in a band about itself; nothing if it turns away from the
     /// guess.
@@ -12925,7 +12926,7 @@ class floor_search {
     /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
     /// cover the area of a square as wide: the feet of a table do not.
     [[nodiscard]] bool is_wide(const floor_fit& cells) const {
-        const double area = side_ * side_ * static_cast<double>(cells.count);
+        const double area = side * side * static_cast<double>(cells.count);
         return std::min(area, 12.0 * cells.axes.values[1]) >= min_width_ * min_width_;
     }
 
@@ -12935,7 +12936,7 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side_;
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
             return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
         };
         return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
@@ -12943,8 +12944,7 @@ class floor_search {
 
     const Points& points_;
     const viewpoint_table& seen_from_;
-    double widest_, min_width_;    // [m]
-    double side_ = 2.0 * widest_;  // of a cell [m]: it is as wide as the band is high
+    double widest_, min_width_;  // [m]
     scratch<double> distances_;
     scratch<cell> cells_;
     scratch<Eigen::Vector3d> means_;
@@ -14375,8 +14375,10 @@ namespace gnomon {
 
 /// How large the image is and how it is turned.
 struct range_image_options {
-    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
-    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
+    /// Pixels from azimuth -pi to pi; by default as wide as the beams of the thesis are apart, 0.25
+    /// degrees (Sec. 4.4.2).
+    std::size_t width = 1440;
+    std::size_t height = 720;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
     /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
     /// the z-axis the image is that of Eq. (2.1).
     std::optional<Eigen::Vector3d> pole = std::nullopt;

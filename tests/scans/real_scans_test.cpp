@@ -18,6 +18,7 @@
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
 
 namespace {
@@ -61,6 +62,20 @@ class real_scans : public testing::Test {
         if (!have_scans()) GTEST_SKIP() << "needs shared data";
     }
 };
+
+/// Unlike simulated floors, these have points below them, and are rough or seen at grazing
+/// incidence.
+TEST_F(real_scans, have_floors) {
+    const auto height_of = [](const std::string& name, const Eigen::Vector3d& up) {
+        const auto floor = gnomon::find_floor(read_scan("scans/" + name), up);
+        return floor ? floor->offset : clouds::nan;
+    };
+    const Eigen::Vector3d z(0, 0, 1);
+    EXPECT_NEAR(height_of("asl_apartment_0.vtk", z), -0.25, 0.02);
+    EXPECT_NEAR(height_of("kitti_000008_front.ply", z), -1.80, 0.05);
+    EXPECT_NEAR(height_of("pcl_room_scan1.pcd", z), -1.27, 0.02);
+    EXPECT_NEAR(height_of("pcl_office1_kinect.pcd", {0, -1, 0}), -1.33, 0.03);
+}
 
 /// The largest segment is the floor, the next the table top, and what stands on it is separate.
 TEST_F(real_scans, lms400_table_scene_gives_floor_table_and_object) {

@@ -33,8 +33,10 @@ namespace gnomon {
 
 /// How large the image is and how it is turned.
 struct range_image_options {
-    std::size_t width = 720;   ///< pixels from azimuth -pi to pi; chosen: half a degree
-    std::size_t height = 360;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
+    /// Pixels from azimuth -pi to pi; by default as wide as the beams of the thesis are apart, 0.25
+    /// degrees (Sec. 4.4.2).
+    std::size_t width = 1440;
+    std::size_t height = 720;  ///< pixels from elevation -pi/2 to pi/2: half the width (formula)
     /// Where elevation is pi/2, of any length; by default a direction in which least is seen. With
     /// the z-axis the image is that of Eq. (2.1).
     std::optional<Eigen::Vector3d> pole = std::nullopt;

@@ -52,7 +52,7 @@ class floor_search {
     /// The lowest floor, of those near heights at which as many points lie as a floor has cells.
     [[nodiscard]] std::optional<plane> lowest(const Eigen::Vector3d& up,
                                               const height_histogram& heights) {
-        const double fewest = min_width_ * min_width_ / (side_ * side_);
+        const double fewest = min_width_ * min_width_ / (side * side);
         std::size_t lower = 0;
         for (const auto& [height, count] : heights.bins) {
             if (2 * lower > heights.points) break;  // what is higher is above most points
@@ -75,7 +75,7 @@ class floor_search {
     }
 
     /// A cell of the grid: the numbers of points in the band of the plane, and of those above and
-    /// below, up to twice as far from the plane.
+    /// below, up to three times as far from the plane.
     struct cell {
         std::uint32_t in_band = 0, above = 0, below = 0;
         Eigen::Vector3d sum{0.0, 0.0, 0.0};  ///< of those in the band, from the centroid [m]
@@ -84,7 +84,8 @@ class floor_search {
     // The share of the points of a floor that may be below it, and of the points of a clear cell
     // that may be above; chosen. In real scans of floors up to 3.4 % are below.
     static constexpr double few = 0.04;
-    static constexpr double bands = 2.0;  // from the plane, within which cells extend; chosen
+    static constexpr double bands = 3.0;  // from the plane, within which cells extend; chosen
+    static constexpr double side = 0.25;  // of a cell [m]; chosen, smaller than furniture
 
     /// The plane through the points in a band about itself; nothing if it turns away from the
     /// guess.
@@ -190,7 +191,7 @@ class floor_search {
     /// Whether cells are wide in both directions, as a rectangle with the same second moments, and
     /// cover the area of a square as wide: the feet of a table do not.
     [[nodiscard]] bool is_wide(const floor_fit& cells) const {
-        const double area = side_ * side_ * static_cast<double>(cells.count);
+        const double area = side * side * static_cast<double>(cells.count);
         return std::min(area, 12.0 * cells.axes.values[1]) >= min_width_ * min_width_;
     }
 
@@ -200,7 +201,7 @@ class floor_search {
                                       const Eigen::Vector3d& from_centroid) const {
         const auto number_along = [&](int axis) {
             constexpr double exact = 1e15;  // numerical: whole numbers are; outliers share cells
-            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side_;
+            const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
             return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
         };
         return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
@@ -208,8 +209,7 @@ class floor_search {
 
     const Points& points_;
     const viewpoint_table& seen_from_;
-    double widest_, min_width_;    // [m]
-    double side_ = 2.0 * widest_;  // of a cell [m]: it is as wide as the band is high
+    double widest_, min_width_;  // [m]
     scratch<double> distances_;
     scratch<cell> cells_;
     scratch<Eigen::Vector3d> means_;

@@ -97,7 +97,7 @@ struct plane_sums {
         f.plane = {n, dot(n, f.centroid)};
         f.is_determined = true;
         f.chi2 = chi2_of(std::max(0.0, e.values[2]), n);
-        f.is_seen = squared_cosine(n) >= edge_on * edge_on;
+        f.is_seen = squared_cosine(n) >= sin(edge_on) * sin(edge_on);
         return f;
     }
 

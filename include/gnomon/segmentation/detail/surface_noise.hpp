@@ -15,6 +15,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
@@ -35,9 +36,9 @@ inline constexpr double certain_deviations = 5.0;
 inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
 /// Of the angle of incidence: three deviations are at least the noise along the ray.
 inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
-/// The cosine of the angle between a ray and the normal of a surface, below which the surface was
-/// not seen: planes of less are those of scan lines, which contain their view point.
-inline constexpr double edge_on = 0.02;  // chosen: one degree
+/// The angle between a ray and a surface below which the surface was not seen: planes of less are
+/// those of scan lines, which contain their view point.
+inline constexpr angle edge_on = degrees(1);  // chosen
 
 /// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
 /// which is zero where no view point is known.
