@@ -817,9 +817,8 @@ class noise_curve {
         const double range = detail::length(ray);
         if (!is_of_depth()) return variance(range);
         constexpr double least_cosine = 0.17;  // of 80 degrees
-        // In this order, also of a range that overflows.
         const double cosine =
-            range > 0.0 ? std::max(least_cosine, std::abs(detail::dot(ray, axis())) / range) : 1.0;
+            range > 0.0 ? std::max(std::abs(detail::dot(ray, axis())) / range, least_cosine) : 1.0;
         return variance(range * cosine) / (cosine * cosine);
     }
 
@@ -851,7 +850,7 @@ class noise_curve {
     [[nodiscard]] double variance(double x) const {
         if (is_table_) return from_table(x) + added_;
         const double own = std::max(value(variance_, x), value(quantization_, x));
-        return std::min(most * most, own) + added_;  // in this order, also of NaN
+        return std::min(own, most * most) + added_;
     }
 
     [[nodiscard]] static double value(const quartic& c, double x) {
