@@ -26,7 +26,7 @@ SECTIONS = [
      "surface of most points of their segment. Merging is tested by pairs of initial segments, which count "
      "with the points of the smaller one: wanted are those of one flat surface that an occluder "
      "interrupts, right those of them that are merged, wrong those that are merged and of two surfaces. "
-     "\"Blobs\" are flat surfaces with a blob, see real scans. The ceiling is the IoU that the competition of "
+     "\"Blobs\" are flat surfaces with a blob, see real scans. \"From the truth\" is the IoU that the competition of "
      "planes reaches from the true labels, on the cells and with the noise of the chain: there, what it lacks "
      "to 1 is the loss of the competition; the remainder is that of finding the planes."),
     ("cameras", "Depth cameras",

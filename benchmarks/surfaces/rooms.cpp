@@ -18,8 +18,8 @@
 #include "scores.hpp"
 
 #ifndef GNOMON_SIGMA_TOLD
-#include "ceiling.hpp"
 #include "flatness_check.hpp"
+#include "true_competition.hpp"
 constexpr bool is_older = false;
 #else
 constexpr bool is_older = true;  // no noise and no planes are in the result
@@ -83,8 +83,8 @@ struct score {
     std::size_t surfaces = 0, segments = 0;
     merge_tallies merging;
     // Not of an older version of the library:
-    std::size_t blobs = 0;                          // flat segments that have a blob
-    double ceiling = 0.0, ceiling_by_points = 0.0;  // IoU, as above
+    std::size_t blobs = 0;                                // flat segments that have a blob
+    double from_truth = 0.0, from_truth_by_points = 0.0;  // IoU of true_competition
 };
 
 /// Scores that require the noise and the planes of the result, which older versions do not return.
@@ -94,8 +94,8 @@ void add_scores_of_planes(score& to, const sim::true_scan& truth, const joined_s
     to.blobs = flatness_of(truth.scan, seen).with_blob;
     const auto best = true_competition(truth, surfaces, seen).segments(truth.scan.size());
     const auto found = recovered(surfaces, seen.kept, best, fewest);
-    to.ceiling = mean_iou(found, false);
-    to.ceiling_by_points = mean_iou(found, true);
+    to.from_truth = mean_iou(found, false);
+    to.from_truth_by_points = mean_iou(found, true);
 #else
     (void)to, (void)truth, (void)surfaces, (void)seen, (void)fewest;
 #endif
@@ -158,13 +158,13 @@ json pooled(json row, const std::vector<score>& rooms) {
 }
 
 /// A row with the IoU that the competition of planes reaches, next to that of the chain.
-json ceiling_of(json row, const std::vector<score>& rooms) {
+json from_truth_of(json row, const std::vector<score>& rooms) {
     row.update(
         {{"rooms", rooms.size()},
          {"mean IoU", rounded(mean_of(rooms, &score::iou), 4)},
-         {"from the truth", rounded(mean_of(rooms, &score::ceiling), 4)},
+         {"from the truth", rounded(mean_of(rooms, &score::from_truth), 4)},
          {"by points", rounded(mean_of(rooms, &score::iou_by_points), 4)},
-         {"by points, from the truth", rounded(mean_of(rooms, &score::ceiling_by_points), 4)}});
+         {"by points, from the truth", rounded(mean_of(rooms, &score::from_truth_by_points), 4)}});
     return row;
 }
 
@@ -179,14 +179,14 @@ json row_of(json row, const score& s) {
                 {"wrong", s.merging.by_points.wrong},
                 {"segments", s.segments},
                 {"time [s]", rounded(s.seconds, 3)}});
-    if (!is_older) row.update({{"blobs", s.blobs}, {"from the truth", rounded(s.ceiling, 5)}});
+    if (!is_older) row.update({{"blobs", s.blobs}, {"from the truth", rounded(s.from_truth, 5)}});
     return row;
 }
 
 json measure(const effort& much, selection chosen) {
     if (much.quick) chosen.rooms = std::min<std::uint64_t>(chosen.rooms, 2);
     json settings = json::array(), by_noise = json::array(), rooms = json::array();
-    json ceiling = json::array();
+    json from_truth = json::array();
     for (const double noise : noises) {
         std::vector<score> of_noise;
         for (const std::string density : densities) {
@@ -208,10 +208,12 @@ json measure(const effort& much, selection chosen) {
         }
         if (of_noise.empty()) continue;
         by_noise.push_back(pooled({{"noise [mm]", noise}}, of_noise));
-        if (!is_older) ceiling.push_back(ceiling_of({{"noise [mm]", noise}}, of_noise));
+        if (!is_older) from_truth.push_back(from_truth_of({{"noise [mm]", noise}}, of_noise));
     }
-    return {
-        {"by noise", by_noise}, {"ceiling", ceiling}, {"by setting", settings}, {"rooms", rooms}};
+    return {{"by noise", by_noise},
+            {"from the truth", from_truth},
+            {"by setting", settings},
+            {"rooms", rooms}};
 }
 
 }  // namespace

@@ -14923,13 +14923,13 @@ class occlusion_merger {
         return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
     }
 
-    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow, whether
-    /// `liberal` does.
+    /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of
+    /// them alone keeps it open.
     [[nodiscard]] bool is_closed(point_index a, point_index b) {
         examined_gap gap{{a, b}, {}};
         append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
                               {centroid(a), centroid(b)}, options_.boundary_pairs);
-        std::size_t accepted = 0, passable = 0;
+        std::size_t accepted = 0;
         bool is_kept_open = false;
         for (const boundary_pair& line : gap.lines) {
             const Eigen::Vector3d v =
@@ -14939,11 +14939,9 @@ class occlusion_merger {
             gap.seen += seen;
             is_kept_open = is_kept_open || keeps_open(policy_, seen);
             accepted += accepts(policy_, seen) ? 1 : 0;
-            passable += accepts(liberal{}, seen) ? 1 : 0;
         }
         const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
-        const std::size_t most = is_narrow ? std::max(accepted, passable) : accepted;
-        const bool is_one = !is_kept_open && 2 * most > gap.lines.size();
+        const bool is_one = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
         gaps_.push_back(std::move(gap));
         return is_one;
     }
@@ -15130,8 +15128,8 @@ inline void for_each_pixel_between(const range_image& image, const range_image::
     }
 }
 
-/// Whether a policy finds most pixels of a line in its favor: what is less far than the line is
-/// closer, the rest farther.
+/// Whether a policy finds most pixels of a line in its favor: a pixel shows something closer than
+/// the line, or else farther.
 template <merge_policy M>
 [[nodiscard]] bool most_pixels_speak_for(const M& policy, const range_image& image,
                                          const Eigen::Vector3d& p, const Eigen::Vector3d& q) {

@@ -70,8 +70,8 @@ inline void for_each_pixel_between(const range_image& image, const range_image::
     }
 }
 
-/// Whether a policy finds most pixels of a line in its favor: what is less far than the line is
-/// closer, the rest farther.
+/// Whether a policy finds most pixels of a line in its favor: a pixel shows something closer than
+/// the line, or else farther.
 template <merge_policy M>
 [[nodiscard]] bool most_pixels_speak_for(const M& policy, const range_image& image,
                                          const Eigen::Vector3d& p, const Eigen::Vector3d& q) {

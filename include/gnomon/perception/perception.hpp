@@ -23,11 +23,14 @@
 #include <optional>
 #include <utility>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/detail/refused_points.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/noise_knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimator.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>

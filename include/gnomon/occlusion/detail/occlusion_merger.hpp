@@ -3,7 +3,6 @@
 /// Which segments merge_occluded compares, and which gaps between them it closes.
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -102,13 +101,13 @@ class occlusion_merger {
         return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
     }
 
-    /// Whether the policy accepts most of the lines across a gap, or, if the gap is narrow, whether
-    /// `liberal` does.
+    /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of
+    /// them alone keeps it open.
     [[nodiscard]] bool is_closed(point_index a, point_index b) {
         examined_gap gap{{a, b}, {}};
         append_boundary_pairs(gap.lines, points_, members_[a], members_[b],
                               {centroid(a), centroid(b)}, options_.boundary_pairs);
-        std::size_t accepted = 0, passable = 0;
+        std::size_t accepted = 0;
         bool is_kept_open = false;
         for (const boundary_pair& line : gap.lines) {
             const Eigen::Vector3d v =
@@ -118,11 +117,9 @@ class occlusion_merger {
             gap.seen += seen;
             is_kept_open = is_kept_open || keeps_open(policy_, seen);
             accepted += accepts(policy_, seen) ? 1 : 0;
-            passable += accepts(liberal{}, seen) ? 1 : 0;
         }
         const bool is_narrow = coplanar_distance(gap.lines) < options_.max_gap;
-        const std::size_t most = is_narrow ? std::max(accepted, passable) : accepted;
-        const bool is_one = !is_kept_open && 2 * most > gap.lines.size();
+        const bool is_one = !is_kept_open && (is_narrow || 2 * accepted > gap.lines.size());
         gaps_.push_back(std::move(gap));
         return is_one;
     }

@@ -15,6 +15,7 @@
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/stopwatch.hpp>
+#include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -27,12 +28,14 @@
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
 #include <gnomon/normals/surfel.hpp>
+#include <gnomon/occlusion/detail/occlusion_merger.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/cell_surfaces.hpp>
 #include <gnomon/perception/detail/known_noise.hpp>
 #include <gnomon/perception/perception_result.hpp>
+#include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
