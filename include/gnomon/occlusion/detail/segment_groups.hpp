@@ -41,11 +41,25 @@ namespace gnomon::detail {
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    const spatial_index index(centroids);
-    scratch<neighbor> nearest;
-    for (std::size_t f = 0; f < flat.size(); ++f) {
-        knn{.k = wanted}.find(index, f, nearest);
-        for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    constexpr std::size_t few = 300;  // performance only: of more a tree is faster than sorting
+    if (flat.size() > few) {
+        const spatial_index index(centroids);
+        scratch<neighbor> nearest;
+        for (std::size_t f = 0; f < flat.size(); ++f) {
+            knn{.k = wanted}.find(index, f, nearest);
+            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+        }
+    } else {
+        scratch<std::pair<double, point_index>> others;
+        for (std::size_t f = 0; f < flat.size(); ++f) {
+            others.clear();
+            for (std::size_t g = 0; g < flat.size(); ++g)
+                if (g != f)
+                    others.emplace_back(squared_distance(centroids[f], centroids[g]), flat[g]);
+            std::sort(others.begin(), others.end());
+            for (std::size_t o = 0; o < wanted; ++o)
+                pairs.push_back(std::minmax(flat[f], others[o].second));
+        }
     }
     make_unique(pairs);
     return pairs;
