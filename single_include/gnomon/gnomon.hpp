@@ -11980,7 +11980,9 @@ namespace gnomon::detail {
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
-/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
+/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012). (A
+/// template, so that only its users compile it.)
+template <class Label = std::int32_t>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -12016,11 +12018,11 @@ class label_competition {
 
   private:
     struct candidate {
-        std::int32_t label;
+        Label label;
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+    [[nodiscard]] candidate& candidate_of(Label label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
@@ -13541,11 +13543,10 @@ namespace gnomon::detail {
 /// Where to cut a region in two: across one of its principal axes, at an eighth of its extent, the
 /// one after which two planes that meet at an edge explain the points best.
 /// @param min_points  of each part
-/// @return nothing if one plane explains them as well. O(n).
-[[nodiscard]] inline std::optional<plane> edge_cut(const planar_cloud& cloud,
-                                                   std::span<const point_index> members,
-                                                   const planar_region& whole,
-                                                   std::size_t min_points) {
+/// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
+///         compile it.)
+[[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
+                                            const planar_region& whole, std::size_t min_points) {
     if (members.size() < 2 * min_points) return std::nullopt;
     const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
     const auto cost = [](const planar_region& r) {

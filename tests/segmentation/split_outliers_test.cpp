@@ -79,7 +79,8 @@ TEST(split_outliers, splits_off_the_rim_and_keeps_the_plane) {
     EXPECT_GE(of_rim, 0.9);
 }
 
-/// Without view points noise is the same in all directions: points that are off by less may be noise.
+/// Without view points noise is the same in all directions: points that are off by less may be
+/// noise.
 TEST(split_outliers, splits_off_fewer_points_without_view_points) {
     const seat s(1);
     EXPECT_LT(s.split(true, split_outliers(s.points, s.parts(), noise_of_seat)),

@@ -16,7 +16,6 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 
@@ -25,11 +24,10 @@ namespace gnomon::detail {
 /// Where to cut a region in two: across one of its principal axes, at an eighth of its extent, the
 /// one after which two planes that meet at an edge explain the points best.
 /// @param min_points  of each part
-/// @return nothing if one plane explains them as well. O(n).
-[[nodiscard]] inline std::optional<plane> edge_cut(const planar_cloud& cloud,
-                                                   std::span<const point_index> members,
-                                                   const planar_region& whole,
-                                                   std::size_t min_points) {
+/// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
+///         compile it.)
+[[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
+                                            const planar_region& whole, std::size_t min_points) {
     if (members.size() < 2 * min_points) return std::nullopt;
     const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
     const auto cost = [](const planar_region& r) {

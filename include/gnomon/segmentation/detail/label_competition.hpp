@@ -31,7 +31,9 @@ namespace gnomon::detail {
 inline constexpr int most_rounds = 4;
 
 /// Labels that compete for a point: each plane by how far the point is from it, and by how many of
-/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012).
+/// the neighbors of the point have its label (the Potts model, as in Isack and Boykov 2012). (A
+/// template, so that only its users compile it.)
+template <class Label = std::int32_t>
 class label_competition {
   public:
     /// Begins with the labels of the neighbors of a point, and its own.
@@ -67,11 +69,11 @@ class label_competition {
 
   private:
     struct candidate {
-        std::int32_t label;
+        Label label;
         double agreeing;  // neighbors
     };
 
-    [[nodiscard]] candidate& candidate_of(std::int32_t label) {
+    [[nodiscard]] candidate& candidate_of(Label label) {
         const auto found = std::ranges::find(candidates_, label, &candidate::label);
         return found != candidates_.end() ? *found
                                           : candidates_.emplace_back(candidate{label, 0.0});
