@@ -26,7 +26,7 @@ REASONS = {
                                 "over surfaces: without it recall is 0 (below)",
     "closing of narrow gaps": "a rule of the thesis (rho_c); in these rooms no gap without evidence is so narrow",
     "noise of wide planes": "simulated noise is independent from point to point; in real scans neighbors have "
-                            "errors in common, and without it there are half as many segments more (last table)",
+                            "errors in common, and without it they are cut into many more segments (last table)",
     "cells, each point its own": "cells are there for speed, as they are fewer than the points; they cost a little "
                                  "accuracy at the least noise",
     "cutting of regions at edges": "at each noise alone it is within three standard errors, but worse in all six "

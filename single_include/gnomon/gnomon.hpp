@@ -12277,8 +12277,8 @@ template <class Cloud>
 /// @return an estimate for each segment. It is flat if most of its points are on the plane, within
 ///         three standard deviations of the region (at least those of the noise); fewer than 30 are
 ///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
-///         to [1, 2.5]; their variance is at most 2.5 times that of
-///         the noise; and the plane is not seen edge-on
+///         to [1, 2.5]; their variance is at most 2.5 times that of the noise; and the plane is not
+///         seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -13103,7 +13103,7 @@ template <class R, class Proj = std::identity>
         sum += height;
         near += 1.0;
     }
-    return near > 0.0 ? sum / near : peak;  // the bins of outliers at 1e15 m are of rounding
+    return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
 }
 
 namespace detail {
@@ -13542,7 +13542,9 @@ namespace gnomon::detail {
 
 /// Where to cut a region in two: across one of its principal axes, at an eighth of its extent, the
 /// one after which two planes that meet at an edge explain the points best.
-/// @param min_points  of each part
+/// @param cloud       a planar_cloud
+/// @param members     of the region, all finite
+/// @param min_points  the least number of each part
 /// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
 ///         compile it.)
 [[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
@@ -13589,8 +13591,8 @@ namespace gnomon::detail {
 // -------- gnomon/segmentation/detail/plane_regions.hpp -------------------------------------------
 
 /// @file
-/// A labeling of a cloud by planes: their growth, the merging of neighbors, and the competition for
-/// points, in turns.
+/// A labeling of a cloud by planes: their growth, the merging of neighbors, the competition for
+/// points, and cuts at edges, in turns.
 
 namespace gnomon::detail {
 
@@ -14074,7 +14076,7 @@ namespace gnomon::detail {
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    constexpr std::size_t few = 300;  // performance only: of more a tree is faster than sorting
+    constexpr std::size_t few = 300;  // performance only: for more a tree is faster than sorting
     if (flat.size() > few) {
         const spatial_index index(centroids);
         scratch<neighbor> nearest;
@@ -15071,8 +15073,7 @@ template <merge_policy M, execution X>
 ///         every execution
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, no candidate, or a
-///                                negative or NaN
-///                                threshold
+///                                negative or NaN threshold
 /// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
 /// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
 /// none.
@@ -17759,6 +17760,7 @@ class perception_run {
         std::iota(result_.kept.begin(), result_.kept.end(), point_index{0});
     }
 
+    /// Also refuses view points that no step could use.
     void index_kept() {
         given_ = &index_of_kept();
         for (std::size_t i = 0; i < given_->size(); ++i)

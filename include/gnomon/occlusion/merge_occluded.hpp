@@ -104,8 +104,7 @@ template <merge_policy M, execution X>
 ///         every execution
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, no candidate, or a
-///                                negative or NaN
-///                                threshold
+///                                negative or NaN threshold
 /// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
 /// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
 /// none.

@@ -171,8 +171,8 @@ template <class Cloud>
 /// @return an estimate for each segment. It is flat if most of its points are on the plane, within
 ///         three standard deviations of the region (at least those of the noise); fewer than 30 are
 ///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
-///         to [1, 2.5]; their variance is at most 2.5 times that of
-///         the noise; and the plane is not seen edge-on
+///         to [1, 2.5]; their variance is at most 2.5 times that of the noise; and the plane is not
+///         seen edge-on
 /// @throws std::invalid_argument  if points, segments or view points differ in number
 /// Complexity: O(n), and an index if `points` is none.
 template <class R, execution X = sequential, class Proj = std::identity>

@@ -166,7 +166,7 @@ template <class R, class Proj = std::identity>
         sum += height;
         near += 1.0;
     }
-    return near > 0.0 ? sum / near : peak;  // the bins of outliers at 1e15 m are of rounding
+    return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
 }
 
 namespace detail {

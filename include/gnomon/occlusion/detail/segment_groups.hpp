@@ -41,7 +41,7 @@ namespace gnomon::detail {
             for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
         return pairs;
     }
-    constexpr std::size_t few = 300;  // performance only: of more a tree is faster than sorting
+    constexpr std::size_t few = 300;  // performance only: for more a tree is faster than sorting
     if (flat.size() > few) {
         const spatial_index index(centroids);
         scratch<neighbor> nearest;

@@ -109,6 +109,7 @@ class perception_run {
         std::iota(result_.kept.begin(), result_.kept.end(), point_index{0});
     }
 
+    /// Also refuses view points that no step could use.
     void index_kept() {
         given_ = &index_of_kept();
         for (std::size_t i = 0; i < given_->size(); ++i)

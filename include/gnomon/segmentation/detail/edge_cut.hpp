@@ -23,7 +23,9 @@ namespace gnomon::detail {
 
 /// Where to cut a region in two: across one of its principal axes, at an eighth of its extent, the
 /// one after which two planes that meet at an edge explain the points best.
-/// @param min_points  of each part
+/// @param cloud       a planar_cloud
+/// @param members     of the region, all finite
+/// @param min_points  the least number of each part
 /// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
 ///         compile it.)
 [[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A labeling of a cloud by planes: their growth, the merging of neighbors, and the competition for
-/// points, in turns.
+/// A labeling of a cloud by planes: their growth, the merging of neighbors, the competition for
+/// points, and cuts at edges, in turns.
 #pragma once
 
 #include <algorithm>
