@@ -31,8 +31,9 @@ REASONS = {
                                  "accuracy at the least noise",
     "cutting of regions at edges": "at each noise alone it is within three standard errors, but worse in all six "
                                    "columns, by more than two of them in four",
-    "weights of cells by their points": "nothing has been found that it improves: the next change of these headers "
-                                        "leaves it out",
+    "weights of cells by their points": "in the rooms of this page a cell has little more than one point; with twice as "
+                                        "many scan lines, at 30 mm, without it recall of merging is less (rooms 20,001 "
+                                        "to 20,024: 0.69 instead of 0.92) and the mean IoU by 0.005",
     "no merging of planes at edges": "without it precision of merging is less (below), and regions that were cut "
                                      "become one again",
 }
