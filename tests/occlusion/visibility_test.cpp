@@ -197,6 +197,23 @@ TEST(visibility, share_images_of_near_view_points) {
 }
 
 /// Two scans that see the wall behind a place outvote the one that sees something before it.
+/// Points that are not finite say nothing of the noise.
+TEST(visibility, share_images_whatever_is_not_finite) {
+    const gnomon::noise_curve tabulated = [](double range) { return 0.01 * range; };
+    const auto images_with = [&](double bad) {
+        clouds::cloud points, from;
+        for (int i = 0; i < 40; ++i) {
+            points.emplace_back(10.0, 0.1 * i, i % 2 == 0 ? 0.0 : bad);
+            from.emplace_back(0.0, 0.01 * i, 0.0);
+        }
+        return visibility(gnomon::with_viewpoints(points, gnomon::viewpoint_table(from)),
+                          {.noise = tabulated})
+            .images()
+            .size();
+    };
+    EXPECT_EQ(images_with(clouds::nan), images_with(0.0));
+}
+
 TEST(visibility, let_view_points_vote) {
     clouds::cloud points;
     std::vector<gnomon::point_index> scan_of_point;

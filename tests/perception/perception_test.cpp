@@ -187,6 +187,20 @@ TEST(perception, merges_nothing_without_rays) {
     EXPECT_GT(result.surfaces.size(), 5u);
 }
 
+/// Where there are too few points to measure noise.
+TEST(perception, normals_face_the_view_point_without_noise_along_the_rays) {
+    clouds::cloud points;
+    for (int i = 0; i < 400; ++i) points.emplace_back(0.02 * (i % 20), 0.02 * (i / 20), 1.0);
+    points.emplace_back(clouds::nan, 0.0, 0.0);
+    for (const double z : {3.0, -3.0}) {
+        const auto result =
+            perception<>{}(gnomon::with_viewpoint(points, Eigen::Vector3d(0.2, 0.2, z)));
+        ASSERT_TRUE(result.noise.is_across_surface);
+        EXPECT_EQ(result.surface[0].normal.z(), z > 0.0 ? 1.0 : -1.0);
+        EXPECT_EQ(result.surface.back().trust, gnomon::trust::not_finite);
+    }
+}
+
 struct hit {
     double time;
     Eigen::Vector3d at;

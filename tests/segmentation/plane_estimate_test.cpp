@@ -188,6 +188,43 @@ TEST(plane_estimate, without_view_points_noise_is_isotropic) {
     EXPECT_LT(none.chi2, 0.5 * seen.chi2);
 }
 
+/// Then the range is the distance from the origin.
+TEST(plane_estimate, without_view_points_the_origin_stands_for_them) {
+    const gnomon::noise_curve growing = gnomon::quadratic_noise{0.0, 0.0, 1.0 / 900.0};
+    const auto points = patch{}.points(3);  // 3 m away, where this noise is 1 cm
+    const auto parts = whole_segment(points.size());
+    const auto none = gnomon::estimate_planes(points, parts, growing).at(0);
+    const auto seen =
+        gnomon::estimate_planes(gnomon::with_viewpoint(points, {0, 0, 0}), parts, growing).at(0);
+    EXPECT_TRUE(none.is_flat);
+    EXPECT_NEAR(none.chi2, seen.chi2, 0.1);
+}
+
+/// Of an invalid return at the origin, and of one far away: the others keep their digits.
+TEST(plane_estimate, keeps_its_digits_in_spite_of_a_far_point) {
+    const Eigen::Vector3d utm(5e5, 5e6, 100.0);
+    auto points = patch{}.points(4);
+    const plane_estimate near = estimate(points);
+    for (Eigen::Vector3d& p : points) p += utm;
+    points.insert(points.begin(), Eigen::Vector3d(0.0, 0.0, 0.0));
+    std::vector<std::int32_t> labels(points.size(), 0);
+    labels[0] = gnomon::unlabeled;
+    const auto far = gnomon::estimate_planes(gnomon::with_viewpoint(points, utm), segments(labels),
+                                             noise_of_patch)
+                         .at(0);
+    EXPECT_TRUE(far.is_flat);
+    EXPECT_EQ(far.points, near.points);
+    EXPECT_NEAR(std::abs(far.plane.normal.dot(near.plane.normal)), 1.0, 1e-6);
+}
+
+TEST(plane_estimate, faces_the_view_point_whatever_its_outliers) {
+    auto points = patch{.center = {2.0, 0.0, 0.0}, .side = {1, 0, 0}, .other_side = {0, 1, 0}}
+                      .points(5);
+    points.insert(points.begin(), Eigen::Vector3d(2.0, 0.0, 4.0));  // above the sensor
+    EXPECT_GT(estimate_from(points, {0.0, 0.0, 2.0}).plane.normal.z(), 0.9);
+    EXPECT_LT(estimate_from(points, {0.0, 0.0, -2.0}).plane.normal.z(), -0.9);
+}
+
 TEST(plane_estimate, of_too_few_points_has_no_normal) {
     const clouds::cloud points{{1.0, 2.0, 3.0}, {1.0, 2.5, 3.0}};
     const plane_estimate two = estimate(points);

@@ -246,6 +246,42 @@ TEST(segment_planes, passes_over_points_and_normals_that_are_not_finite) {
     EXPECT_GT(found[0].size(), points.size() - 10);
 }
 
+/// Also if it has a normal and is in every list.
+TEST(segment_planes, grows_past_a_listed_point_that_is_not_finite) {
+    auto points = flat(2, 0.003);
+    const auto graph = knn{12}(points);
+    const auto surface = gnomon::estimate_normals(points, graph, plane_pca{});
+    std::vector<std::vector<gnomon::point_index>> lists;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        lists.emplace_back(graph[i].begin(), graph[i].end());
+        lists.back().push_back(0);
+    }
+    points[0][2] = clouds::nan;
+    const auto found = gnomon::segment_planes(points, lists, surface, at_noise(0.003));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found[0].size(), points.size() - 1);
+}
+
+/// A point that no other lists, whose own neighbors get their labels one round before it.
+TEST(segment_planes, labels_a_point_by_neighbors_that_do_not_list_it) {
+    const auto points = flat(3, 0.003);
+    const std::size_t n = points.size(), strip = n - 11, alone = n - 1;
+    const auto graph = knn{12}(points);
+    auto surface = gnomon::estimate_normals(points, graph, plane_pca{});
+    std::vector<std::vector<gnomon::point_index>> lists(n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (const gnomon::point_index j : graph[i])
+            if (j < strip) lists[i].push_back(j);
+    lists[alone].clear();
+    for (std::size_t j = strip; j < alone; ++j)
+        lists[alone].push_back(static_cast<gnomon::point_index>(j));
+    for (std::size_t i = strip; i < n; ++i) surface[i].normal.setZero();
+    const auto found = gnomon::segment_planes(points, lists, surface, at_noise(0.003));
+    ASSERT_EQ(found.size(), 1u);
+    EXPECT_EQ(found.labels()[strip], 0);
+    EXPECT_EQ(found.labels()[alone], 0);
+}
+
 TEST(segment_planes, refuses_bad_arguments) {
     const auto points = clouds::sheet(100, 1);
     for (const double degrees : {-1.0, 91.0, clouds::nan})

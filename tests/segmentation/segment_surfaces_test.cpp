@@ -214,6 +214,11 @@ TEST(segment_surfaces, refuses_bad_arguments) {
     EXPECT_THROW(call({.max_distance = clouds::nan}), std::invalid_argument);
     const auto fewer = clouds::in_cube(3, 1);
     EXPECT_THROW((void)gnomon::segment_surfaces(fewer, s.surface), std::invalid_argument);
+    auto surface = s.surface;  // nor where there is no normal
+    surface[1].normal.setZero();
+    std::vector<std::vector<gnomon::point_index>> astray(s.points.size());
+    astray[1] = {static_cast<gnomon::point_index>(s.points.size())};
+    EXPECT_THROW((void)gnomon::segment_surfaces(s.points, astray, surface), std::invalid_argument);
     EXPECT_THROW((void)gnomon::segment_surfaces(s.points, knn{5}(fewer), s.surface),
                  std::invalid_argument);
 }

@@ -28,6 +28,7 @@
 #include <vector>
 
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -106,6 +107,14 @@ template <neighborhood_graph G>
     } else {
         return {};
     }
+}
+
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "the graph has an index out of range");
 }
 
 /// Whether the policy's `find` returns notes.

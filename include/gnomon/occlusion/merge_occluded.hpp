@@ -76,16 +76,16 @@ inline void require_valid(const merge_occluded_options& options) {
 }
 
 /// The sets of the segments of an index that merge_occluded makes one.
+/// @param cloud     of the points
 /// @param each_gap  each_gap(examined_gap) is called for all gaps
 template <merge_policy M, execution X>
-[[nodiscard]] union_find merged_sets(const spatial_index& points, const segments& parts,
-                                     const visibility& visible, const M& policy,
-                                     const merge_occluded_options& options, const X& run,
-                                     auto&& each_gap) {
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const planar_cloud& cloud,
+                                     const segments& parts, const visibility& visible,
+                                     const M& policy, const merge_occluded_options& options,
+                                     const X& run, auto&& each_gap) {
     require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
     require_valid(options);
-    const planar_cloud cloud(points, options.noise, run);
     occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
     union_find sets = merge();
     for (const examined_gap& gap : merge.gaps()) each_gap(gap);
@@ -117,8 +117,11 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    // The origin stands for unknown view points, as in `visibility`.
+    const detail::planar_cloud cloud(index, options.noise, team, true);
     detail::union_find sets = detail::merged_sets(
-        detail::index_of(points, team, projection), parts, visible, policy, options, team,
+        index, cloud, parts, visible, policy, options, team,
         [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });

@@ -140,9 +140,9 @@ class visibility {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
-            const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
-            if (!std::isfinite(variance)) continue;
-            sum += variance;
+            const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+            if (!detail::all_finite(way)) continue;
+            sum += noise_.variance_along(way);
             count += 1.0;
         }
         return count > 0.0 ? std::sqrt(sum / count) : 0.0;

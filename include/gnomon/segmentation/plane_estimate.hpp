@@ -26,6 +26,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/quantile.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
@@ -60,10 +61,7 @@ namespace detail {
         values.clear();
         for (const point_index i : members)
             if (cloud.is_finite(i)) values.push_back(value_of(i));
-        if (values.empty()) return 0.0;
-        const auto half = values.begin() + std::ssize(values) / 2;
-        std::nth_element(values.begin(), half, values.end());
-        return *half;
+        return values.empty() ? 0.0 : quantile(values, 0.5);
     };
     Eigen::Vector3d middle(0.0, 0.0, 0.0);
     for (int j = 0; j < 3; ++j)
@@ -76,7 +74,7 @@ namespace detail {
 }
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
-/// out, and it is fit again, until none is. If more than half are off the plane of all, the plane
+/// out, and it is fit again, until their number stays. If more than half are off the plane of all, the plane
 /// of the half around the middle is the first one. Planar if most points are on it, their variance
 /// is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
@@ -141,9 +139,10 @@ template <class Cloud>
     e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
     if (!fit.is_determined) return e;
     const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    const auto first_finite =
-        std::ranges::find_if(members, [&](point_index i) { return cloud.is_finite(i); });
-    const bool is_away = dot(fit.plane.normal, cloud.ray(*first_finite)) > 0.0;
+    const auto on_plane = std::ranges::find_if(
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, fit); });
+    const bool is_away =
+        on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
     const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
     for (int i = 0; i < 3; ++i) {

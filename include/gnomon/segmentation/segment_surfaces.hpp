@@ -138,7 +138,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
                                         const segment_surfaces_options& options = {},
                                         const X& run = {}, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "segment_surfaces: graph and points differ in size");
+    detail::require_graph_of(p.size(), graph);
     const detail::smooth_link<Surface> link(surface, options, p.size());
     detail::linker linker(p);
     linker.link_listed(

@@ -94,10 +94,7 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
-            index.viewpoints = cells_.viewpoints.empty()
-                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
-                                   : cells_.viewpoints;
+        index.viewpoints = cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -127,7 +124,7 @@ class cell_surfaces {
     /// The planes.
     template <execution X>
     void find(const segment_planes_options& planes, const X& run) {
-        cloud_.emplace(index_, noise_.of_planes, run);
+        cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
@@ -141,6 +138,7 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
+    [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
     /// A point of a cell.
@@ -148,7 +146,10 @@ class cell_surfaces {
     /// The surface element of a point: that of its cell.
     [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
         const point_index c = cells_.of_point[point];
-        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+        if (c != cells::no_cell) return surface_[c];
+        surfel<Estimate> none;
+        none.trust = trust::not_finite;
+        return none;
     }
 
   private:

@@ -154,7 +154,8 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
+                merge(found->index(), found->cloud(), labels,
+                      [&](point_index c) { return found->point_of(c); });
             });
     }
 
@@ -185,18 +186,24 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+        if constexpr (merges)
+            step("merging", [&] {
+                const planar_cloud cloud(*given_, result_.noise.of_planes, run_, true);
+                merge(*given_, cloud, labels, std::identity());
+            });
     }
 
     /// Merges the segments in memory, of things that are cells or kept points, where the noise
     /// along the rays is known.
+    /// @param cloud     of these
     /// @param labels    the segments of the kept points
     /// @param point_of  point_of(thing): the number of a kept point of it
-    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+    void merge(const spatial_index& things, const planar_cloud& cloud,
+               scratch<std::int32_t>& labels, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
-        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
+        union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
                                       at_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
         unite_labels(labels, sets);

@@ -170,11 +170,12 @@ template <neighborhood_graph G, execution X>
         after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
     make_unique(after.touching);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (after.labels[i] == labels[i]) continue;
-        is_border[i] = true;
-        for (const point_index j : graph[i]) is_border[j] = true;
-    }
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        const auto has_changed = [&](std::size_t j) { return after.labels[j] != labels[j]; };
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_border[i] == 0)
+                is_border[i] = has_changed(i) || std::ranges::any_of(graph[i], has_changed);
+    });
     return after;
 }
 

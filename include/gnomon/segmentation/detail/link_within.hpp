@@ -16,7 +16,6 @@
 
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
-#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
@@ -89,7 +88,6 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
-                    require(j < points_.size(), "the graph has an index out of range");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);

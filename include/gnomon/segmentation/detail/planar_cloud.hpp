@@ -10,35 +10,34 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/quantile.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 
 namespace gnomon::detail {
 
-/// Positions are relative to the first finite point, so that planes keep their digits far from the
-/// origin of the coordinates.
+/// Positions are relative to the median of each coordinate, so that planes keep their digits far
+/// from the origin of the coordinates, and in spite of points that are far from all others.
 class planar_cloud {
   public:
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
         : planar_cloud(index, curve, run, !index.viewpoints.empty()) {}
 
-    /// @param is_seen  whether the view points are known; the origin where there are none
+    /// @param is_seen  whether the view points are known; the origin stands for unknown ones
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
         : noise(noise_of_points(index, curve, run, is_seen)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
-        std::size_t first = 0;
-        while (first < index.size() && !index.is_finite(first)) ++first;
-        if (first < index.size()) origin = index[first];
-        for (std::size_t i = first; i < index.size(); ++i)
-            offsets[i] = difference(index[i], origin);
+        if (index.finite() == 0) return;
+        for (int a = 0; a < 3; ++a) origin[a] = median_of(a);
+        for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
     }
 
     scratch<point_noise> noise;
@@ -64,15 +63,17 @@ class planar_cloud {
     }
 
   private:
+    /// The median of one coordinate, of some of the points.
+    [[nodiscard]] double median_of(int axis) const {
+        constexpr std::size_t enough = 1000;  // performance only
+        const leaf_tree& tree = index_.tree();
+        scratch<double> values;
+        for (std::size_t place = 0; place < tree.size(); place += 1 + tree.size() / enough)
+            values.push_back(tree.at(static_cast<std::size_t>(axis))[place]);
+        return quantile(values, 0.5);
+    }
+
     const spatial_index& index_;
 };
-
-/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
-void require_graph_of(std::size_t points, const auto& graph) {
-    require(graph.size() == points, "segmentation: graph and points differ in size");
-    for (std::size_t i = 0; i < points; ++i)
-        for (const point_index j : graph[i])
-            require(j < points, "segmentation: the graph has an index out of range");
-}
 
 }  // namespace gnomon::detail

@@ -45,7 +45,8 @@ class plane_growth {
         members_.reserve(cloud.size());
     }
 
-    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// Grows regions of unlabeled points. Points of a region that is too small, or whose plane
+    /// most of its points do not fit in the end, are no seeds.
     /// @param next  the label of the first new region
     template <execution X>
     void operator()(std::int32_t next, const X& run) {
@@ -58,7 +59,7 @@ class plane_growth {
 
   private:
     [[nodiscard]] bool is_free(std::size_t i) const {
-        return labels_[i] == unlabeled && !is_missing(normal(i));
+        return labels_[i] == unlabeled && cloud_.is_finite(i) && !is_missing(normal(i));
     }
 
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
@@ -133,7 +134,7 @@ class plane_growth {
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
         for (const point_index j : graph_[seed]) {
-            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
+            if (!is_free(j) || !(std::abs(dot(n, normal(j))) >= min_cosine_)) continue;
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }

@@ -41,26 +41,18 @@ inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
 inline constexpr angle edge_on = degrees(1);  // chosen
 
 /// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
-/// which is zero where no view point is known.
+/// which is zero where it is not known.
 struct point_noise {
     double sigma;
     Eigen::Vector3d ray;
 
-    /// @param position   of the point [m]
-    /// @param viewpoint  from where it was seen, if that is known
-    /// @param rounding   of its coordinates [m]
-    point_noise(const noise_curve& noise, const Eigen::Vector3d& position,
-                const Eigen::Vector3d* viewpoint, double rounding)
-        : ray(0.0, 0.0, 0.0) {
-        double variance = flatness * flatness + rounding * rounding;
-        if (viewpoint != nullptr) {
-            const Eigen::Vector3d from = difference(position, *viewpoint);
-            variance += noise.variance_along(from);
-            if (has_length(from)) ray = direction_of(from);
-        } else {
-            variance += noise.variance_along({0.0, 0.0, 0.0});
-        }
-        sigma = std::sqrt(variance);
+    /// @param way       from the view point to the point [m]
+    /// @param is_seen   whether that is known to be its ray
+    /// @param rounding  of its coordinates [m]
+    point_noise(const noise_curve& noise, const Eigen::Vector3d& way, bool is_seen, double rounding)
+        : sigma(std::sqrt(flatness * flatness + rounding * rounding + noise.variance_along(way))),
+          ray(0.0, 0.0, 0.0) {
+        if (is_seen && has_length(way)) ray = direction_of(way);
     }
 
     /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
@@ -80,15 +72,16 @@ struct point_noise {
     }
 };
 
-/// The noise of a point of an index.
-/// @param is_seen  whether the view points are known; the origin where there are none
+/// The noise of a point of an index. The origin stands for an unknown view point.
+/// @param is_seen  whether the view points are known
 [[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
                                                 const noise_curve& noise, std::size_t i,
                                                 bool is_seen) {
     const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
+    const bool is_known = is_finite(v);
     const double rounding =
         index.epsilon() * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    return {noise, p, is_seen && is_finite(v) ? &v : nullptr, rounding};
+    return {noise, is_known ? difference(p, v) : p, is_seen && is_known, rounding};
 }
 
 /// The noise of all points of an index.
@@ -96,7 +89,7 @@ template <execution X>
 [[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
                                                    const noise_curve& noise, const X& run,
                                                    bool is_seen) {
-    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
+    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, false, 0.0));
     for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, is_seen);
