@@ -5,8 +5,10 @@
 /// registered cloud, or one per point of a moving scanner.
 #pragma once
 
+#include <atomic>
 #include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <iterator>
 #include <span>
 #include <utility>
@@ -21,7 +23,7 @@
 
 namespace gnomon {
 
-/// The view point of every point of a cloud.
+/// The view point of every point of a cloud. A value that does not change.
 class viewpoint_table {
   public:
     /// None known: the origin of the sensor frame stands for all.
@@ -29,21 +31,25 @@ class viewpoint_table {
 
     /// One view point [m] for the whole cloud.
     explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint)
-        : positions_{viewpoint}, scope_(scope::cloud) {}
+        : positions_{viewpoint}, scope_(scope::cloud), number_(next_number()) {}
 
     /// One view point [m] per point, in the points' order.
     explicit viewpoint_table(std::vector<Eigen::Vector3d> per_point)
-        : positions_(std::move(per_point)), scope_(scope::point) {}
+        : positions_(std::move(per_point)), scope_(scope::point), number_(next_number()) {}
 
     /// One view point [m] per scan, and for each point the number of its scan.
     /// @throws std::invalid_argument  if a number has no scan
     viewpoint_table(std::vector<Eigen::Vector3d> per_scan, std::vector<point_index> scan_of_point)
         : positions_(std::move(per_scan)),
           scan_of_point_(std::move(scan_of_point)),
-          scope_(scope::scan) {
+          scope_(scope::scan),
+          number_(next_number()) {
         for (const point_index s : scan_of_point_)
             detail::require(s < positions_.size(), "viewpoint_table: a point of a missing scan");
     }
+
+    /// The same number as that of another table: a copy of it, or as empty.
+    [[nodiscard]] std::uint64_t number() const { return number_; }
 
     /// Whether no view point is known.
     [[nodiscard]] bool empty() const { return positions_.empty(); }
@@ -87,9 +93,15 @@ class viewpoint_table {
   private:
     enum class scope : char { none, cloud, scan, point };
 
+    [[nodiscard]] static std::uint64_t next_number() {
+        static std::atomic<std::uint64_t> last{0};
+        return ++last;
+    }
+
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
     detail::reset_on_move<scope> scope_;
+    detail::reset_on_move<std::uint64_t> number_;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.

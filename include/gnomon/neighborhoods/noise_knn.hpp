@@ -2,13 +2,15 @@
 /// @file
 /// The k nearest neighbors within a few standard deviations of the noise: as wide as a normal
 /// requires, and no wider, so that edges stay sharp where the sensor is precise. Where fewer points
-/// are that near, the nearest few, however far.
+/// are that near, the nearest few, however far; and where these lie on one scan line, the points of
+/// the next rays around it as well, so that a surface is determined (detail/across_lines.hpp).
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -19,10 +21,13 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/detail/across_lines.hpp>
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
 #include <gnomon/neighborhoods/detail/graph_of.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
+#include <gnomon/neighborhoods/detail/ray_directions.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -36,6 +41,7 @@ struct noise_knn {
     std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
     std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
     double deviations = 6.0;               ///< within this number of standard deviations
+    bool sees_across_lines = true;         ///< if view points are known
 
     /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -58,19 +64,28 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
+        if (!looks_across(index)) return;
+        detail::scratch<point_index> near;
+        for (const neighbor& q : found) near.push_back(q.index);
+        detail::across_lines across(index, detail::directions_of(index, sequential{}));
+        for (const point_index j : across(static_cast<point_index>(i), near))
+            if (!contains(near, j)) found.push_back({squared_distance(index[i], index[j]), j});
+        std::sort(found.begin(), found.end());
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far
+    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far, and those
+    ///                             across scan lines
     /// Errors: those of operator().
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
                auto&& make_visitor_of_all) const {
         require_valid();
+        const auto* rays = looks_across(index) ? &detail::directions_of(index, run) : nullptr;
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
+            [&] { return gate(*this, index, rays, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
@@ -84,26 +99,37 @@ struct noise_knn {
     }
 
   private:
+    [[nodiscard]] bool looks_across(const spatial_index& index) const {
+        return sees_across_lines && !index.viewpoints.empty();
+    }
+
+    [[nodiscard]] static bool contains(const auto& all, const auto& one) {
+        return std::find(all.begin(), all.end(), one) != all.end();
+    }
+
     /// The square of the distance [m^2] within which point i has its neighbors.
     [[nodiscard]] double squared_reach(const spatial_index& index, std::size_t i) const {
         const Eigen::Vector3d ray = detail::difference(index[i], index.viewpoints[i]);
         return deviations * deviations * noise.variance_along(ray);
     }
 
-    /// Shows a visitor those of the k nearest that are near enough, and another one all.
+    /// Shows a visitor those of the k nearest that are near enough, and another one all; both also
+    /// those across scan lines.
     template <class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
+        gate(const noise_knn& policy, const spatial_index& index,
+             const detail::ray_directions<>* rays, Visit visit, VisitAll visit_all)
             : policy_(policy),
               index_(index),
               visit_(std::move(visit)),
-              visit_all_(std::move(visit_all)) {}
+              visit_all_(std::move(visit_all)) {
+            if (rays != nullptr) across_.emplace(index, *rays);
+        }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             const detail::leaf_tree& tree = index_.tree();
             const point_index i = tree.index()[place];
-            visit_all_(i, detail::found_neighbors(tree, place, places));
             const double within = policy_.squared_reach(index_, i);
             near_.assign(places.begin(), places.end());
             const auto key = [&](std::uint32_t at) {
@@ -118,8 +144,19 @@ struct noise_knn {
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
-            const std::size_t count = static_cast<std::size_t>(end - near_.begin());
-            visit_(i, detail::found_neighbors(tree, place, std::span(near_.data(), count)));
+            near_.erase(end, near_.end());
+            all_.assign(places.begin(), places.end());
+            if (across_) {
+                indices_.clear();
+                for (const std::uint32_t at : near_) indices_.push_back(tree.index()[at]);
+                for (const point_index j : (*across_)(i, indices_)) {
+                    const std::uint32_t at = tree.place_of(j);
+                    for (auto* some : {&near_, &all_})
+                        if (!contains(*some, at)) some->push_back(at);
+                }
+            }
+            visit_all_(i, detail::found_neighbors(tree, place, all_));
+            visit_(i, detail::found_neighbors(tree, place, near_));
         }
 
         void finish() {
@@ -132,7 +169,9 @@ struct noise_knn {
         const spatial_index& index_;
         Visit visit_;
         VisitAll visit_all_;
-        detail::scratch<std::uint32_t> near_;
+        std::optional<detail::across_lines<>> across_;
+        detail::scratch<std::uint32_t> near_, all_;  // places
+        detail::scratch<point_index> indices_;       // of the near ones
     };
 };
 

@@ -23,6 +23,7 @@
 
 #include <gnomon/core/detail/assigned_whole.hpp>
 #include <gnomon/core/detail/index_iterator.hpp>
+#include <gnomon/core/detail/made_when_asked.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -66,6 +67,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
     void clear() {
         tree_.clear();
         viewpoints = {};
+        kept.forget();
     }
 
     /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
@@ -75,6 +77,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
+        kept.forget();
         try {
             detail::with_table_of(points, [this](auto&& table) {
                 viewpoints = std::forward<decltype(table)>(table);
@@ -121,6 +124,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// The tree, for algorithms that search for many points at once.
     [[nodiscard]] const detail::leaf_tree& tree() const { return tree_; }
+    /// What algorithms derive from the points and keep here: see detail/across_lines.hpp.
+    detail::made_when_asked kept;
 
   private:
     friend class detail::index_queries<spatial_index>;

@@ -101,21 +101,21 @@ class cell_surfaces {
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
         scratch_graph::arrays graph;
-        knn nearest{.k = noise_knn{}.k};
-        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
-        const auto record = [&](auto&& sweep) {
-            const auto k = nearest.neighbors_of_each(index_.tree().size());
-            sweep_equal_sizes(*k, index_, run, graph, sweep);
-        };
         if constexpr (std::same_as<N, noise_knn>) {
-            record([&](auto&& make_recorder) {  // one search for both
+            noise_knn along_rays = neighborhood;
+            if (noise_.is_across_surface) along_rays.sees_across_lines = false;
+            sweep_any_sizes(index_.size(), run, graph, [&](auto&& make_recorder) {
                 estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
-                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
+                    along_rays.sweep(index_, run, make_visitor, make_recorder);  // for both
                 });
             });
         } else {
             estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
+            const knn nearest{.k = noise_knn{}.k};
+            const auto k = nearest.neighbors_of_each(index_.tree().size());
+            sweep_equal_sizes(*k, index_, run, graph, [&](auto&& make_recorder) {
+                nearest.sweep(index_, run, make_recorder);
+            });
         }
         graph_.emplace(std::move(graph));
         orient_normals(index_, surface_, run);
