@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Neighbors across scan lines. Where lines are far apart, as those of a spinning lidar on a road,
+/// the nearest points all lie on one line, which determines no surface. Then the points of the next
+/// rays count as well, in each quadrant around the ray.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/ray_directions.hpp>
+#include <gnomon/neighborhoods/detail/scan_line.hpp>
+#include <gnomon/neighborhoods/detail/tree_query.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+
+namespace gnomon::detail {
+
+/// The directions of an index, which keeps them.
+template <execution X>
+[[nodiscard]] const ray_directions<>& directions_of(const spatial_index& index, const X& run) {
+    return index.kept.get<ray_directions<>>(
+        [&](const ray_directions<>& rays) { return rays.are_from(index.viewpoints.number()); },
+        [&](ray_directions<>& rays) { rays.rebuild(index, run); });
+}
+
+/// Searches for them; each thread has its own object.
+template <class Rays = ray_directions<>>
+class across_lines {
+  public:
+    across_lines(const spatial_index& index, const Rays& rays)
+        : index_(index),
+          rays_(rays),
+          reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
+
+    /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
+    /// line, unless some of its neighbors are across the line.
+    /// @param neighbors  their indices
+    /// @return indices, some of which may be among the neighbors; valid until the next call
+    [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
+        found_.clear();
+        const Eigen::Vector3d u = ray_direction(index_, i);
+        if (!all_finite(u)) return {};
+        const ray_plane plane(u);
+        scan_line line;
+        offsets_.clear();
+        for (const point_index j : neighbors)
+            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
+        line.fit();
+        const auto across = std::ranges::count_if(
+            offsets_, [&](const auto& offset) { return !line.is_along(offset); });
+        if (across < std::ssize(counts_)) find(i, u, plane, line);
+        return found_;
+    }
+
+  private:
+    static constexpr std::size_t wanted = 4;  // in each quadrant: chosen on streets 20,001 to 20,005
+    /// Rays farther than that are not next to each other, but at the end of what is seen.
+    static constexpr double most_spacings = 3.5;  // chosen likewise
+
+    void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
+              const scan_line& line) {
+        constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
+        for (std::size_t count = few; count <= many; count *= 4) {
+            search_tree(rays_.tree(), u, {.k = count, .except = i}, near_);
+            counts_ = {};
+            found_.clear();
+            for (const neighbor& q : near_) {
+                if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
+                std::size_t& in_quadrant =
+                    counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
+                if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
+                ++in_quadrant;
+                found_.push_back(q.index);
+            }
+            const bool is_whole =
+                near_.size() < count || near_.back().squared_distance > reach_ * reach_ ||
+                std::ranges::all_of(counts_, [](std::size_t n) { return n == wanted; });
+            if (is_whole) return;
+        }
+    }
+
+    /// Whether two points may be on one surface that is seen from about one place: the straight
+    /// line between them is at an angle to the farther ray, other than across a step of the depth.
+    [[nodiscard]] bool is_beside(point_index i, point_index j) const {
+        constexpr double least_sine = 0.026;  // of 1.5 degrees: chosen likewise
+        constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
+        const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
+        const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
+        if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;
+        const Eigen::Vector3d chord = difference(b, a);
+        const Eigen::Vector3d& far = dot(a, a) > dot(b, b) ? a : b;
+        const Eigen::Vector3d c = cross(chord, far);
+        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
+    }
+
+    const spatial_index& index_;
+    const Rays& rays_;
+    double reach_;  // [rad]
+    std::array<std::size_t, 4> counts_{};
+    scratch<std::array<double, 2>> offsets_;
+    scratch<neighbor> near_;
+    scratch<point_index> found_;
+};
+
+}  // namespace gnomon::detail
