@@ -11467,11 +11467,11 @@ struct besl_jain {
 
 namespace gnomon::detail {
 
-/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
-/// normal distribution.
+/// A point is an inlier of a plane up to this many standard deviations: 99.7 % of a normal
+/// distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it: the 99.99994 % quantile.
+/// Beyond this many it is an outlier whatever the other points are: the 99.99994 % quantile.
 inline constexpr double certain_deviations = 5.0;
 
 inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
@@ -11658,7 +11658,7 @@ struct plane_sums {
 struct planar_region {
     plane_sums sums;
     region_plane fit;
-    bool is_planar = true;  ///< else its points are not of the plane
+    bool is_planar = true;  ///< else the plane does not explain its points
 };
 
 }  // namespace gnomon::detail
@@ -12048,7 +12048,7 @@ class label_competition {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
-/// Whether a point is certainly not of the plane of a region, whatever its other points.
+/// Whether a point is a certain outlier of a region's plane.
 [[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
                                            const planar_region& region) {
     const plane& p = region.fit.plane;
@@ -12153,13 +12153,14 @@ struct plane_estimate {
     Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
     double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
     std::size_t points = 0;  ///< on the plane, which is fit to them
-    bool is_flat = false;    ///< whether the segment is of this plane
+    /// Whether the plane explains the segment, as `estimate_planes` defines.
+    bool is_flat = false;
 };
 
 namespace detail {
 
 /// The half of a segment that is nearest to the median of each coordinate, as a predicate of its
-/// points. A few far points, which turn the plane of all, are not of it. O(n).
+/// points. A few far points, which would turn the plane of all, are excluded. O(n).
 [[nodiscard]] auto central_half(const auto& cloud, std::span<const point_index> members) {
     scratch<double> values;
     const auto median = [&](auto&& value_of) {
@@ -12213,7 +12214,7 @@ template <class Cloud>
     return region;
 }
 
-/// Whether hardly any points are certainly not on a plane, however rough it is.
+/// Whether fewer than 30 points are certain outliers of a plane, which may be rough.
 template <class Cloud>
 [[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
                                const region_plane& of) {
@@ -12667,8 +12668,8 @@ struct euclidean_clusters_options {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
-/// farther than that from many of another group; greedy as well.
+/// Complexity: O(n log n) whatever the radius, except where many points of two clusters are just
+/// beyond it from each other; the same for greedy.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments euclidean_clusters(const R& points,
@@ -12994,6 +12995,7 @@ struct leveling {
     }
 
     /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
+    /// Precondition: the floor is in Hesse normal form, as `find_floor` returns it.
     [[nodiscard]] static leveling of(const plane& floor) {
         const Eigen::Vector3d& n = floor.normal;
         leveling level;
@@ -14100,7 +14102,7 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of which those of a set of a `union_find` are one, largest first.
+/// The segments after uniting those in the same set, largest first.
 /// (A template, so that only its users compile a sort.)
 [[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::int32_t> labels = parts.labels();
@@ -14408,9 +14410,9 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all points at a finite distance from the view point [m], but of those in it. It
-    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
-    /// O(n log n).
+    /// The image of all points at a finite distance from the view point [m], except points at the
+    /// view point itself. It stores the rows in which something is seen, or, for few points in many
+    /// pixels, single pixels. O(n log n).
     /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
     ///                                a view point or a pole that is not finite, or for a pole of
     ///                                no length
@@ -14573,9 +14575,9 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     detail::image_axes axes_;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
-    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
-    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
-    detail::scratch<std::uint64_t> places_;  // of these
+    detail::scratch<view> seen_;  // of the rows in which something is seen, or of single pixels
+    std::uint64_t first_ = 0;     // place of seen_[0] if rows are stored
+    detail::scratch<std::uint64_t> places_;  // ascending, of seen_; empty if rows are stored
 };
 
 }  // namespace gnomon
@@ -14631,13 +14633,14 @@ struct cloud_ray {
 }
 
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn as
-/// if by chance, but in whatever order the points are; O(n).
+/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn by a hash of their
+/// directions, so that the result does not depend on the order of the points; O(n).
 /// @param points  a position_view
 [[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints) {
     constexpr std::size_t neighbors = 16;  // chosen: the spacing is known to an eighth
     constexpr std::size_t seeds = 32;      // performance only
-    // [rad]; performance only: of the pixels of an image, and of the rays to look at
+    // [rad]; numerical: limits of the result, which bound the pixels of an image and the rays to
+    // compare
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
     scratch<cloud_ray> rays;
     rays.reserve(points.size());
@@ -14727,7 +14730,9 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    ///                                microradian to 90 degrees, or a pole of no length
+    ///                                microradian to 90 degrees, for a pole that is not finite or
+    ///                                has no length, or if the view points are for another number
+    ///                                of points
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
@@ -14761,7 +14766,7 @@ class visibility {
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
-    /// equally many the observation that is evidence against a surface. O(view points).
+    /// equally many free space, then on surface, then occluded. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
@@ -15014,7 +15019,8 @@ struct merge_occluded_options {
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
     /// Between the nearest boundary points of both: their numbers `first` and `second` in the
-    /// cloud, and their `distance` [m].
+    /// cloud, and their `distance` [m]. By `planes_on_cells`, `first` and `second` are a point of
+    /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;
@@ -15179,9 +15185,17 @@ struct literal_merging_options {
 
 /// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
 /// not occluded.
-/// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, no candidate, and a
-///                                negative or NaN threshold
+///
+/// @param points   any point range of n points [m]; their view points as in `visibility`
+/// @param parts    segments of these points
+/// @param visible  what was seen from where
+/// @param policy   `conservative`, `liberal` or another
+/// @return the segments afterwards, largest first
+/// @throws std::invalid_argument  if the segments or view points are for another number of points,
+///                                and for an odd or no number of boundary pairs, no candidate, and
+///                                a negative or NaN threshold
+/// Complexity: O(n + m log m) for m segments, or O(n + m^2) if all are compared; and for each of
+/// the pairs, O(boundary_pairs * (their points + images + pixels of its lines)).
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -17384,7 +17398,7 @@ struct perception_result {
     segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
     std::vector<plane_estimate> planes;     ///< of the surfaces; which of them are flat
-    std::vector<considered_gap> gaps;       ///< all that the merging considered, between points
+    std::vector<considered_gap> gaps;       ///< all that the merging considered
     std::vector<timed_step> steps;          ///< in their order
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
 
@@ -17584,7 +17598,7 @@ class cell_surfaces {
                                            planes.max_angle, run));
     }
 
-    /// The labels of the points, of the regions.
+    /// For each point the number of its region, or `unlabeled`.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
         return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
@@ -17862,7 +17876,7 @@ class perception_run {
         all.assign(labels);
     }
 
-    /// Writes a gap to the result.
+    /// Writes a gap to the result; its distances stay those between the things, the means of cells.
     /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
@@ -17938,8 +17952,9 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes (`segment_planes`), on cells of the points: right for every sensor, as the lengths follow
-/// from its noise. Curved surfaces are several planes. `min_points` counts cells.
+/// Planes (`segment_planes`), on cells of the points: for every sensor, as the lengths by which
+/// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
+/// planes. `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};
 };
@@ -17977,7 +17992,8 @@ struct perception {
     merge_occluded_options merging{};
     visibility_options visibility{};
 
-    /// @throws std::invalid_argument  what the steps throw for parameters out of range
+    /// @throws std::invalid_argument  what the steps throw for parameters of the chain, its
+    ///                                neighborhood and its options out of range
     void require_valid() const {
         detail::require_valid(neighborhood);
         detail::require_valid(merging);
@@ -17991,9 +18007,12 @@ struct perception {
 
     using result_type = perception_result<estimate_t<Estimator>>;
 
-    /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
-    ///                                finite point has a view point that is not finite
+    /// Perceives n points: any point range, or an index of it; a range without view points counts
+    /// as seen from the origin.
+    /// @throws std::invalid_argument  for parameters of the chain, its neighborhood and its options
+    ///                                out of range, before the first step; for those of the
+    ///                                estimator, in the step that calls it; and if a finite point
+    ///                                has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -45,7 +45,8 @@ struct merge_occluded_options {
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
     /// Between the nearest boundary points of both: their numbers `first` and `second` in the
-    /// cloud, and their `distance` [m].
+    /// cloud, and their `distance` [m]. By `planes_on_cells`, `first` and `second` are a point of
+    /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;

@@ -48,13 +48,14 @@ struct plane_estimate {
     Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
     double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
     std::size_t points = 0;  ///< on the plane, which is fit to them
-    bool is_flat = false;    ///< whether the segment is of this plane
+    /// Whether the plane explains the segment, as `estimate_planes` defines.
+    bool is_flat = false;
 };
 
 namespace detail {
 
 /// The half of a segment that is nearest to the median of each coordinate, as a predicate of its
-/// points. A few far points, which turn the plane of all, are not of it. O(n).
+/// points. A few far points, which would turn the plane of all, are excluded. O(n).
 [[nodiscard]] auto central_half(const auto& cloud, std::span<const point_index> members) {
     scratch<double> values;
     const auto median = [&](auto&& value_of) {
@@ -105,7 +106,7 @@ template <class Cloud>
     return region;
 }
 
-/// Whether hardly any points are certainly not on a plane, however rough it is.
+/// Whether fewer than 30 points are certain outliers of a plane, which may be rough.
 template <class Cloud>
 [[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
                                const region_plane& of) {

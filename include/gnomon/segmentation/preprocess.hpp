@@ -57,6 +57,7 @@ struct leveling {
     }
 
     /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
+    /// Precondition: the floor is in Hesse normal form, as `find_floor` returns it.
     [[nodiscard]] static leveling of(const plane& floor) {
         const Eigen::Vector3d& n = floor.normal;
         leveling level;

@@ -65,7 +65,7 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of which those of a set of a `union_find` are one, largest first.
+/// The segments after uniting those in the same set, largest first.
 /// (A template, so that only its users compile a sort.)
 [[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::int32_t> labels = parts.labels();

@@ -218,7 +218,7 @@ class perception_run {
         all.assign(labels);
     }
 
-    /// Writes a gap to the result.
+    /// Writes a gap to the result; its distances stay those between the things, the means of cells.
     /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
         considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};

@@ -99,7 +99,7 @@ class label_competition {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
-/// Whether a point is certainly not of the plane of a region, whatever its other points.
+/// Whether a point is a certain outlier of a region's plane.
 [[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
                                            const planar_region& region) {
     const plane& p = region.fit.plane;
