@@ -14193,6 +14193,124 @@ template <merge_policy M>
 }  // namespace detail
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
+
+/// @file
+/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
+/// the last bit; its time would exceed that of all other steps of projecting a point to a range
+/// image.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
+/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
+/// both below 1e-300. Precondition: x and y are finite.
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                            const pack_of<N>& x) {
+    const pack_of<N> across = magnitude(x), up = magnitude(y);
+    const pack_of<N> more = where_at_least(across, up, across, up);
+    const pack_of<N> q = where_at_least(across, up, up, across) /
+                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
+    const pack_of<N> q2 = q * q;
+    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
+    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
+    constexpr double terms[] = {
+        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
+        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
+        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
+        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
+    pack_of<N> angle = 0.0;
+    for (const double term : terms) angle = angle * q2 + term;
+    angle = angle * q;
+    angle = where_at_least(across, up, angle, 0.5 - angle);
+    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
+    return where_at_least(y, 0.0, angle, -angle);
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
+
+/// @file
+/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
+/// Eq. 2.1, with any pole).
+
+namespace gnomon::detail {
+
+/// Column and row of a pixel.
+struct image_cell {
+    std::size_t azimuth, elevation;
+
+    friend bool operator==(const image_cell&, const image_cell&) = default;
+};
+
+/// Whether a pole has a direction: it is finite, and of any length but 0.
+[[nodiscard]] inline bool is_direction(const Eigen::Vector3d& pole) {
+    return all_finite(pole) && (pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0);
+}
+
+/// The axes of a range image, of unit length and orthogonal; z is the pole.
+struct image_axes {
+    Eigen::Vector3d x, y, z;
+
+    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
+    /// pole, from the y-axis.
+    /// @throws std::invalid_argument  if the pole is not finite or has no length
+    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+        require(is_direction(pole), "range_image: the pole must be a finite direction");
+        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
+        image_axes axes;
+        axes.z = direction_of(pole);
+        const Eigen::Vector3d start =
+            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        axes.y = direction_of(cross(axes.z, start));
+        axes.x = cross(axes.y, axes.z);
+        return axes;
+    }
+
+    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
+    template <std::size_t N>
+    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
+                                                          std::size_t width,
+                                                          std::size_t height) const {
+        using numbers = pack_of<N>;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
+            return numbers(a.data());
+        };
+        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
+        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        std::array<image_cell, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
+                              height - 1)};
+        }
+        return at;
+    }
+};
+
+/// The axis along which directions vary least; z if there are none.
+/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
+[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
+    moments directions;
+    for (const auto& s : samples) {
+        const Eigen::Vector3d d = offset_of(s);
+        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
+    }
+    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
+    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
+    sum(2, 2) *= 1.0 - tie;
+    return column(symmetric_eigen(sum).vectors, 2);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
 
 /// @file
@@ -14261,121 +14379,6 @@ struct sensor_place {
     }
     std::erase_if(places, [](const sensor_place& place) { return place.seen.empty(); });
     return places;
-}
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
-
-/// @file
-/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
-/// the last bit; its time would exceed that of all other steps of projecting a point to a range
-/// image.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
-/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
-/// both below 1e-300. Precondition: x and y are finite.
-template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
-                                                            const pack_of<N>& x) {
-    const pack_of<N> across = magnitude(x), up = magnitude(y);
-    const pack_of<N> more = where_at_least(across, up, across, up);
-    const pack_of<N> q = where_at_least(across, up, up, across) /
-                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
-    const pack_of<N> q2 = q * q;
-    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
-    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
-    constexpr double terms[] = {
-        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
-        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
-        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
-        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
-    pack_of<N> angle = 0.0;
-    for (const double term : terms) angle = angle * q2 + term;
-    angle = angle * q;
-    angle = where_at_least(across, up, angle, 0.5 - angle);
-    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
-    return where_at_least(y, 0.0, angle, -angle);
-}
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
-
-/// @file
-/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
-/// Eq. 2.1, with any pole).
-
-namespace gnomon::detail {
-
-/// Column and row of a pixel.
-struct image_cell {
-    std::size_t azimuth, elevation;
-
-    friend bool operator==(const image_cell&, const image_cell&) = default;
-};
-
-/// The axes of a range image, of unit length and orthogonal; z is the pole.
-struct image_axes {
-    Eigen::Vector3d x, y, z;
-
-    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
-    /// pole, from the y-axis.
-    /// @throws std::invalid_argument  if the pole is not finite or has no length
-    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
-        require(all_finite(pole) && has_direction,
-                "range_image: the pole must be a finite direction");
-        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
-        image_axes axes;
-        axes.z = direction_of(pole);
-        const Eigen::Vector3d start =
-            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
-        axes.y = direction_of(cross(axes.z, start));
-        axes.x = cross(axes.y, axes.z);
-        return axes;
-    }
-
-    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
-    template <std::size_t N>
-    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
-                                                          std::size_t width,
-                                                          std::size_t height) const {
-        using numbers = pack_of<N>;
-        const auto along = [&to](const Eigen::Vector3d& axis) {
-            std::array<double, N> a;
-            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
-            return numbers(a.data());
-        };
-        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
-        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
-        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
-        std::array<image_cell, N> at;
-        for (std::size_t l = 0; l < N; ++l) {
-            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
-                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
-                              height - 1)};
-        }
-        return at;
-    }
-};
-
-/// The axis along which directions vary least; z if there are none.
-/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
-[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
-    moments directions;
-    for (const auto& s : samples) {
-        const Eigen::Vector3d d = offset_of(s);
-        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
-    }
-    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
-    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
-    sum(2, 2) *= 1.0 - tie;
-    return column(symmetric_eigen(sum).vectors, 2);
 }
 
 }  // namespace gnomon::detail
@@ -14717,7 +14720,7 @@ inline void require_valid(const visibility_options& options) {
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
-    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+    require(!options.pole || is_direction(*options.pole),
             "visibility: the pole must be finite and have a length");
 }
 

@@ -255,6 +255,9 @@ TEST(visibility, rejects_invalid_input) {
     EXPECT_THROW(make({.pixel = gnomon::radians(1e-300)}), std::invalid_argument);
     EXPECT_THROW(make({.pixel = gnomon::radians(clouds::nan)}), std::invalid_argument);
     EXPECT_THROW(make({.pole = origin}), std::invalid_argument);
+    EXPECT_THROW(make({.pole = Eigen::Vector3d(0, clouds::infinity, 1)}), std::invalid_argument);
+    EXPECT_NO_THROW(make({.pole = Eigen::Vector3d(0, 0, 1e-160)}));
+    EXPECT_NO_THROW(make({.pole = Eigen::Vector3d(0, 0, 1e200)}));
     EXPECT_NO_THROW(make({.pixel = gnomon::degrees(90), .noise = constant_noise{0.0}}));
 }
 

@@ -29,6 +29,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/occlusion/detail/image_axes.hpp>
 #include <gnomon/occlusion/detail/sensor_places.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
@@ -55,7 +56,7 @@ inline void require_valid(const visibility_options& options) {
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
-    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+    require(!options.pole || is_direction(*options.pole),
             "visibility: the pole must be finite and have a length");
 }
 
