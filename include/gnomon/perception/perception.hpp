@@ -39,6 +39,7 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/perception_run.hpp>
 #include <gnomon/perception/perception_result.hpp>
+#include <gnomon/segmentation/detail/require_hesse.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_planes.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
