@@ -68,7 +68,7 @@ class occlusion_merger {
         union_find sets = agglomeration(regions_)(
             pairs(),
             [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? unlikeness_of_apart(a, b)
+                return is_near(a, b) ? dissimilarity_of_apart(a, b)
                                      : std::numeric_limits<double>::infinity();
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
