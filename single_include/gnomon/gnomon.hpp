@@ -3771,6 +3771,14 @@ template <neighborhood_graph G>
     }
 }
 
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "the graph has an index out of range");
+}
+
 /// Whether the policy's `find` returns notes.
 template <class N>
 concept notes_neighborhoods =
@@ -11482,26 +11490,18 @@ inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
 inline constexpr angle edge_on = degrees(1);  // chosen
 
 /// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
-/// which is zero where no view point is known.
+/// which is zero where it is not known.
 struct point_noise {
     double sigma;
     Eigen::Vector3d ray;
 
-    /// @param position   of the point [m]
-    /// @param viewpoint  from where it was seen, if that is known
-    /// @param rounding   of its coordinates [m]
-    point_noise(const noise_curve& noise, const Eigen::Vector3d& position,
-                const Eigen::Vector3d* viewpoint, double rounding)
-        : ray(0.0, 0.0, 0.0) {
-        double variance = flatness * flatness + rounding * rounding;
-        if (viewpoint != nullptr) {
-            const Eigen::Vector3d from = difference(position, *viewpoint);
-            variance += noise.variance_along(from);
-            if (has_length(from)) ray = direction_of(from);
-        } else {
-            variance += noise.variance_along({0.0, 0.0, 0.0});
-        }
-        sigma = std::sqrt(variance);
+    /// @param way       from the view point to the point [m]
+    /// @param is_seen   whether that is known to be its ray
+    /// @param rounding  of its coordinates [m]
+    point_noise(const noise_curve& noise, const Eigen::Vector3d& way, bool is_seen, double rounding)
+        : sigma(std::sqrt(flatness * flatness + rounding * rounding + noise.variance_along(way))),
+          ray(0.0, 0.0, 0.0) {
+        if (is_seen && has_length(way)) ray = direction_of(way);
     }
 
     /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
@@ -11521,15 +11521,16 @@ struct point_noise {
     }
 };
 
-/// The noise of a point of an index.
-/// @param is_seen  whether the view points are known; the origin where there are none
+/// The noise of a point of an index. The origin stands for an unknown view point.
+/// @param is_seen  whether the view points are known
 [[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
                                                 const noise_curve& noise, std::size_t i,
                                                 bool is_seen) {
     const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
+    const bool is_known = is_finite(v);
     const double rounding =
         index.epsilon() * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    return {noise, p, is_seen && is_finite(v) ? &v : nullptr, rounding};
+    return {noise, is_known ? difference(p, v) : p, is_seen && is_known, rounding};
 }
 
 /// The noise of all points of an index.
@@ -11537,7 +11538,7 @@ template <execution X>
 [[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
                                                    const noise_curve& noise, const X& run,
                                                    bool is_seen) {
-    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
+    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, false, 0.0));
     for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, is_seen);
@@ -11670,25 +11671,23 @@ struct planar_region {
 
 namespace gnomon::detail {
 
-/// Positions are relative to the first finite point, so that planes keep their digits far from the
-/// origin of the coordinates.
+/// Positions are relative to the median of each coordinate, so that planes keep their digits far
+/// from the origin of the coordinates, and in spite of points that are far from all others.
 class planar_cloud {
   public:
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
         : planar_cloud(index, curve, run, !index.viewpoints.empty()) {}
 
-    /// @param is_seen  whether the view points are known; the origin where there are none
+    /// @param is_seen  whether the view points are known; the origin stands for unknown ones
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
         : noise(noise_of_points(index, curve, run, is_seen)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
-        std::size_t first = 0;
-        while (first < index.size() && !index.is_finite(first)) ++first;
-        if (first < index.size()) origin = index[first];
-        for (std::size_t i = first; i < index.size(); ++i)
-            offsets[i] = difference(index[i], origin);
+        if (index.finite() == 0) return;
+        for (int a = 0; a < 3; ++a) origin[a] = median_of(a);
+        for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
     }
 
     scratch<point_noise> noise;
@@ -11714,16 +11713,18 @@ class planar_cloud {
     }
 
   private:
+    /// The median of one coordinate, of some of the points.
+    [[nodiscard]] double median_of(int axis) const {
+        constexpr std::size_t enough = 1000;  // performance only
+        const leaf_tree& tree = index_.tree();
+        scratch<double> values;
+        for (std::size_t place = 0; place < tree.size(); place += 1 + tree.size() / enough)
+            values.push_back(tree.at(static_cast<std::size_t>(axis))[place]);
+        return quantile(values, 0.5);
+    }
+
     const spatial_index& index_;
 };
-
-/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
-void require_graph_of(std::size_t points, const auto& graph) {
-    require(graph.size() == points, "segmentation: graph and points differ in size");
-    for (std::size_t i = 0; i < points; ++i)
-        for (const point_index j : graph[i])
-            require(j < points, "segmentation: the graph has an index out of range");
-}
 
 }  // namespace gnomon::detail
 
@@ -12119,11 +12120,12 @@ template <neighborhood_graph G, execution X>
         after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
     make_unique(after.touching);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (after.labels[i] == labels[i]) continue;
-        is_border[i] = true;
-        for (const point_index j : graph[i]) is_border[j] = true;
-    }
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        const auto has_changed = [&](std::size_t j) { return after.labels[j] != labels[j]; };
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_border[i] == 0)
+                is_border[i] = has_changed(i) || std::ranges::any_of(graph[i], has_changed);
+    });
     return after;
 }
 
@@ -12167,10 +12169,7 @@ namespace detail {
         values.clear();
         for (const point_index i : members)
             if (cloud.is_finite(i)) values.push_back(value_of(i));
-        if (values.empty()) return 0.0;
-        const auto half = values.begin() + std::ssize(values) / 2;
-        std::nth_element(values.begin(), half, values.end());
-        return *half;
+        return values.empty() ? 0.0 : quantile(values, 0.5);
     };
     Eigen::Vector3d middle(0.0, 0.0, 0.0);
     for (int j = 0; j < 3; ++j)
@@ -12183,9 +12182,9 @@ namespace detail {
 }
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
-/// out, and it is fit again, until none is. If more than half are off the plane of all, the plane
-/// of the half around the middle is the first one. Planar if most points are on it, their variance
-/// is at most 2.5 times that of the noise, and it is not seen edge-on.
+/// out, and it is fit again, until their number stays the same. If more than half are off the plane
+/// of all, the plane of the half around the middle is the first one. Planar if most points are on
+/// it, their variance is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -12248,9 +12247,10 @@ template <class Cloud>
     e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
     if (!fit.is_determined) return e;
     const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    const auto first_finite =
-        std::ranges::find_if(members, [&](point_index i) { return cloud.is_finite(i); });
-    const bool is_away = dot(fit.plane.normal, cloud.ray(*first_finite)) > 0.0;
+    const auto on_plane = std::ranges::find_if(
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, fit); });
+    const bool is_away =
+        on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
     const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
     for (int i = 0; i < 3; ++i) {
@@ -12621,7 +12621,6 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
-                    require(j < points_.size(), "the graph has an index out of range");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);
@@ -13291,7 +13290,8 @@ class plane_growth {
         members_.reserve(cloud.size());
     }
 
-    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// Grows regions of unlabeled points. Points of a region that is too small, or whose plane
+    /// most of its points do not fit in the end, are no seeds.
     /// @param next  the label of the first new region
     template <execution X>
     void operator()(std::int32_t next, const X& run) {
@@ -13304,7 +13304,7 @@ class plane_growth {
 
   private:
     [[nodiscard]] bool is_free(std::size_t i) const {
-        return labels_[i] == unlabeled && !is_missing(normal(i));
+        return labels_[i] == unlabeled && cloud_.is_finite(i) && !is_missing(normal(i));
     }
 
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
@@ -13379,7 +13379,7 @@ class plane_growth {
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
         for (const point_index j : graph_[seed]) {
-            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
+            if (!is_free(j) || !(std::abs(dot(n, normal(j))) >= min_cosine_)) continue;
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }
@@ -13951,7 +13951,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
                                         const segment_surfaces_options& options = {},
                                         const X& run = {}, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "segment_surfaces: graph and points differ in size");
+    detail::require_graph_of(p.size(), graph);
     const detail::smooth_link<Surface> link(surface, options, p.size());
     detail::linker linker(p);
     linker.link_listed(
@@ -14827,9 +14827,9 @@ class visibility {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
-            const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
-            if (!std::isfinite(variance)) continue;
-            sum += variance;
+            const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+            if (!detail::all_finite(way)) continue;
+            sum += noise_.variance_along(way);
             count += 1.0;
         }
         return count > 0.0 ? std::sqrt(sum / count) : 0.0;
@@ -15074,16 +15074,16 @@ inline void require_valid(const merge_occluded_options& options) {
 }
 
 /// The sets of the segments of an index that merge_occluded makes one.
+/// @param cloud     of the points
 /// @param each_gap  each_gap(examined_gap) is called for all gaps
 template <merge_policy M, execution X>
-[[nodiscard]] union_find merged_sets(const spatial_index& points, const segments& parts,
-                                     const visibility& visible, const M& policy,
-                                     const merge_occluded_options& options, const X& run,
-                                     auto&& each_gap) {
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const planar_cloud& cloud,
+                                     const segments& parts, const visibility& visible,
+                                     const M& policy, const merge_occluded_options& options,
+                                     const X& run, auto&& each_gap) {
     require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
     require_valid(options);
-    const planar_cloud cloud(points, options.noise, run);
     occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
     union_find sets = merge();
     for (const examined_gap& gap : merge.gaps()) each_gap(gap);
@@ -15115,9 +15115,11 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    // The origin stands for unknown view points, as in `visibility`.
+    const detail::planar_cloud cloud(index, options.noise, team, true);
     detail::union_find sets = detail::merged_sets(
-        detail::index_of(points, team, projection), parts, visible, policy, options, team,
-        [&](const detail::examined_gap& gap) {
+        index, cloud, parts, visible, policy, options, team, [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
     result.segments = detail::united_segments(parts, sets);
@@ -17582,10 +17584,7 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
-            index.viewpoints = cells_.viewpoints.empty()
-                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
-                                   : cells_.viewpoints;
+        index.viewpoints = cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -17615,7 +17614,7 @@ class cell_surfaces {
     /// The planes.
     template <execution X>
     void find(const segment_planes_options& planes, const X& run) {
-        cloud_.emplace(index_, noise_.of_planes, run);
+        cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
@@ -17629,6 +17628,7 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
+    [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
     /// A point of a cell.
@@ -17636,7 +17636,10 @@ class cell_surfaces {
     /// The surface element of a point: that of its cell.
     [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
         const point_index c = cells_.of_point[point];
-        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+        if (c != cells::no_cell) return surface_[c];
+        surfel<Estimate> none;
+        none.trust = trust::not_finite;
+        return none;
     }
 
   private:
@@ -17842,7 +17845,8 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
+                merge(found->index(), found->cloud(), labels,
+                      [&](point_index c) { return found->point_of(c); });
             });
     }
 
@@ -17873,18 +17877,24 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+        if constexpr (merges)
+            step("merging", [&] {
+                const planar_cloud cloud(*given_, result_.noise.of_planes, run_, true);
+                merge(*given_, cloud, labels, std::identity());
+            });
     }
 
     /// Merges the segments in memory, of things that are cells or kept points, where the noise
     /// along the rays is known.
+    /// @param cloud     of these
     /// @param labels    the segments of the kept points
     /// @param point_of  point_of(thing): the number of a kept point of it
-    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+    void merge(const spatial_index& things, const planar_cloud& cloud,
+               scratch<std::int32_t>& labels, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
         const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
-        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
+        union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
                                       at_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
         unite_labels(labels, sets);
@@ -17900,14 +17910,12 @@ class perception_run {
     }
 
     /// Writes a gap to the result; its distances stay those between the things, the means of cells.
-    /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
-        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
-        for (auto& line : to.lines) {
+        result_.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        for (auto& line : result_.gaps.back().lines) {
             line.first = result_.kept[point_of(line.first)];
             line.second = result_.kept[point_of(line.second)];
         }
-        result_.gaps.push_back(std::move(to));
     }
 
     void estimate_planes_of_all() {

@@ -122,8 +122,7 @@ template <class R, merge_policy M = conservative, execution X = sequential,
     // The origin stands for unknown view points, as in `visibility`.
     const detail::planar_cloud cloud(index, options.noise, team, true);
     detail::union_find sets = detail::merged_sets(
-        index, cloud, parts, visible, policy, options, team,
-        [&](const detail::examined_gap& gap) {
+        index, cloud, parts, visible, policy, options, team, [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
     result.segments = detail::united_segments(parts, sets);

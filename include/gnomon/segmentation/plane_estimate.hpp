@@ -75,9 +75,9 @@ namespace detail {
 }
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
-/// out, and it is fit again, until their number stays. If more than half are off the plane of all, the plane
-/// of the half around the middle is the first one. Planar if most points are on it, their variance
-/// is at most 2.5 times that of the noise, and it is not seen edge-on.
+/// out, and it is fit again, until their number stays the same. If more than half are off the plane
+/// of all, the plane of the half around the middle is the first one. Planar if most points are on
+/// it, their variance is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
@@ -27,7 +26,6 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
-#include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/detail/occlusion_merger.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
@@ -219,14 +217,12 @@ class perception_run {
     }
 
     /// Writes a gap to the result; its distances stay those between the things, the means of cells.
-    /// @param point_of  as above
     void note(const examined_gap& gap, auto&& point_of) const {
-        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
-        for (auto& line : to.lines) {
+        result_.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        for (auto& line : result_.gaps.back().lines) {
             line.first = result_.kept[point_of(line.first)];
             line.second = result_.kept[point_of(line.second)];
         }
-        result_.gaps.push_back(std::move(to));
     }
 
     void estimate_planes_of_all() {
