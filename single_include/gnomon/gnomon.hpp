@@ -11728,6 +11728,29 @@ class planar_cloud {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/region_pairs.hpp --------------------------------------------
+
+/// @file
+/// Pairs of regions: those next to each other, or those to compare.
+
+namespace gnomon::detail {
+
+/// Two regions, the smaller number first.
+using region_pair = std::pair<point_index, point_index>;
+
+/// Adds a pair to others, unless it is there; the latest ones are compared first.
+void add_once(const auto& pair, auto& others) {
+    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
+}
+
+/// Sorts pairs, and leaves each once.
+void make_unique(auto& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/union_find.hpp ------------------------------------------------------
 
 /// @file
@@ -12066,20 +12089,6 @@ template <neighborhood_graph G, execution X>
                 graph[i], [&](point_index j) { return labels[j] != labels[i]; });
     });
     return is_border;
-}
-
-/// Two regions, the smaller number first.
-using region_pair = std::pair<point_index, point_index>;
-
-/// Adds a pair to others, unless it is there; the latest ones are looked at first.
-void add_once(const auto& pair, auto& others) {
-    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
-}
-
-/// Sorts pairs, and leaves each once.
-void make_unique(auto& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 /// One round. Points that are no border keep their label if they are on the plane.

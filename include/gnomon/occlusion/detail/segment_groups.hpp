@@ -16,7 +16,7 @@
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/segmentation/detail/label_competition.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {

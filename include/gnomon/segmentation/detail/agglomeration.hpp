@@ -10,8 +10,8 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 
 namespace gnomon::detail {
 
