@@ -26,8 +26,8 @@
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_fit.hpp>
 #include <gnomon/segmentation/detail/region_pairs.hpp>
-#include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
