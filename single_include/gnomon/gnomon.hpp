@@ -17714,12 +17714,14 @@ template <class X>
 
 namespace gnomon::detail {
 
+/// The noise along the rays, as given or measured; where it cannot be measured, that across the
+/// surfaces, and why.
 /// @param noise   becomes that of the points: perception_result::known_noise
 /// @param given   by the user, if any
 /// @param sparse  memory for the index of some of the points
 template <class X>
-void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                spatial_index& sparse, const X& run) {
+void determine_noise(auto& noise, const spatial_index& points,
+                     const std::optional<noise_curve>& given, spatial_index& sparse, const X& run) {
     noise = {};
     if (given) {
         noise.curve = noise.of_planes = *given;
@@ -17738,7 +17740,7 @@ void know_noise(auto& noise, const spatial_index& points, const std::optional<no
 
 /// The same policy for this noise, if it depends on any.
 template <class Policy>
-[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+[[nodiscard]] Policy with_noise(Policy policy, const noise_curve& noise) {
     if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
     return policy;
 }
@@ -17774,7 +17776,7 @@ class perception_run {
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
         step("noise", [&] {
-            know_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+            determine_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
         });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
@@ -17847,8 +17849,8 @@ class perception_run {
                           run_);
         });
         step("normals", [&] {
-            found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
-                            at_noise(chain_.estimate, noise), run_);
+            found->estimate(with_noise(chain_.neighborhood, noise.plus(flatness)),
+                            with_noise(chain_.estimate, noise), run_);
             result_.surface.assign(size(), {});
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
@@ -17871,8 +17873,8 @@ class perception_run {
     /// `smooth_surfaces`
     void find_on_points() {
         auto& surface = keeps_all() ? result_.surface : result_.memory.surface;
-        const auto neighborhood = at_noise(chain_.neighborhood, result_.noise.curve);
-        const auto estimate = at_noise(chain_.estimate, result_.noise.curve);
+        const auto neighborhood = with_noise(chain_.neighborhood, result_.noise.curve);
+        const auto estimate = with_noise(chain_.estimate, result_.noise.curve);
         step("normals", [&] {
             estimate_normals_into(surface, *given_, neighborhood, estimate, run_);
             const auto& repair = chain_.segmentation.repair;
@@ -17911,9 +17913,9 @@ class perception_run {
                scratch<std::int32_t>& labels, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
-        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
+        const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
         union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
-                                      at_noise(chain_.merging, noise), run_,
+                                      with_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
