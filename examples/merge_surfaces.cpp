@@ -14,7 +14,7 @@ int main() {
         gnomon::simulation::simulate(kitchen, trajectory, {}, {.sigma = 0.015}).scan;
 
     // [merge_surfaces]
-    const gnomon::perception<> chain;  // the noise is measured, all lengths are multiples of it
+    const gnomon::perception<> chain;  // the noise is measured, thresholds follow from it
     const auto seen = chain(scan, gnomon::threads{});
 
     std::printf("noise of %.1f mm at 2 m\n", 1000.0 * seen.noise.curve(2.0));

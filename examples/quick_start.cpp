@@ -20,7 +20,7 @@ int main(int argc, char** argv) try {
         }
     }
 
-    // Measures the noise of the sensor, and finds planes by multiples of it.
+    // Measures the noise of the sensor, from which the thresholds for planes follow.
     const auto seen = gnomon::perception<>{}(scan);
     for (std::size_t label = 0; label < seen.surfaces.size(); ++label) {
         const gnomon::plane_estimate& e = seen.planes[label];

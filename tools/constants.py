@@ -53,6 +53,7 @@ FORMULAS = [
     (r"(0\.5) \* std::numbers::pi", "one half", "a quarter turn"),
     (r"\+ (0\.5)\)", "one half", "rounding to the nearest number"),
     (r"(0\.5) \* squared\b", "one half", "the exponent of a normal distribution"),
+    (r"\bquantile\(\w+, (0\.5)\)", "one half", "the median"),
 ]
 FORMULAS = [(re.compile(pattern, re.I), name, source) for pattern, name, source in FORMULAS]
 

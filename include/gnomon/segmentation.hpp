@@ -5,6 +5,7 @@
 
 #include <gnomon/segmentation/assign_unlabeled.hpp>
 #include <gnomon/segmentation/euclidean_clusters.hpp>
+#include <gnomon/segmentation/leveling.hpp>
 #include <gnomon/segmentation/plane_estimate.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_oriented_points.hpp>

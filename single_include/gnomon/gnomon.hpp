@@ -3771,6 +3771,14 @@ template <neighborhood_graph G>
     }
 }
 
+/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
+void require_graph_of(std::size_t points, const auto& graph) {
+    require(graph.size() == points, "graph and points differ in size");
+    for (std::size_t i = 0; i < points; ++i)
+        for (const point_index j : graph[i])
+            require(j < points, "the graph has an index out of range");
+}
+
 /// Whether the policy's `find` returns notes.
 template <class N>
 concept notes_neighborhoods =
@@ -11467,11 +11475,11 @@ struct besl_jain {
 
 namespace gnomon::detail {
 
-/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
-/// normal distribution.
+/// A point is an inlier of a plane up to this many standard deviations: 99.7 % of a normal
+/// distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it: the 99.99994 % quantile.
+/// Beyond this many it is an outlier whatever the other points are: the 99.99994 % quantile.
 inline constexpr double certain_deviations = 5.0;
 
 inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
@@ -11482,26 +11490,18 @@ inline constexpr double least_cosine = 1.0 / most_deviations;  // formula
 inline constexpr angle edge_on = degrees(1);  // chosen
 
 /// The noise of one point: its standard deviation along the ray [m], and the direction of the ray,
-/// which is zero where no view point is known.
+/// which is zero where it is not known.
 struct point_noise {
     double sigma;
     Eigen::Vector3d ray;
 
-    /// @param position   of the point [m]
-    /// @param viewpoint  from where it was seen, if that is known
-    /// @param rounding   of its coordinates [m]
-    point_noise(const noise_curve& noise, const Eigen::Vector3d& position,
-                const Eigen::Vector3d* viewpoint, double rounding)
-        : ray(0.0, 0.0, 0.0) {
-        double variance = flatness * flatness + rounding * rounding;
-        if (viewpoint != nullptr) {
-            const Eigen::Vector3d from = difference(position, *viewpoint);
-            variance += noise.variance_along(from);
-            if (has_length(from)) ray = direction_of(from);
-        } else {
-            variance += noise.variance_along({0.0, 0.0, 0.0});
-        }
-        sigma = std::sqrt(variance);
+    /// @param way       from the view point to the point [m]
+    /// @param is_seen   whether that is known to be its ray
+    /// @param rounding  of its coordinates [m]
+    point_noise(const noise_curve& noise, const Eigen::Vector3d& way, bool is_seen, double rounding)
+        : sigma(std::sqrt(flatness * flatness + rounding * rounding + noise.variance_along(way))),
+          ray(0.0, 0.0, 0.0) {
+        if (is_seen && has_length(way)) ray = direction_of(way);
     }
 
     /// The distance from a plane beyond which the point is certainly not on it [m]: five standard
@@ -11521,15 +11521,16 @@ struct point_noise {
     }
 };
 
-/// The noise of a point of an index.
-/// @param is_seen  whether the view points are known; the origin where there are none
+/// The noise of a point of an index. The origin stands for an unknown view point.
+/// @param is_seen  whether the view points are known
 [[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
                                                 const noise_curve& noise, std::size_t i,
                                                 bool is_seen) {
     const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
+    const bool is_known = is_finite(v);
     const double rounding =
         index.epsilon() * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    return {noise, p, is_seen && is_finite(v) ? &v : nullptr, rounding};
+    return {noise, is_known ? difference(p, v) : p, is_seen && is_known, rounding};
 }
 
 /// The noise of all points of an index.
@@ -11537,7 +11538,7 @@ template <execution X>
 [[nodiscard]] scratch<point_noise> noise_of_points(const spatial_index& index,
                                                    const noise_curve& noise, const X& run,
                                                    bool is_seen) {
-    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, nullptr, 0.0));
+    scratch<point_noise> all(index.size(), point_noise(noise, {0.0, 0.0, 0.0}, false, 0.0));
     for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
             if (index.is_finite(i)) all[i] = noise_of_point(index, noise, i, is_seen);
@@ -11658,7 +11659,7 @@ struct plane_sums {
 struct planar_region {
     plane_sums sums;
     region_plane fit;
-    bool is_planar = true;  ///< else its points are not of the plane
+    bool is_planar = true;  ///< else the plane does not explain its points
 };
 
 }  // namespace gnomon::detail
@@ -11670,25 +11671,23 @@ struct planar_region {
 
 namespace gnomon::detail {
 
-/// Positions are relative to the first finite point, so that planes keep their digits far from the
-/// origin of the coordinates.
+/// Positions are relative to the median of each coordinate, so that planes keep their digits far
+/// from the origin of the coordinates, and in spite of points that are far from all others.
 class planar_cloud {
   public:
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run)
         : planar_cloud(index, curve, run, !index.viewpoints.empty()) {}
 
-    /// @param is_seen  whether the view points are known; the origin where there are none
+    /// @param is_seen  whether the view points are known; the origin stands for unknown ones
     template <execution X>
     planar_cloud(const spatial_index& index, const noise_curve& curve, const X& run, bool is_seen)
         : noise(noise_of_points(index, curve, run, is_seen)),
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
-        std::size_t first = 0;
-        while (first < index.size() && !index.is_finite(first)) ++first;
-        if (first < index.size()) origin = index[first];
-        for (std::size_t i = first; i < index.size(); ++i)
-            offsets[i] = difference(index[i], origin);
+        if (index.finite() == 0) return;
+        for (int a = 0; a < 3; ++a) origin[a] = median_of(a);
+        for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
     }
 
     scratch<point_noise> noise;
@@ -11714,15 +11713,40 @@ class planar_cloud {
     }
 
   private:
+    /// The median of one coordinate, of some of the points.
+    [[nodiscard]] double median_of(int axis) const {
+        constexpr std::size_t enough = 1000;  // performance only
+        const leaf_tree& tree = index_.tree();
+        scratch<double> values;
+        for (std::size_t place = 0; place < tree.size(); place += 1 + tree.size() / enough)
+            values.push_back(tree.at(static_cast<std::size_t>(axis))[place]);
+        return quantile(values, 0.5);
+    }
+
     const spatial_index& index_;
 };
 
-/// @throws std::invalid_argument  unless a graph is of this number of points, by their indices
-void require_graph_of(std::size_t points, const auto& graph) {
-    require(graph.size() == points, "segmentation: graph and points differ in size");
-    for (std::size_t i = 0; i < points; ++i)
-        for (const point_index j : graph[i])
-            require(j < points, "segmentation: the graph has an index out of range");
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/region_pairs.hpp --------------------------------------------
+
+/// @file
+/// Pairs of regions: those next to each other, or those to compare.
+
+namespace gnomon::detail {
+
+/// Two regions, the smaller number first.
+using region_pair = std::pair<point_index, point_index>;
+
+/// Adds a pair to others, unless it is there; the latest ones are compared first.
+void add_once(const auto& pair, auto& others) {
+    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
+}
+
+/// Sorts pairs, and leaves each once.
+void make_unique(auto& pairs) {
+    std::sort(pairs.begin(), pairs.end());
+    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 }  // namespace gnomon::detail
@@ -12048,7 +12072,7 @@ class label_competition {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
-/// Whether a point is certainly not of the plane of a region, whatever its other points.
+/// Whether a point is a certain outlier of a region's plane.
 [[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
                                            const planar_region& region) {
     const plane& p = region.fit.plane;
@@ -12065,20 +12089,6 @@ template <neighborhood_graph G, execution X>
                 graph[i], [&](point_index j) { return labels[j] != labels[i]; });
     });
     return is_border;
-}
-
-/// Two regions, the smaller number first.
-using region_pair = std::pair<point_index, point_index>;
-
-/// Adds a pair to others, unless it is there; the latest ones are looked at first.
-void add_once(const auto& pair, auto& others) {
-    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
-}
-
-/// Sorts pairs, and leaves each once.
-void make_unique(auto& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 /// One round. Points that are no border keep their label if they are on the plane.
@@ -12119,57 +12129,33 @@ template <neighborhood_graph G, execution X>
         after.touching.insert(after.touching.end(), touching.begin(), touching.end());
     });
     make_unique(after.touching);
-    for (std::size_t i = 0; i < labels.size(); ++i) {
-        if (after.labels[i] == labels[i]) continue;
-        is_border[i] = true;
-        for (const point_index j : graph[i]) is_border[j] = true;
-    }
+    for_each_chunk(run, labels.size(), [&](std::size_t begin, std::size_t end) {
+        const auto has_changed = [&](std::size_t j) { return after.labels[j] != labels[j]; };
+        for (std::size_t i = begin; i < end; ++i)
+            if (is_border[i] == 0)
+                is_border[i] = has_changed(i) || std::ranges::any_of(graph[i], has_changed);
+    });
     return after;
 }
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/segmentation/plane_estimate.hpp -------------------------------------------------
+// -------- gnomon/segmentation/detail/region_fit.hpp ----------------------------------------------
 
 /// @file
-/// The plane of a segment: fit to those of its points that are on it, with its covariance, and
-/// whether the segment is flat.
-///
-///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
+/// The robust fit of a plane to a region: to those of its points that are on it.
 
-namespace gnomon {
-
-/// A plane with its covariance.
-struct plane_estimate {
-    /// In Hesse normal form, towards the view point of the points, or else the origin; without a
-    /// normal if the points do not determine one.
-    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
-    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
-    /// Unit columns: the directions of largest and second largest variance in the plane, and its
-    /// normal.
-    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
-    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid
-    /// [m].
-    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
-    double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
-    std::size_t points = 0;  ///< on the plane, which is fit to them
-    bool is_flat = false;    ///< whether the segment is of this plane
-};
-
-namespace detail {
+namespace gnomon::detail {
 
 /// The half of a segment that is nearest to the median of each coordinate, as a predicate of its
-/// points. A few far points, which turn the plane of all, are not of it. O(n).
+/// points. A few far points, which would turn the plane of all, are excluded. O(n).
 [[nodiscard]] auto central_half(const auto& cloud, std::span<const point_index> members) {
     scratch<double> values;
     const auto median = [&](auto&& value_of) {
         values.clear();
         for (const point_index i : members)
             if (cloud.is_finite(i)) values.push_back(value_of(i));
-        if (values.empty()) return 0.0;
-        const auto half = values.begin() + std::ssize(values) / 2;
-        std::nth_element(values.begin(), half, values.end());
-        return *half;
+        return values.empty() ? 0.0 : quantile(values, 0.5);
     };
     Eigen::Vector3d middle(0.0, 0.0, 0.0);
     for (int j = 0; j < 3; ++j)
@@ -12182,9 +12168,9 @@ namespace detail {
 }
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
-/// out, and it is fit again, until none is. If more than half are off the plane of all, the plane
-/// of the half around the middle is the first one. Planar if most points are on it, their variance
-/// is at most 2.5 times that of the noise, and it is not seen edge-on.
+/// out, and it is fit again, until their number stays the same. If more than half are off the plane
+/// of all, the plane of the half around the middle is the first one. Planar if most points are on
+/// it, their variance is at most 2.5 times that of the noise, and it is not seen edge-on.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -12213,19 +12199,6 @@ template <class Cloud>
     return region;
 }
 
-/// Whether hardly any points are certainly not on a plane, however rough it is.
-template <class Cloud>
-[[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
-                               const region_plane& of) {
-    constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
-    const auto is_off = [&](point_index i) {
-        return cloud.is_finite(i) &&
-               std::abs(of.plane.signed_distance(cloud.offsets[i])) >
-                   std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
-    };
-    return std::ranges::count_if(members, is_off) < fewest_off;
-}
-
 /// The planes of segments, as regions.
 template <execution X>
 [[nodiscard]] scratch<planar_region> regions_of(const planar_cloud& cloud, const segments& parts,
@@ -12235,70 +12208,7 @@ template <execution X>
     return regions;
 }
 
-/// The plane of some points of a cloud, with its covariance.
-/// @param exact  the same points, with the noise of each for itself
-template <class Cloud>
-[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
-                                         const Cloud& exact) {
-    const auto& [sums, fit, is_planar] = region_of(cloud, members);
-    plane_estimate e;
-    e.points = sums.count;
-    if (e.points == 0) return e;
-    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
-    if (!fit.is_determined) return e;
-    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
-    const auto first_finite =
-        std::ranges::find_if(members, [&](point_index i) { return cloud.is_finite(i); });
-    const bool is_away = dot(fit.plane.normal, cloud.ray(*first_finite)) > 0.0;
-    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
-    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
-    for (int i = 0; i < 3; ++i) {
-        e.axes(i, 0) = first[i];
-        e.axes(i, 1) = second[i];
-        e.axes(i, 2) = n[i];
-    }
-    e.plane = {n, dot(n, e.centroid)};
-    e.chi2 = fit.chi2;
-    e.is_flat = is_planar && has_few_off(exact, members, fit);
-    // A turn about one axis moves the points along the other one.
-    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
-    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
-    return e;
-}
-
-}  // namespace detail
-
-/// The planes of segments.
-///
-/// @param points  any point range of n points [m]; where view points are known, noise lies along
-///                the rays, else it is the same in all directions
-/// @param parts   segments of these points
-/// @param noise   of the sensor
-/// @return an estimate for each segment. It is flat if most of its points are on the plane, within
-///         three standard deviations of the region (at least those of the noise); fewer than 30 are
-///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
-///         to [1, 2.5]; their variance is at most 2.5 times that of the noise; and the plane is not
-///         seen edge-on
-/// @throws std::invalid_argument  if points, segments or view points differ in number
-/// Complexity: O(n), and an index if `points` is none.
-template <class R, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] std::vector<plane_estimate> estimate_planes(const R& points, const segments& parts,
-                                                          const noise_curve& noise,
-                                                          const X& run = {}, Proj projection = {}) {
-    const auto& team = detail::staying(run);
-    const auto& index = detail::index_of(points, team, projection);
-    detail::require(parts.labels().size() == index.size(),
-                    "estimate_planes: the numbers of points and of labels differ");
-    const detail::planar_cloud cloud(index, noise, team);
-    std::vector<plane_estimate> planes(parts.size());
-    team(parts.size(), [&](std::size_t s) {
-        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s], cloud);
-    });
-    return planes;
-}
-
-}  // namespace gnomon
+}  // namespace gnomon::detail
 
 // -------- gnomon/segmentation/assign_unlabeled.hpp -----------------------------------------------
 
@@ -12620,7 +12530,6 @@ class linker {
                 const double limit = radius * radius;
                 const Eigen::Vector3d p = points_[i];
                 for (const point_index j : graph[i]) {
-                    require(j < points_.size(), "the graph has an index out of range");
                     const neighbor q{squared_distance(p, points_[j]), j};
                     if (q.squared_distance <= limit && link(i, q)) {
                         sets_.unite(static_cast<point_index>(i), j);
@@ -12667,8 +12576,8 @@ struct euclidean_clusters_options {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
-/// farther than that from many of another group; greedy as well.
+/// Complexity: O(n log n) whatever the radius, except where many points of two clusters are just
+/// beyond it from each other; the same for greedy.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments euclidean_clusters(const R& points,
@@ -12686,6 +12595,178 @@ template <class R, execution X = sequential, class Proj = std::identity>
     }
     return detail::numbered_segments_of(
         detail::components_within(index.tree(), options.radius, team), options.min_points);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/require_hesse.hpp -------------------------------------------
+
+/// @file
+/// The check of planes and directions that are given.
+
+namespace gnomon::detail {
+
+/// @throws std::invalid_argument  unless the plane is in Hesse normal form
+inline void require_hesse(const plane& p) {
+    constexpr double rounding = 1e-6;  // numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
+            "the normal of a plane, or the direction upwards, must be of unit length");
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/leveling.hpp -------------------------------------------------------
+
+/// @file
+/// Levels a scan: the rigid motion that lays its floor into z = 0. Klasing 2010, Sec. 4.2.2.
+
+namespace gnomon {
+
+/// A rigid motion after which the floor is the plane z = 0.
+struct leveling {
+    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
+    double lift = 0.0;  ///< added to z after the rotation [m]
+
+    [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
+        Eigen::Vector3d q = detail::product(rotation, p);
+        q[2] += lift;
+        return q;
+    }
+
+    /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
+    /// @throws std::invalid_argument  unless the floor's normal is of unit length and its
+    ///                                offset finite
+    [[nodiscard]] static leveling of(const plane& floor) {
+        detail::require_hesse(floor);
+        const Eigen::Vector3d& n = floor.normal;
+        leveling level;
+        level.lift = -floor.offset;
+        Eigen::Matrix3d& r = level.rotation;
+        // 1 + n_z, without cancellation where the scan is nearly upside down.
+        const double across = n[0] * n[0] + n[1] * n[1];
+        const double h = n[2] >= 0.0 ? 1.0 + n[2] : across / (1.0 - n[2]);
+        if (!(h > 0.0)) {  // upside down: half a turn about x
+            r(1, 1) = r(2, 2) = -1.0;
+            return level;
+        }
+        // Rodrigues' formula for the rotation about n x z.
+        for (int i = 0; i < 2; ++i) {
+            for (int j = 0; j < 2; ++j) r(i, j) -= n[i] * n[j] / h;
+            r(i, 2) = -n[i];
+            r(2, i) = n[i];
+        }
+        r(2, 2) = n[2];
+        return level;
+    }
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/plane_estimate.hpp -------------------------------------------------
+
+/// @file
+/// The plane of a segment: fit to those of its points that are on it, with its covariance, and
+/// whether the segment is flat.
+///
+///     const auto planes = gnomon::estimate_planes(scan, seen.surfaces, noise);
+
+namespace gnomon {
+
+/// A plane with its covariance.
+struct plane_estimate {
+    /// In Hesse normal form, towards the view point of the points, or else the origin; without a
+    /// normal if the points do not determine one.
+    gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
+    /// Unit columns: the directions of largest and second largest variance in the plane, and its
+    /// normal.
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
+    /// Of the turns about axes 0 and 1 [rad], and of the shift along the normal at the centroid
+    /// [m].
+    Eigen::Matrix3d covariance = detail::diagonal(0.0, 0.0, 0.0);
+    double chi2 = 0.0;       ///< mean squared deviation, in variances of the noise
+    std::size_t points = 0;  ///< on the plane, which is fit to them
+    /// Whether the plane explains the segment, as `estimate_planes` defines.
+    bool is_flat = false;
+};
+
+namespace detail {
+
+/// Whether fewer than 30 points are certain outliers of a plane, which may be rough.
+template <class Cloud>
+[[nodiscard]] bool has_few_off(const Cloud& cloud, std::span<const point_index> members,
+                               const region_plane& of) {
+    constexpr std::ptrdiff_t fewest_off = 30;  // n_min of the thesis: no noise
+    const auto is_off = [&](point_index i) {
+        return cloud.is_finite(i) &&
+               std::abs(of.plane.signed_distance(cloud.offsets[i])) >
+                   std::sqrt(of.excess()) * cloud.noise[i].certain_reach(of.plane.normal);
+    };
+    return std::ranges::count_if(members, is_off) < fewest_off;
+}
+
+/// The plane of some points of a cloud, with its covariance.
+/// @param exact  the same points, with the noise of each for itself
+template <class Cloud>
+[[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
+                                         const Cloud& exact) {
+    const auto& [sums, fit, is_planar] = region_of(cloud, members);
+    plane_estimate e;
+    e.points = sums.count;
+    if (e.points == 0) return e;
+    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
+    if (!fit.is_determined) return e;
+    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
+    const auto on_plane = std::ranges::find_if(
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, fit); });
+    const bool is_away =
+        on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
+    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
+    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
+    for (int i = 0; i < 3; ++i) {
+        e.axes(i, 0) = first[i];
+        e.axes(i, 1) = second[i];
+        e.axes(i, 2) = n[i];
+    }
+    e.plane = {n, dot(n, e.centroid)};
+    e.chi2 = fit.chi2;
+    e.is_flat = is_planar && has_few_off(exact, members, fit);
+    // A turn about one axis moves the points along the other one.
+    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
+    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
+    return e;
+}
+
+}  // namespace detail
+
+/// The planes of segments.
+///
+/// @param points  any point range of n points [m]; where view points are known, noise lies along
+///                the rays, else it is the same in all directions
+/// @param parts   segments of these points
+/// @param noise   of the sensor
+/// @return an estimate for each segment. It is flat if most of its points are on the plane, within
+///         three standard deviations of the region (at least those of the noise); fewer than 30 are
+///         farther from it than five of the noise and 1 cm, both times the root of `chi2`, clamped
+///         to [1, 2.5]; their variance is at most 2.5 times that of the noise; and the plane is not
+///         seen edge-on
+/// @throws std::invalid_argument  if points, segments or view points differ in number
+/// Complexity: O(n), and an index if `points` is none.
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<plane_estimate> estimate_planes(const R& points, const segments& parts,
+                                                          const noise_curve& noise,
+                                                          const X& run = {}, Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    detail::require(parts.labels().size() == index.size(),
+                    "estimate_planes: the numbers of points and of labels differ");
+    const detail::planar_cloud cloud(index, noise, team);
+    std::vector<plane_estimate> planes(parts.size());
+    team(parts.size(), [&](std::size_t s) {
+        if (!parts[s].empty()) planes[s] = detail::estimate_of(cloud, parts[s], cloud);
+    });
+    return planes;
 }
 
 }  // namespace gnomon
@@ -12956,10 +13037,10 @@ class floor_search {
 // -------- gnomon/segmentation/preprocess.hpp -----------------------------------------------------
 
 /// @file
-/// Finds floor and ceiling, levels the scan, and removes both: they are often more than half of an
-/// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
-/// of the bands open; the floor is refitted to its band until it converges, so that tilts are
-/// found. A level plane that is no floor, such as a table top, is not taken for one.
+/// Finds floor and ceiling, and removes both: they are often more than half of an indoor scan and
+/// connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands
+/// open; the floor is refitted to its band until it converges, so that tilts are found. A level
+/// plane that is no floor, such as a table top, is not taken for one.
 
 namespace gnomon {
 
@@ -12982,49 +13063,7 @@ struct crop_height_options {
     double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
 };
 
-/// A rigid motion after which the floor is the plane z = 0.
-struct leveling {
-    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
-    double lift = 0.0;  ///< added to z after the rotation [m]
-
-    [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        Eigen::Vector3d q = detail::product(rotation, p);
-        q[2] += lift;
-        return q;
-    }
-
-    /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
-    [[nodiscard]] static leveling of(const plane& floor) {
-        const Eigen::Vector3d& n = floor.normal;
-        leveling level;
-        level.lift = -floor.offset;
-        Eigen::Matrix3d& r = level.rotation;
-        // 1 + n_z, without cancellation where the scan is nearly upside down.
-        const double across = n[0] * n[0] + n[1] * n[1];
-        const double h = n[2] >= 0.0 ? 1.0 + n[2] : across / (1.0 - n[2]);
-        if (!(h > 0.0)) {  // upside down: half a turn about x
-            r(1, 1) = r(2, 2) = -1.0;
-            return level;
-        }
-        // Rodrigues' formula for the rotation about n x z.
-        for (int i = 0; i < 2; ++i) {
-            for (int j = 0; j < 2; ++j) r(i, j) -= n[i] * n[j] / h;
-            r(i, 2) = -n[i];
-            r(2, i) = n[i];
-        }
-        r(2, 2) = n[2];
-        return level;
-    }
-};
-
 namespace detail {
-
-/// @throws std::invalid_argument  unless the plane is in Hesse normal form
-inline void require_hesse(const plane& p) {
-    constexpr double rounding = 1e-6;  // numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "the normal of a plane, or the direction upwards, must be of unit length");
-}
 
 inline void require_valid(const find_floor_options& search) {
     require(search.band > 0.0 && search.min_width > 0.0,
@@ -13269,7 +13308,8 @@ class plane_growth {
         members_.reserve(cloud.size());
     }
 
-    /// Grows regions of unlabeled points. Points of a region that is too small are no seeds.
+    /// Grows regions of unlabeled points. Points of a region that is too small, or whose plane
+    /// most of its points do not fit in the end, are no seeds.
     /// @param next  the label of the first new region
     template <execution X>
     void operator()(std::int32_t next, const X& run) {
@@ -13282,7 +13322,7 @@ class plane_growth {
 
   private:
     [[nodiscard]] bool is_free(std::size_t i) const {
-        return labels_[i] == unlabeled && !is_missing(normal(i));
+        return labels_[i] == unlabeled && cloud_.is_finite(i) && !is_missing(normal(i));
     }
 
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
@@ -13357,7 +13397,7 @@ class plane_growth {
         Eigen::Vector3d sum = cloud_.offsets[seed];
         double count = 1.0;
         for (const point_index j : graph_[seed]) {
-            if (!is_free(j) || std::abs(dot(n, normal(j))) < min_cosine_) continue;
+            if (!is_free(j) || !(std::abs(dot(n, normal(j))) >= min_cosine_)) continue;
             sum = combined(1.0, sum, 1.0, cloud_.offsets[j]);
             count += 1.0;
         }
@@ -13381,28 +13421,29 @@ class plane_growth {
 // -------- gnomon/segmentation/detail/agglomeration.hpp -------------------------------------------
 
 /// @file
-/// Agglomerative merging of regions: the most alike first, as long as one plane explains all that
-/// become one (after Feng et al. 2014).
+/// Agglomerative merging of regions: the most similar pair first, as long as one plane explains all
+/// points of the union (after Feng et al. 2014).
 
 namespace gnomon::detail {
 
-/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
-/// they have become is still alike.
+/// Merges regions in rounds, the most similar pair first, until a round merges none. Within a round
+/// a pair is compared again if one of its regions has grown; the pair is merged if its
+/// dissimilarity is still at most 1.
 class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
     explicit agglomeration(scratch<planar_region>& regions)
         : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
-    /// @param pairs    that may be one, each once
-    /// @param unlike   unlike(region, region): at most 1 if they may be one
-    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
-    ///                 beginning of the round; called when all else is in favor
-    /// @param gather   gather(sets), after each round that merged any
-    /// @return the sets of regions that are one
-    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
-                                        auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
+    /// @param pairs          to be compared, each once
+    /// @param dissimilarity  dissimilarity(region, region); pairs up to 1 are merged
+    /// @param accepts        accepts(a, b): last condition, called with the regions as they were
+    ///                       when the round began
+    /// @param gather         gather(sets), after each round that merged any
+    /// @return the sets of merged regions
+    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& dissimilarity,
+                                        auto&& accepts, auto&& gather) {
+        while (!pairs.empty() && merge_once(pairs, dissimilarity, accepts)) {
             gather(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
@@ -13417,21 +13458,22 @@ class agglomeration {
 
   private:
     struct candidate {
-        double unlikeness;
+        double dissimilarity;
         region_pair pair;
         [[nodiscard]] bool operator<(const candidate& o) const {
-            return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
+            return dissimilarity != o.dissimilarity ? dissimilarity < o.dissimilarity
+                                                    : pair < o.pair;
         }
     };
 
     /// One round.
     /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
+    bool merge_once(const scratch<region_pair>& pairs, auto&& dissimilarity, auto&& accepts) {
         scratch<candidate> candidates;
         for (const auto& pair : pairs) {
             if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
-            const double u = unlike(regions_[pair.first], regions_[pair.second]);
-            if (u <= 1.0) candidates.push_back({u, pair});
+            const double d = dissimilarity(regions_[pair.first], regions_[pair.second]);
+            if (d <= 1.0) candidates.push_back({d, pair});
         }
         std::sort(candidates.begin(), candidates.end());
         std::fill(is_new_.begin(), is_new_.end(), false);
@@ -13440,7 +13482,7 @@ class agglomeration {
             const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
             if (a == b) continue;
             const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
-            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
+            if (has_changed && !(dissimilarity(regions_[a], regions_[b]) <= 1.0)) continue;
             if (!accepts(c.pair.first, c.pair.second)) continue;
             plane_sums sums = regions_[a].sums;
             sums.add(regions_[b].sums);
@@ -13453,7 +13495,7 @@ class agglomeration {
 
     scratch<planar_region>& regions_;
     union_find sets_;
-    scratch<char> is_new_;  // since the round before
+    scratch<char> is_new_;  // changed since the round before
 };
 
 }  // namespace gnomon::detail
@@ -13499,10 +13541,10 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: they do not meet at an edge, and the variance of either about the common
+/// if they may be merged: they do not meet at an edge, and the variance of either about the common
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
 /// that of the noise.
-[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+[[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
     if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
@@ -13511,9 +13553,9 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
-/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
-/// own must be nearly parallel to that of both.
-[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
+/// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
+/// that is hardly wider than its noise: its own must be nearly parallel to that of both.
+[[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
     constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
     const double nearly = min_cosine(max_angle);
@@ -13663,7 +13705,7 @@ class plane_regions {
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
             [](const planar_region& a, const planar_region& b) {
-                return unlikeness_of_neighbors(a, b);
+                return dissimilarity_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; }, [](union_find&) {});
         bool any = false;
@@ -13672,9 +13714,7 @@ class plane_regions {
             regions_[r] = {};
             any = true;
         }
-        relabel([&](std::int32_t label) {
-            return static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-        });
+        unite_labels(labels_, sets);
         return any;
     }
 
@@ -13929,7 +13969,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
                                         const segment_surfaces_options& options = {},
                                         const X& run = {}, Proj projection = {}) {
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::require(graph.size() == p.size(), "segment_surfaces: graph and points differ in size");
+    detail::require_graph_of(p.size(), graph);
     const detail::smooth_link<Surface> link(surface, options, p.size());
     detail::linker linker(p);
     linker.link_listed(
@@ -14100,7 +14140,7 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of which those of a set of a `union_find` are one, largest first.
+/// The segments after uniting those in the same set, largest first.
 /// (A template, so that only its users compile a sort.)
 [[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::int32_t> labels = parts.labels();
@@ -14191,6 +14231,124 @@ template <merge_policy M>
 }  // namespace detail
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
+
+/// @file
+/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
+/// the last bit; its time would exceed that of all other steps of projecting a point to a range
+/// image.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
+/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
+/// both below 1e-300. Precondition: x and y are finite.
+template <std::size_t N>
+[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                            const pack_of<N>& x) {
+    const pack_of<N> across = magnitude(x), up = magnitude(y);
+    const pack_of<N> more = where_at_least(across, up, across, up);
+    const pack_of<N> q = where_at_least(across, up, up, across) /
+                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
+    const pack_of<N> q2 = q * q;
+    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
+    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
+    constexpr double terms[] = {
+        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
+        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
+        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
+        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
+    pack_of<N> angle = 0.0;
+    for (const double term : terms) angle = angle * q2 + term;
+    angle = angle * q;
+    angle = where_at_least(across, up, angle, 0.5 - angle);
+    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
+    return where_at_least(y, 0.0, angle, -angle);
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
+
+/// @file
+/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
+/// Eq. 2.1, with any pole).
+
+namespace gnomon::detail {
+
+/// Column and row of a pixel.
+struct image_cell {
+    std::size_t azimuth, elevation;
+
+    friend bool operator==(const image_cell&, const image_cell&) = default;
+};
+
+/// Whether a pole has a direction: it is finite, and of any length but 0.
+[[nodiscard]] inline bool is_direction(const Eigen::Vector3d& pole) {
+    return all_finite(pole) && (pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0);
+}
+
+/// The axes of a range image, of unit length and orthogonal; z is the pole.
+struct image_axes {
+    Eigen::Vector3d x, y, z;
+
+    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
+    /// pole, from the y-axis.
+    /// @throws std::invalid_argument  if the pole is not finite or has no length
+    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+        require(is_direction(pole), "range_image: the pole must be a finite direction");
+        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
+        image_axes axes;
+        axes.z = direction_of(pole);
+        const Eigen::Vector3d start =
+            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
+        axes.y = direction_of(cross(axes.z, start));
+        axes.x = cross(axes.y, axes.z);
+        return axes;
+    }
+
+    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
+    template <std::size_t N>
+    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
+                                                          std::size_t width,
+                                                          std::size_t height) const {
+        using numbers = pack_of<N>;
+        const auto along = [&to](const Eigen::Vector3d& axis) {
+            std::array<double, N> a;
+            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
+            return numbers(a.data());
+        };
+        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
+        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
+        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
+        std::array<image_cell, N> at;
+        for (std::size_t l = 0; l < N; ++l) {
+            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
+                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
+                              height - 1)};
+        }
+        return at;
+    }
+};
+
+/// The axis along which directions vary least; z if there are none.
+/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
+[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
+    moments directions;
+    for (const auto& s : samples) {
+        const Eigen::Vector3d d = offset_of(s);
+        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
+    }
+    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
+    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
+    sum(2, 2) *= 1.0 - tie;
+    return column(symmetric_eigen(sum).vectors, 2);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/detail/sensor_places.hpp ----------------------------------------------
 
 /// @file
@@ -14263,121 +14421,6 @@ struct sensor_place {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/core/detail/atan2pi.hpp ---------------------------------------------------------
-
-/// @file
-/// atan2 of several directions at once, in vector instructions. std::atan2 is scalar and correct to
-/// the last bit; its time would exceed that of all other steps of projecting a point to a range
-/// image.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// atan2(y, x) / pi in [-1, 1], the atan2pi of C23, with an absolute error of at most 2e-11. The
-/// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
-/// both below 1e-300. Precondition: x and y are finite.
-template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
-                                                            const pack_of<N>& x) {
-    const pack_of<N> across = magnitude(x), up = magnitude(y);
-    const pack_of<N> more = where_at_least(across, up, across, up);
-    const pack_of<N> q = where_at_least(across, up, up, across) /
-                         where_at_least(more, 1e-300, more, 1.0);  // within the first octant
-    const pack_of<N> q2 = q * q;
-    // Coefficients of the polynomial in q^2, of twelve terms, that minimizes the largest error of
-    // atan(q) / pi over q in [0, 1]; computed by the Remez exchange algorithm.
-    constexpr double terms[] = {
-        -1.8707054784484818e-4, 1.36670913641955782e-3, -0.004685906090639249,
-        0.0102599406866404428,  -0.0167158988249428818, 0.022737110269134448,
-        -0.028460462878869986,  0.035280420582082254,   -0.045462773026566622,
-        0.06366132004951084,    -0.10610327536438863,   0.31830988600242194};
-    pack_of<N> angle = 0.0;
-    for (const double term : terms) angle = angle * q2 + term;
-    angle = angle * q;
-    angle = where_at_least(across, up, angle, 0.5 - angle);
-    angle = where_at_least(x, 0.0, angle, 1.0 - angle);
-    return where_at_least(y, 0.0, angle, -angle);
-}
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/occlusion/detail/image_axes.hpp -------------------------------------------------
-
-/// @file
-/// The orientation of a range image, and the projection of directions to its pixels (Klasing 2010,
-/// Eq. 2.1, with any pole).
-
-namespace gnomon::detail {
-
-/// Column and row of a pixel.
-struct image_cell {
-    std::size_t azimuth, elevation;
-
-    friend bool operator==(const image_cell&, const image_cell&) = default;
-};
-
-/// The axes of a range image, of unit length and orthogonal; z is the pole.
-struct image_axes {
-    Eigen::Vector3d x, y, z;
-
-    /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
-    /// pole, from the y-axis.
-    /// @throws std::invalid_argument  if the pole is not finite or has no length
-    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
-        require(all_finite(pole) && has_direction,
-                "range_image: the pole must be a finite direction");
-        constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
-        image_axes axes;
-        axes.z = direction_of(pole);
-        const Eigen::Vector3d start =
-            std::abs(axes.z[0]) < nearly ? Eigen::Vector3d(1, 0, 0) : Eigen::Vector3d(0, 1, 0);
-        axes.y = direction_of(cross(axes.z, start));
-        axes.x = cross(axes.y, axes.z);
-        return axes;
-    }
-
-    /// The cells of an image of this size for N offsets from its view point [m], N at a time.
-    template <std::size_t N>
-    [[nodiscard]] std::array<image_cell, N> cells_towards(const std::array<Eigen::Vector3d, N>& to,
-                                                          std::size_t width,
-                                                          std::size_t height) const {
-        using numbers = pack_of<N>;
-        const auto along = [&to](const Eigen::Vector3d& axis) {
-            std::array<double, N> a;
-            for (std::size_t l = 0; l < N; ++l) a[l] = dot(axis, to[l]);
-            return numbers(a.data());
-        };
-        const numbers on_x = along(x), on_y = along(y), on_z = along(z);
-        const numbers azimuth = 0.5 * atan2pi(on_y, on_x) + 0.5;
-        const numbers elevation = atan2pi(on_z, root(on_x * on_x + on_y * on_y)) + 0.5;
-        std::array<image_cell, N> at;
-        for (std::size_t l = 0; l < N; ++l) {
-            at[l] = {static_cast<std::size_t>(azimuth[l] * static_cast<double>(width)) % width,
-                     std::min(static_cast<std::size_t>(elevation[l] * static_cast<double>(height)),
-                              height - 1)};
-        }
-        return at;
-    }
-};
-
-/// The axis along which directions vary least; z if there are none.
-/// @param offset_of  offset_of(s) is the offset to the point of sample s, not zero [m]
-[[nodiscard]] Eigen::Vector3d least_observed_axis(const auto& samples, auto&& offset_of) {
-    moments directions;
-    for (const auto& s : samples) {
-        const Eigen::Vector3d d = offset_of(s);
-        add_moments(directions.sum, directions.outer, d, 1.0 / dot(d, d));
-    }
-    Eigen::Matrix3d sum = scaled_whole(directions.outer, 1.0);
-    constexpr double tie = 1e-9;  // rounding: where z is as good as any, it is z
-    sum(2, 2) *= 1.0 - tie;
-    return column(symmetric_eigen(sum).vectors, 2);
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
 
 /// @file
@@ -14408,9 +14451,9 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all points at a finite distance from the view point [m], but of those in it. It
-    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
-    /// O(n log n).
+    /// The image of all points at a finite distance from the view point [m], except points at the
+    /// view point itself. It stores the rows in which something is seen, or, for few points in many
+    /// pixels, single pixels. O(n log n).
     /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
     ///                                a view point or a pole that is not finite, or for a pole of
     ///                                no length
@@ -14573,9 +14616,9 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     detail::image_axes axes_;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
-    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
-    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
-    detail::scratch<std::uint64_t> places_;  // of these
+    detail::scratch<view> seen_;  // of the rows in which something is seen, or of single pixels
+    std::uint64_t first_ = 0;     // place of seen_[0] if rows are stored
+    detail::scratch<std::uint64_t> places_;  // ascending, of seen_; empty if rows are stored
 };
 
 }  // namespace gnomon
@@ -14631,13 +14674,14 @@ struct cloud_ray {
 }
 
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn as
-/// if by chance, but in whatever order the points are; O(n).
+/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn by a hash of their
+/// directions, so that the result does not depend on the order of the points; O(n).
 /// @param points  a position_view
 [[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints) {
     constexpr std::size_t neighbors = 16;  // chosen: the spacing is known to an eighth
     constexpr std::size_t seeds = 32;      // performance only
-    // [rad]; performance only: of the pixels of an image, and of the rays to look at
+    // [rad]; numerical: limits of the result, which bound the pixels of an image and the rays to
+    // compare
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
     scratch<cloud_ray> rays;
     rays.reserve(points.size());
@@ -14714,7 +14758,7 @@ inline void require_valid(const visibility_options& options) {
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
-    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+    require(!options.pole || is_direction(*options.pole),
             "visibility: the pole must be finite and have a length");
 }
 
@@ -14727,7 +14771,9 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    ///                                microradian to 90 degrees, or a pole of no length
+    ///                                microradian to 90 degrees, for a pole that is not finite or
+    ///                                has no length, or if the view points are for another number
+    ///                                of points
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
@@ -14761,7 +14807,7 @@ class visibility {
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
-    /// equally many the observation that is evidence against a surface. O(view points).
+    /// equally many free space, then on surface, then occluded. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
@@ -14799,9 +14845,9 @@ class visibility {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
         double sum = 0.0, count = 0.0;
         for (std::size_t i = 0; i < p.size(); i += 1 + p.size() / enough) {
-            const double variance = noise_.variance_along(detail::difference(p[i], viewpoints[i]));
-            if (!std::isfinite(variance)) continue;
-            sum += variance;
+            const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+            if (!detail::all_finite(way)) continue;
+            sum += noise_.variance_along(way);
             count += 1.0;
         }
         return count > 0.0 ? std::sqrt(sum / count) : 0.0;
@@ -14907,7 +14953,7 @@ class occlusion_merger {
         union_find sets = agglomeration(regions_)(
             pairs(),
             [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? unlikeness_of_apart(a, b)
+                return is_near(a, b) ? dissimilarity_of_apart(a, b)
                                      : std::numeric_limits<double>::infinity();
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },
@@ -15014,7 +15060,8 @@ struct merge_occluded_options {
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
     /// Between the nearest boundary points of both: their numbers `first` and `second` in the
-    /// cloud, and their `distance` [m].
+    /// cloud, and their `distance` [m]. By `planes_on_cells`, `first` and `second` are a point of
+    /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;
@@ -15045,16 +15092,16 @@ inline void require_valid(const merge_occluded_options& options) {
 }
 
 /// The sets of the segments of an index that merge_occluded makes one.
+/// @param cloud     of the points
 /// @param each_gap  each_gap(examined_gap) is called for all gaps
 template <merge_policy M, execution X>
-[[nodiscard]] union_find merged_sets(const spatial_index& points, const segments& parts,
-                                     const visibility& visible, const M& policy,
-                                     const merge_occluded_options& options, const X& run,
-                                     auto&& each_gap) {
+[[nodiscard]] union_find merged_sets(const spatial_index& points, const planar_cloud& cloud,
+                                     const segments& parts, const visibility& visible,
+                                     const M& policy, const merge_occluded_options& options,
+                                     const X& run, auto&& each_gap) {
     require(parts.labels().size() == points.size(),
             "merge_occluded: the numbers of points and of labels differ");
     require_valid(options);
-    const planar_cloud cloud(points, options.noise, run);
     occlusion_merger merge(points, cloud, parts, visible, policy, options, run);
     union_find sets = merge();
     for (const examined_gap& gap : merge.gaps()) each_gap(gap);
@@ -15086,9 +15133,11 @@ template <class R, merge_policy M = conservative, execution X = sequential,
                                              const X& run = {}, Proj projection = {}) {
     merged_segments result;
     const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    // The origin stands for unknown view points, as in `visibility`.
+    const detail::planar_cloud cloud(index, options.noise, team, true);
     detail::union_find sets = detail::merged_sets(
-        detail::index_of(points, team, projection), parts, visible, policy, options, team,
-        [&](const detail::examined_gap& gap) {
+        index, cloud, parts, visible, policy, options, team, [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
     result.segments = detail::united_segments(parts, sets);
@@ -15179,9 +15228,17 @@ struct literal_merging_options {
 
 /// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
 /// not occluded.
-/// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, no candidate, and a
-///                                negative or NaN threshold
+///
+/// @param points   any point range of n points [m]; their view points as in `visibility`
+/// @param parts    segments of these points
+/// @param visible  what was seen from where
+/// @param policy   `conservative`, `liberal` or another
+/// @return the segments afterwards, largest first
+/// @throws std::invalid_argument  if the segments or view points are for another number of points,
+///                                and for an odd or no number of boundary pairs, no candidate, and
+///                                a negative or NaN threshold
+/// Complexity: O(n + m log m) for m segments, or O(n + m^2) if all are compared; and for each of
+/// the pairs, O(boundary_pairs * (their points + images + pixels of its lines)).
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,
@@ -17384,7 +17441,7 @@ struct perception_result {
     segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
     std::vector<plane_estimate> planes;     ///< of the surfaces; which of them are flat
-    std::vector<considered_gap> gaps;       ///< all that the merging considered, between points
+    std::vector<considered_gap> gaps;       ///< all that the merging considered
     std::vector<timed_step> steps;          ///< in their order
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
 
@@ -17545,10 +17602,7 @@ class cell_surfaces {
               return std::max(noise.of_planes.along(ray), least);
           }) {
         index.rebuild(cells_.means, run);
-        if (!noise.is_across_surface)  // then the origin is known to be one, if no other is
-            index.viewpoints = cells_.viewpoints.empty()
-                                   ? viewpoint_table(Eigen::Vector3d(0.0, 0.0, 0.0))
-                                   : cells_.viewpoints;
+        index.viewpoints = cells_.viewpoints;
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
@@ -17578,13 +17632,13 @@ class cell_surfaces {
     /// The planes.
     template <execution X>
     void find(const segment_planes_options& planes, const X& run) {
-        cloud_.emplace(index_, noise_.of_planes, run);
+        cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
         regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
                                            planes.max_angle, run));
     }
 
-    /// The labels of the points, of the regions.
+    /// For each point the number of its region, or `unlabeled`.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
         return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
@@ -17592,6 +17646,7 @@ class cell_surfaces {
     }
 
     [[nodiscard]] const spatial_index& index() const { return index_; }
+    [[nodiscard]] const planar_cloud& cloud() const { return *cloud_; }
     /// The labels of the cells.
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return regions_->labels(); }
     /// A point of a cell.
@@ -17599,7 +17654,10 @@ class cell_surfaces {
     /// The surface element of a point: that of its cell.
     [[nodiscard]] surfel<Estimate> element_of(std::size_t point) const {
         const point_index c = cells_.of_point[point];
-        return c == cells::no_cell ? surfel<Estimate>{} : surface_[c];
+        if (c != cells::no_cell) return surface_[c];
+        surfel<Estimate> none;
+        none.trust = trust::not_finite;
+        return none;
     }
 
   private:
@@ -17656,12 +17714,14 @@ template <class X>
 
 namespace gnomon::detail {
 
+/// The noise along the rays, as given or measured; where it cannot be measured, that across the
+/// surfaces, and why.
 /// @param noise   becomes that of the points: perception_result::known_noise
 /// @param given   by the user, if any
 /// @param sparse  memory for the index of some of the points
 template <class X>
-void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                spatial_index& sparse, const X& run) {
+void determine_noise(auto& noise, const spatial_index& points,
+                     const std::optional<noise_curve>& given, spatial_index& sparse, const X& run) {
     noise = {};
     if (given) {
         noise.curve = noise.of_planes = *given;
@@ -17680,7 +17740,7 @@ void know_noise(auto& noise, const spatial_index& points, const std::optional<no
 
 /// The same policy for this noise, if it depends on any.
 template <class Policy>
-[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+[[nodiscard]] Policy with_noise(Policy policy, const noise_curve& noise) {
     if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
     return policy;
 }
@@ -17716,7 +17776,7 @@ class perception_run {
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
         step("noise", [&] {
-            know_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+            determine_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
         });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
@@ -17789,8 +17849,8 @@ class perception_run {
                           run_);
         });
         step("normals", [&] {
-            found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
-                            at_noise(chain_.estimate, noise), run_);
+            found->estimate(with_noise(chain_.neighborhood, noise.plus(flatness)),
+                            with_noise(chain_.estimate, noise), run_);
             result_.surface.assign(size(), {});
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
@@ -17805,15 +17865,16 @@ class perception_run {
         if constexpr (merges)
             step("merging", [&] {
                 result_.memory.parts.assign(found->labels());
-                merge(found->index(), labels, [&](point_index c) { return found->point_of(c); });
+                merge(found->index(), found->cloud(), labels,
+                      [&](point_index c) { return found->point_of(c); });
             });
     }
 
     /// `smooth_surfaces`
     void find_on_points() {
         auto& surface = keeps_all() ? result_.surface : result_.memory.surface;
-        const auto neighborhood = at_noise(chain_.neighborhood, result_.noise.curve);
-        const auto estimate = at_noise(chain_.estimate, result_.noise.curve);
+        const auto neighborhood = with_noise(chain_.neighborhood, result_.noise.curve);
+        const auto estimate = with_noise(chain_.estimate, result_.noise.curve);
         step("normals", [&] {
             estimate_normals_into(surface, *given_, neighborhood, estimate, run_);
             const auto& repair = chain_.segmentation.repair;
@@ -17836,19 +17897,25 @@ class perception_run {
             set_segments(result_.initial_segments, labels);
             result_.surfaces = result_.initial_segments;
         });
-        if constexpr (merges) step("merging", [&] { merge(*given_, labels, std::identity()); });
+        if constexpr (merges)
+            step("merging", [&] {
+                const planar_cloud cloud(*given_, result_.noise.of_planes, run_, true);
+                merge(*given_, cloud, labels, std::identity());
+            });
     }
 
     /// Merges the segments in memory, of things that are cells or kept points, where the noise
     /// along the rays is known.
+    /// @param cloud     of these
     /// @param labels    the segments of the kept points
     /// @param point_of  point_of(thing): the number of a kept point of it
-    void merge(const spatial_index& things, scratch<std::int32_t>& labels, auto&& point_of) {
+    void merge(const spatial_index& things, const planar_cloud& cloud,
+               scratch<std::int32_t>& labels, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
-        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
-        union_find sets = merged_sets(things, result_.memory.parts, visible, chain_.merge,
-                                      at_noise(chain_.merging, noise), run_,
+        const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
+        union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
+                                      with_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
@@ -17862,15 +17929,13 @@ class perception_run {
         all.assign(labels);
     }
 
-    /// Writes a gap to the result.
-    /// @param point_of  as above
+    /// Writes a gap to the result; its distances stay those between the things, the means of cells.
     void note(const examined_gap& gap, auto&& point_of) const {
-        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
-        for (auto& line : to.lines) {
+        result_.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        for (auto& line : result_.gaps.back().lines) {
             line.first = result_.kept[point_of(line.first)];
             line.second = result_.kept[point_of(line.second)];
         }
-        result_.gaps.push_back(std::move(to));
     }
 
     void estimate_planes_of_all() {
@@ -17938,8 +18003,9 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes (`segment_planes`), on cells of the points: right for every sensor, as the lengths follow
-/// from its noise. Curved surfaces are several planes. `min_points` counts cells.
+/// Planes (`segment_planes`), on cells of the points: for every sensor, as the lengths by which
+/// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
+/// planes. `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};
 };
@@ -17977,7 +18043,8 @@ struct perception {
     merge_occluded_options merging{};
     visibility_options visibility{};
 
-    /// @throws std::invalid_argument  what the steps throw for parameters out of range
+    /// @throws std::invalid_argument  what the steps throw for parameters of the chain, its
+    ///                                neighborhood and its options out of range
     void require_valid() const {
         detail::require_valid(neighborhood);
         detail::require_valid(merging);
@@ -17991,9 +18058,12 @@ struct perception {
 
     using result_type = perception_result<estimate_t<Estimator>>;
 
-    /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
-    ///                                finite point has a view point that is not finite
+    /// Perceives n points: any point range, or an index of it; a range without view points counts
+    /// as seen from the origin.
+    /// @throws std::invalid_argument  for parameters of the chain, its neighborhood and its options
+    ///                                out of range, before the first step; for those of the
+    ///                                estimator, in the step that calls it; and if a finite point
+    ///                                has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

@@ -196,8 +196,7 @@ TEST(visibility, share_images_of_near_view_points) {
               here.towards(Eigen::Vector3d(3.0, 1.0, 0.0)));
 }
 
-/// Two scans that see the wall behind a place outvote the one that sees something before it.
-/// Points that are not finite say nothing of the noise.
+/// Points that are not finite are no sample of the noise.
 TEST(visibility, share_images_whatever_is_not_finite) {
     const gnomon::noise_curve tabulated = [](double range) { return 0.01 * range; };
     const auto images_with = [&](double bad) {
@@ -214,6 +213,7 @@ TEST(visibility, share_images_whatever_is_not_finite) {
     EXPECT_EQ(images_with(clouds::nan), images_with(0.0));
 }
 
+/// Two scans that see the wall behind a place outvote the one that sees something before it.
 TEST(visibility, let_view_points_vote) {
     clouds::cloud points;
     std::vector<gnomon::point_index> scan_of_point;
@@ -230,7 +230,7 @@ TEST(visibility, let_view_points_vote) {
         return visibility(gnomon::with_viewpoints(some, {viewpoints, scans})).towards(place);
     };
     EXPECT_EQ(told(1), observation::occluded);
-    EXPECT_EQ(told(2), observation::free_space) << "of equally many what speaks against a surface";
+    EXPECT_EQ(told(2), observation::free_space) << "of equally many free space";
     EXPECT_EQ(told(3), observation::free_space);
 }
 
@@ -255,6 +255,9 @@ TEST(visibility, rejects_invalid_input) {
     EXPECT_THROW(make({.pixel = gnomon::radians(1e-300)}), std::invalid_argument);
     EXPECT_THROW(make({.pixel = gnomon::radians(clouds::nan)}), std::invalid_argument);
     EXPECT_THROW(make({.pole = origin}), std::invalid_argument);
+    EXPECT_THROW(make({.pole = Eigen::Vector3d(0, clouds::infinity, 1)}), std::invalid_argument);
+    EXPECT_NO_THROW(make({.pole = Eigen::Vector3d(0, 0, 1e-160)}));
+    EXPECT_NO_THROW(make({.pole = Eigen::Vector3d(0, 0, 1e200)}));
     EXPECT_NO_THROW(make({.pixel = gnomon::degrees(90), .noise = constant_noise{0.0}}));
 }
 

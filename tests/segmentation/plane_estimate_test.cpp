@@ -218,8 +218,8 @@ TEST(plane_estimate, keeps_its_digits_in_spite_of_a_far_point) {
 }
 
 TEST(plane_estimate, faces_the_view_point_whatever_its_outliers) {
-    auto points = patch{.center = {2.0, 0.0, 0.0}, .side = {1, 0, 0}, .other_side = {0, 1, 0}}
-                      .points(5);
+    auto points =
+        patch{.center = {2.0, 0.0, 0.0}, .side = {1, 0, 0}, .other_side = {0, 1, 0}}.points(5);
     points.insert(points.begin(), Eigen::Vector3d(2.0, 0.0, 4.0));  // above the sensor
     EXPECT_GT(estimate_from(points, {0.0, 0.0, 2.0}).plane.normal.z(), 0.9);
     EXPECT_LT(estimate_from(points, {0.0, 0.0, -2.0}).plane.normal.z(), -0.9);

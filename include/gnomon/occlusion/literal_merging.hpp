@@ -105,9 +105,17 @@ struct literal_merging_options {
 
 /// Merges flat segments by Alg. 4.3; a pair of boundary points from different view points counts as
 /// not occluded.
-/// @throws std::invalid_argument  if the segments are of another number of points, and for
-///                                an odd or no number of boundary pairs, no candidate, and a
-///                                negative or NaN threshold
+///
+/// @param points   any point range of n points [m]; their view points as in `visibility`
+/// @param parts    segments of these points
+/// @param visible  what was seen from where
+/// @param policy   `conservative`, `liberal` or another
+/// @return the segments afterwards, largest first
+/// @throws std::invalid_argument  if the segments or view points are for another number of points,
+///                                and for an odd or no number of boundary pairs, no candidate, and
+///                                a negative or NaN threshold
+/// Complexity: O(n + m log m) for m segments, or O(n + m^2) if all are compared; and for each of
+/// the pairs, O(boundary_pairs * (their points + images + pixels of its lines)).
 template <class R, merge_policy M = conservative, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments merge_occluded_literally(const R& points, const segments& parts,

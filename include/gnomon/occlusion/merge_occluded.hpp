@@ -45,7 +45,8 @@ struct merge_occluded_options {
 /// The gap between two segments whose merging was considered, and whether they were merged.
 struct considered_gap {
     /// Between the nearest boundary points of both: their numbers `first` and `second` in the
-    /// cloud, and their `distance` [m].
+    /// cloud, and their `distance` [m]. By `planes_on_cells`, `first` and `second` are a point of
+    /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
     bool merged;
@@ -121,8 +122,7 @@ template <class R, merge_policy M = conservative, execution X = sequential,
     // The origin stands for unknown view points, as in `visibility`.
     const detail::planar_cloud cloud(index, options.noise, team, true);
     detail::union_find sets = detail::merged_sets(
-        index, cloud, parts, visible, policy, options, team,
-        [&](const detail::examined_gap& gap) {
+        index, cloud, parts, visible, policy, options, team, [&](const detail::examined_gap& gap) {
             result.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
         });
     result.segments = detail::united_segments(parts, sets);

@@ -50,9 +50,9 @@ class range_image {
     /// The range of a pixel in which nothing was seen, as in the thesis.
     static constexpr double nothing = -1.0;
 
-    /// The image of all points at a finite distance from the view point [m], but of those in it. It
-    /// keeps the rows in which something is seen, or, of few points in many pixels, these alone.
-    /// O(n log n).
+    /// The image of all points at a finite distance from the view point [m], except points at the
+    /// view point itself. It stores the rows in which something is seen, or, for few points in many
+    /// pixels, single pixels. O(n log n).
     /// @throws std::invalid_argument  without a pixel, for more than 2^31 in a row or column, for
     ///                                a view point or a pole that is not finite, or for a pole of
     ///                                no length
@@ -215,9 +215,9 @@ class range_image {
     Eigen::Vector3d viewpoint_;
     detail::image_axes axes_;
     double lowest_sine_ = -1.0, highest_sine_ = 1.0;  // of elevations in which something is seen
-    detail::scratch<view> seen_;  // row by row, from the first in which something is seen, or
-    std::uint64_t first_ = 0;     // of few points in many pixels, these alone
-    detail::scratch<std::uint64_t> places_;  // of these
+    detail::scratch<view> seen_;  // of the rows in which something is seen, or of single pixels
+    std::uint64_t first_ = 0;     // place of seen_[0] if rows are stored
+    detail::scratch<std::uint64_t> places_;  // ascending, of seen_; empty if rows are stored
 };
 
 }  // namespace gnomon

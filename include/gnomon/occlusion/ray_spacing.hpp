@@ -66,13 +66,14 @@ struct cloud_ray {
 }
 
 /// The spacing of the rays of a cloud [rad]: the side of the square of directions that each of the
-/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn as
-/// if by chance, but in whatever order the points are; O(n).
+/// 16 nearest rays has for itself, the median over rays. From 32 rays, drawn by a hash of their
+/// directions, so that the result does not depend on the order of the points; O(n).
 /// @param points  a position_view
 [[nodiscard]] angle ray_spacing(const auto& points, const viewpoint_table& viewpoints) {
     constexpr std::size_t neighbors = 16;  // chosen: the spacing is known to an eighth
     constexpr std::size_t seeds = 32;      // performance only
-    // [rad]; performance only: of the pixels of an image, and of the rays to look at
+    // [rad]; numerical: limits of the result, which bound the pixels of an image and the rays to
+    // compare
     constexpr double least = std::numbers::pi / 3600, most = std::numbers::pi / 36;
     scratch<cloud_ray> rays;
     rays.reserve(points.size());

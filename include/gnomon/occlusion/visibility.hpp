@@ -29,6 +29,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/occlusion/detail/image_axes.hpp>
 #include <gnomon/occlusion/detail/sensor_places.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
@@ -55,7 +56,7 @@ inline void require_valid(const visibility_options& options) {
     const double given = options.pixel.radians();
     require(given == 0.0 || (given >= least && given <= most),
             "visibility: a pixel has between a microradian and 90 degrees");
-    require(!options.pole || (all_finite(*options.pole) && has_length(*options.pole)),
+    require(!options.pole || is_direction(*options.pole),
             "visibility: the pole must be finite and have a length");
 }
 
@@ -68,7 +69,9 @@ class visibility {
     /// and ceiling that were left out before segmentation. The view points are those of the range,
     /// or else the origin. O(n log n), and a range image for each view point.
     /// @throws std::invalid_argument  for an angle of a pixel that is neither 0 nor from a
-    ///                                microradian to 90 degrees, or a pole of no length
+    ///                                microradian to 90 degrees, for a pole that is not finite or
+    ///                                has no length, or if the view points are for another number
+    ///                                of points
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     explicit visibility(const R& points, const visibility_options& options = {}, const X& run = {},
@@ -102,7 +105,7 @@ class visibility {
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
-    /// equally many the observation that is evidence against a surface. O(view points).
+    /// equally many free space, then on surface, then occluded. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));

@@ -39,6 +39,7 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/perception_run.hpp>
 #include <gnomon/perception/perception_result.hpp>
+#include <gnomon/segmentation/detail/require_hesse.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_planes.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>
@@ -64,8 +65,9 @@ struct floor_and_ceiling {
 /// In place of a merge policy: no occluded segments are merged.
 struct no_merging {};
 
-/// Planes (`segment_planes`), on cells of the points: right for every sensor, as the lengths follow
-/// from its noise. Curved surfaces are several planes. `min_points` counts cells.
+/// Planes (`segment_planes`), on cells of the points: for every sensor, as the lengths by which
+/// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
+/// planes. `min_points` counts cells.
 struct planes_on_cells {
     segment_planes_options planes{};
 };
@@ -103,7 +105,8 @@ struct perception {
     merge_occluded_options merging{};
     visibility_options visibility{};
 
-    /// @throws std::invalid_argument  what the steps throw for parameters out of range
+    /// @throws std::invalid_argument  what the steps throw for parameters of the chain, its
+    ///                                neighborhood and its options out of range
     void require_valid() const {
         detail::require_valid(neighborhood);
         detail::require_valid(merging);
@@ -117,9 +120,12 @@ struct perception {
 
     using result_type = perception_result<estimate_t<Estimator>>;
 
-    /// Perceives n points: any point range, or an index of it; their view points as everywhere.
-    /// @throws std::invalid_argument  for parameters out of range, before the first step, and if a
-    ///                                finite point has a view point that is not finite
+    /// Perceives n points: any point range, or an index of it; a range without view points counts
+    /// as seen from the origin.
+    /// @throws std::invalid_argument  for parameters of the chain, its neighborhood and its options
+    ///                                out of range, before the first step; for those of the
+    ///                                estimator, in the step that calls it; and if a finite point
+    ///                                has a view point that is not finite
     /// Complexity: that of the steps.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>

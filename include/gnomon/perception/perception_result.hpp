@@ -50,7 +50,7 @@ struct perception_result {
     segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
     std::vector<plane_estimate> planes;     ///< of the surfaces; which of them are flat
-    std::vector<considered_gap> gaps;       ///< all that the merging considered, between points
+    std::vector<considered_gap> gaps;       ///< all that the merging considered
     std::vector<timed_step> steps;          ///< in their order
     detail::perception_memory<Estimate> memory = {};  ///< reused by the next call
 

@@ -35,8 +35,8 @@ struct euclidean_clusters_options {
 ///
 /// @return the segments of at least `min_points` points, largest first
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
-/// Complexity: O(n log n), however many points are within the radius, unless many are hardly
-/// farther than that from many of another group; greedy as well.
+/// Complexity: O(n log n) whatever the radius, except where many points of two clusters are just
+/// beyond it from each other; the same for greedy.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments euclidean_clusters(const R& points,

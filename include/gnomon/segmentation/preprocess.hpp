@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Finds floor and ceiling, levels the scan, and removes both: they are often more than half of an
-/// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
-/// of the bands open; the floor is refitted to its band until it converges, so that tilts are
-/// found. A level plane that is no floor, such as a table top, is not taken for one.
+/// Finds floor and ceiling, and removes both: they are often more than half of an indoor scan and
+/// connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands
+/// open; the floor is refitted to its band until it converges, so that tilts are found. A level
+/// plane that is no floor, such as a table top, is not taken for one.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
@@ -23,6 +22,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/segmentation/detail/floor_search.hpp>
 #include <gnomon/segmentation/detail/height_histogram.hpp>
+#include <gnomon/segmentation/detail/require_hesse.hpp>
 
 namespace gnomon {
 
@@ -45,49 +45,7 @@ struct crop_height_options {
     double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
 };
 
-/// A rigid motion after which the floor is the plane z = 0.
-struct leveling {
-    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
-    double lift = 0.0;  ///< added to z after the rotation [m]
-
-    [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
-        Eigen::Vector3d q = detail::product(rotation, p);
-        q[2] += lift;
-        return q;
-    }
-
-    /// Turns the floor's normal to z by the smallest rotation and lays the floor into z = 0.
-    [[nodiscard]] static leveling of(const plane& floor) {
-        const Eigen::Vector3d& n = floor.normal;
-        leveling level;
-        level.lift = -floor.offset;
-        Eigen::Matrix3d& r = level.rotation;
-        // 1 + n_z, without cancellation where the scan is nearly upside down.
-        const double across = n[0] * n[0] + n[1] * n[1];
-        const double h = n[2] >= 0.0 ? 1.0 + n[2] : across / (1.0 - n[2]);
-        if (!(h > 0.0)) {  // upside down: half a turn about x
-            r(1, 1) = r(2, 2) = -1.0;
-            return level;
-        }
-        // Rodrigues' formula for the rotation about n x z.
-        for (int i = 0; i < 2; ++i) {
-            for (int j = 0; j < 2; ++j) r(i, j) -= n[i] * n[j] / h;
-            r(i, 2) = -n[i];
-            r(2, i) = n[i];
-        }
-        r(2, 2) = n[2];
-        return level;
-    }
-};
-
 namespace detail {
-
-/// @throws std::invalid_argument  unless the plane is in Hesse normal form
-inline void require_hesse(const plane& p) {
-    constexpr double rounding = 1e-6;  // numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "the normal of a plane, or the direction upwards, must be of unit length");
-}
 
 inline void require_valid(const find_floor_options& search) {
     require(search.band > 0.0 && search.min_width > 0.0,

@@ -18,7 +18,7 @@
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
-#include <gnomon/segmentation/plane_estimate.hpp>
+#include <gnomon/segmentation/detail/region_fit.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon {

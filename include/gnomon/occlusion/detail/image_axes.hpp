@@ -27,6 +27,11 @@ struct image_cell {
     friend bool operator==(const image_cell&, const image_cell&) = default;
 };
 
+/// Whether a pole has a direction: it is finite, and of any length but 0.
+[[nodiscard]] inline bool is_direction(const Eigen::Vector3d& pole) {
+    return all_finite(pole) && (pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0);
+}
+
 /// The axes of a range image, of unit length and orthogonal; z is the pole.
 struct image_axes {
     Eigen::Vector3d x, y, z;
@@ -35,9 +40,7 @@ struct image_axes {
     /// pole, from the y-axis.
     /// @throws std::invalid_argument  if the pole is not finite or has no length
     [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
-        const bool has_direction = pole[0] != 0.0 || pole[1] != 0.0 || pole[2] != 0.0;
-        require(all_finite(pole) && has_direction,
-                "range_image: the pole must be a finite direction");
+        require(is_direction(pole), "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
         axes.z = direction_of(pole);

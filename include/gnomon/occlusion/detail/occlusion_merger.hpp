@@ -26,7 +26,8 @@
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
-#include <gnomon/segmentation/plane_estimate.hpp>
+#include <gnomon/segmentation/detail/region_fit.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -68,7 +69,7 @@ class occlusion_merger {
         union_find sets = agglomeration(regions_)(
             pairs(),
             [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? unlikeness_of_apart(a, b)
+                return is_near(a, b) ? dissimilarity_of_apart(a, b)
                                      : std::numeric_limits<double>::infinity();
             },
             [this](point_index a, point_index b) { return is_closed(a, b); },

@@ -16,7 +16,7 @@
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/segmentation/detail/label_competition.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -65,7 +65,7 @@ namespace gnomon::detail {
     return pairs;
 }
 
-/// The segments of which those of a set of a `union_find` are one, largest first.
+/// The segments after uniting those in the same set, largest first.
 /// (A template, so that only its users compile a sort.)
 [[nodiscard]] segments united_segments(const segments& parts, auto& sets) {
     std::vector<std::int32_t> labels = parts.labels();

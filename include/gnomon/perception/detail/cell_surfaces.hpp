@@ -130,7 +130,7 @@ class cell_surfaces {
                                            planes.max_angle, run));
     }
 
-    /// The labels of the points, of the regions.
+    /// For each point the number of its region, or `unlabeled`.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
         return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),

@@ -15,12 +15,14 @@
 
 namespace gnomon::detail {
 
+/// The noise along the rays, as given or measured; where it cannot be measured, that across the
+/// surfaces, and why.
 /// @param noise   becomes that of the points: perception_result::known_noise
 /// @param given   by the user, if any
 /// @param sparse  memory for the index of some of the points
 template <class X>
-void know_noise(auto& noise, const spatial_index& points, const std::optional<noise_curve>& given,
-                spatial_index& sparse, const X& run) {
+void determine_noise(auto& noise, const spatial_index& points,
+                     const std::optional<noise_curve>& given, spatial_index& sparse, const X& run) {
     noise = {};
     if (given) {
         noise.curve = noise.of_planes = *given;
@@ -39,7 +41,7 @@ void know_noise(auto& noise, const spatial_index& points, const std::optional<no
 
 /// The same policy for this noise, if it depends on any.
 template <class Policy>
-[[nodiscard]] Policy at_noise(Policy policy, const noise_curve& noise) {
+[[nodiscard]] Policy with_noise(Policy policy, const noise_curve& noise) {
     if constexpr (requires { policy.noise = noise; }) policy.noise = noise;
     return policy;
 }

@@ -10,7 +10,6 @@
 #include <iterator>
 #include <numeric>
 #include <optional>
-#include <utility>
 
 #include <gnomon/core/detail/pooled_run.hpp>
 #include <gnomon/core/detail/scratch.hpp>
@@ -27,7 +26,6 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
-#include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/detail/occlusion_merger.hpp>
 #include <gnomon/occlusion/merge_occluded.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
@@ -65,7 +63,7 @@ class perception_run {
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
         step("noise", [&] {
-            know_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+            determine_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
         });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
@@ -138,8 +136,8 @@ class perception_run {
                           run_);
         });
         step("normals", [&] {
-            found->estimate(at_noise(chain_.neighborhood, noise.plus(flatness)),
-                            at_noise(chain_.estimate, noise), run_);
+            found->estimate(with_noise(chain_.neighborhood, noise.plus(flatness)),
+                            with_noise(chain_.estimate, noise), run_);
             result_.surface.assign(size(), {});
             for (std::size_t i = 0; i < result_.kept.size(); ++i)
                 result_.surface[result_.kept[i]] = found->element_of(i);
@@ -162,8 +160,8 @@ class perception_run {
     /// `smooth_surfaces`
     void find_on_points() {
         auto& surface = keeps_all() ? result_.surface : result_.memory.surface;
-        const auto neighborhood = at_noise(chain_.neighborhood, result_.noise.curve);
-        const auto estimate = at_noise(chain_.estimate, result_.noise.curve);
+        const auto neighborhood = with_noise(chain_.neighborhood, result_.noise.curve);
+        const auto estimate = with_noise(chain_.estimate, result_.noise.curve);
         step("normals", [&] {
             estimate_normals_into(surface, *given_, neighborhood, estimate, run_);
             const auto& repair = chain_.segmentation.repair;
@@ -202,9 +200,9 @@ class perception_run {
                scratch<std::int32_t>& labels, auto&& point_of) {
         if (result_.noise.is_across_surface) return;
         const noise_curve& noise = result_.noise.of_planes;
-        const visibility visible(points_, at_noise(chain_.visibility, noise), run_, projection_);
+        const visibility visible(points_, with_noise(chain_.visibility, noise), run_, projection_);
         union_find sets = merged_sets(things, cloud, result_.memory.parts, visible, chain_.merge,
-                                      at_noise(chain_.merging, noise), run_,
+                                      with_noise(chain_.merging, noise), run_,
                                       [&](const examined_gap& gap) { note(gap, point_of); });
         unite_labels(labels, sets);
         set_segments(result_.surfaces, labels);
@@ -218,15 +216,13 @@ class perception_run {
         all.assign(labels);
     }
 
-    /// Writes a gap to the result.
-    /// @param point_of  as above
+    /// Writes a gap to the result; its distances stay those between the things, the means of cells.
     void note(const examined_gap& gap, auto&& point_of) const {
-        considered_gap to{{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged};
-        for (auto& line : to.lines) {
+        result_.gaps.push_back({{gap.lines.begin(), gap.lines.end()}, gap.seen, gap.merged});
+        for (auto& line : result_.gaps.back().lines) {
             line.first = result_.kept[point_of(line.first)];
             line.second = result_.kept[point_of(line.second)];
         }
-        result_.gaps.push_back(std::move(to));
     }
 
     void estimate_planes_of_all() {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Agglomerative merging of regions: the most alike first, as long as one plane explains all that
-/// become one (after Feng et al. 2014).
+/// Agglomerative merging of regions: the most similar pair first, as long as one plane explains all
+/// points of the union (after Feng et al. 2014).
 #pragma once
 
 #include <algorithm>
@@ -10,28 +10,29 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 
 namespace gnomon::detail {
 
-/// Merges regions in rounds, until no pair is alike: in each, pairs from the most alike on, if what
-/// they have become is still alike.
+/// Merges regions in rounds, the most similar pair first, until a round merges none. Within a round
+/// a pair is compared again if one of its regions has grown; the pair is merged if its
+/// dissimilarity is still at most 1.
 class agglomeration {
   public:
     /// @param regions  their sums and planes; those of the root of a set stand for it afterwards
     explicit agglomeration(scratch<planar_region>& regions)
         : regions_(regions), sets_(regions.size()), is_new_(regions.size(), true) {}
 
-    /// @param pairs    that may be one, each once
-    /// @param unlike   unlike(region, region): at most 1 if they may be one
-    /// @param accepts  accepts(a, b): whether else these two may be one, as they were at the
-    ///                 beginning of the round; called when all else is in favor
-    /// @param gather   gather(sets), after each round that merged any
-    /// @return the sets of regions that are one
-    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& unlike, auto&& accepts,
-                                        auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, unlike, accepts)) {
+    /// @param pairs          to be compared, each once
+    /// @param dissimilarity  dissimilarity(region, region); pairs up to 1 are merged
+    /// @param accepts        accepts(a, b): last condition, called with the regions as they were
+    ///                       when the round began
+    /// @param gather         gather(sets), after each round that merged any
+    /// @return the sets of merged regions
+    [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& dissimilarity,
+                                        auto&& accepts, auto&& gather) {
+        while (!pairs.empty() && merge_once(pairs, dissimilarity, accepts)) {
             gather(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
@@ -46,21 +47,22 @@ class agglomeration {
 
   private:
     struct candidate {
-        double unlikeness;
+        double dissimilarity;
         region_pair pair;
         [[nodiscard]] bool operator<(const candidate& o) const {
-            return unlikeness != o.unlikeness ? unlikeness < o.unlikeness : pair < o.pair;
+            return dissimilarity != o.dissimilarity ? dissimilarity < o.dissimilarity
+                                                    : pair < o.pair;
         }
     };
 
     /// One round.
     /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& unlike, auto&& accepts) {
+    bool merge_once(const scratch<region_pair>& pairs, auto&& dissimilarity, auto&& accepts) {
         scratch<candidate> candidates;
         for (const auto& pair : pairs) {
             if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
-            const double u = unlike(regions_[pair.first], regions_[pair.second]);
-            if (u <= 1.0) candidates.push_back({u, pair});
+            const double d = dissimilarity(regions_[pair.first], regions_[pair.second]);
+            if (d <= 1.0) candidates.push_back({d, pair});
         }
         std::sort(candidates.begin(), candidates.end());
         std::fill(is_new_.begin(), is_new_.end(), false);
@@ -69,7 +71,7 @@ class agglomeration {
             const point_index a = sets_.find(c.pair.first), b = sets_.find(c.pair.second);
             if (a == b) continue;
             const bool has_changed = is_new_[a] != 0 || is_new_[b] != 0;
-            if (has_changed && !(unlike(regions_[a], regions_[b]) <= 1.0)) continue;
+            if (has_changed && !(dissimilarity(regions_[a], regions_[b]) <= 1.0)) continue;
             if (!accepts(c.pair.first, c.pair.second)) continue;
             plane_sums sums = regions_[a].sums;
             sums.add(regions_[b].sums);
@@ -82,7 +84,7 @@ class agglomeration {
 
     scratch<planar_region>& regions_;
     union_find sets_;
-    scratch<char> is_new_;  // since the round before
+    scratch<char> is_new_;  // changed since the round before
 };
 
 }  // namespace gnomon::detail

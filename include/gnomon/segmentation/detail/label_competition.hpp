@@ -21,6 +21,7 @@
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -99,7 +100,7 @@ class label_competition {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
-/// Whether a point is certainly not of the plane of a region, whatever its other points.
+/// Whether a point is a certain outlier of a region's plane.
 [[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
                                            const planar_region& region) {
     const plane& p = region.fit.plane;
@@ -116,20 +117,6 @@ template <neighborhood_graph G, execution X>
                 graph[i], [&](point_index j) { return labels[j] != labels[i]; });
     });
     return is_border;
-}
-
-/// Two regions, the smaller number first.
-using region_pair = std::pair<point_index, point_index>;
-
-/// Adds a pair to others, unless it is there; the latest ones are looked at first.
-void add_once(const auto& pair, auto& others) {
-    if (std::find(others.rbegin(), others.rend(), pair) == others.rend()) others.push_back(pair);
-}
-
-/// Sorts pairs, and leaves each once.
-void make_unique(auto& pairs) {
-    std::sort(pairs.begin(), pairs.end());
-    pairs.erase(std::unique(pairs.begin(), pairs.end()), pairs.end());
 }
 
 /// One round. Points that are no border keep their label if they are on the plane.

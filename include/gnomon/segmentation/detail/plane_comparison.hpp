@@ -48,10 +48,10 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1
-/// if they may be one: they do not meet at an edge, and the variance of either about the common
+/// if they may be merged: they do not meet at an edge, and the variance of either about the common
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
 /// that of the noise.
-[[nodiscard]] double unlikeness_of_neighbors(const auto& a, const auto& b) {
+[[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
     if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
     const region_plane both = plane_of_both(a, b);
     if (!both.is_determined) return std::numeric_limits<double>::infinity();
@@ -60,9 +60,9 @@ namespace gnomon::detail {
 }
 
 /// How much worse one plane explains two regions apart, by Chow's test of the equality of two
-/// regressions (Chow 1960). A region that is hardly wider than its noise could be of any plane: its
-/// own must be nearly parallel to that of both.
-[[nodiscard]] double unlikeness_of_apart(const auto& a, const auto& b) {
+/// regressions (Chow 1960); at most 1 if they may be merged. Almost any plane explains a region
+/// that is hardly wider than its noise: its own must be nearly parallel to that of both.
+[[nodiscard]] double dissimilarity_of_apart(const auto& a, const auto& b) {
     constexpr double chi2_of_3 = 13.9;        // 99.7 %, of three degrees of freedom
     constexpr angle max_angle = degrees(15);  // rho_a of the thesis, Sec. 4.4.1
     const double nearly = min_cosine(max_angle);

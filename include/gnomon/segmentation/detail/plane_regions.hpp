@@ -23,6 +23,7 @@
 #include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
 namespace gnomon::detail {
@@ -94,7 +95,7 @@ class plane_regions {
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
             [](const planar_region& a, const planar_region& b) {
-                return unlikeness_of_neighbors(a, b);
+                return dissimilarity_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; }, [](union_find&) {});
         bool any = false;
@@ -103,9 +104,7 @@ class plane_regions {
             regions_[r] = {};
             any = true;
         }
-        relabel([&](std::int32_t label) {
-            return static_cast<std::int32_t>(sets.find(static_cast<point_index>(label)));
-        });
+        unite_labels(labels_, sets);
         return any;
     }
 

@@ -120,7 +120,7 @@ struct plane_sums {
 struct planar_region {
     plane_sums sums;
     region_plane fit;
-    bool is_planar = true;  ///< else its points are not of the plane
+    bool is_planar = true;  ///< else the plane does not explain its points
 };
 
 }  // namespace gnomon::detail

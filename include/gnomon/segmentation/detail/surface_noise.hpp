@@ -26,11 +26,11 @@
 
 namespace gnomon::detail {
 
-/// A point is of a plane if it is no farther from it than this, in standard deviations: 99.7 % of a
-/// normal distribution.
+/// A point is an inlier of a plane up to this many standard deviations: 99.7 % of a normal
+/// distribution.
 inline constexpr double most_deviations = 3.0;
 
-/// A point that is farther than this is certainly not of it: the 99.99994 % quantile.
+/// Beyond this many it is an outlier whatever the other points are: the 99.99994 % quantile.
 inline constexpr double certain_deviations = 5.0;
 
 inline constexpr double flatness = 0.002;  // [m]; chosen: of walls and furniture
