@@ -2,7 +2,8 @@
 /// @file
 /// Policies of merging: whether the observations in the gap between two coplanar segments are
 /// evidence for one occluded surface. A sensor may have seen something nearer there, which occludes
-/// what is behind it; something farther, which shows free space; or nothing at all.
+/// what is behind it; something farther, which shows free space; or nothing at all. Or the place may
+/// be where it cannot see, as the road below a spinning lidar.
 ///
 /// Klasing 2010, Sec. 4.3.2, Fig. 4.4. Models: `conservative`, `liberal`, and any function of an
 /// `observation`.
@@ -19,12 +20,13 @@ enum class observation : char {
     unobserved,  ///< no return: black, transparent or distant things, or no ray
     occluded,    ///< something in front of it
     on_surface,  ///< something at its distance
-    free_space   ///< something behind it: the place is empty
+    free_space,  ///< something behind it: the place is empty
+    out_of_view  ///< nothing, as the place is above or below all that was seen
 };
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
-    std::array<std::size_t, 4> of{};
+    std::array<std::size_t, 5> of{};
 
     [[nodiscard]] std::size_t operator[](observation s) const {
         return of[static_cast<std::size_t>(s)];
@@ -34,7 +36,11 @@ struct observation_count {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+    [[nodiscard]] std::size_t total() const {
+        std::size_t all = 0;
+        for (const std::size_t n : of) all += n;
+        return all;
+    }
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
@@ -45,9 +51,11 @@ concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
 };
 
-/// Merges where something closer was seen in the gap (Sec. 4.3.2).
+/// Merges where something closer was seen in the gap (Sec. 4.3.2), or the sensor cannot see it.
 struct conservative {
-    [[nodiscard]] bool operator()(observation seen) const { return seen == observation::occluded; }
+    [[nodiscard]] bool operator()(observation seen) const {
+        return seen == observation::occluded || seen == observation::out_of_view;
+    }
 };
 
 /// Merges unless something farther was seen in the gap.
@@ -68,7 +76,8 @@ template <merge_policy M>
     std::size_t against = 0;
     std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
     for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space})
+         {observation::unobserved, observation::occluded, observation::free_space,
+          observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }

@@ -105,14 +105,17 @@ class visibility {
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
-    /// equally many free space, then on surface, then occluded. O(view points).
+    /// equally many free space, then on surface, then occluded. Where there were none, it is out
+    /// of view if it is so from all of them. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
         auto most = observation::free_space;
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
-        return count[most] > 0 ? most : observation::unobserved;
+        if (count[most] > 0) return most;
+        return count[observation::unobserved] > 0 ? observation::unobserved
+                                                  : observation::out_of_view;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -155,7 +158,8 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place,
                                       const range_image& image) const {
         const double expected = image.distance_to(place);
-        if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
+        if (!std::isfinite(expected)) return observation::unobserved;
+        if (!image.may_show(place)) return observation::out_of_view;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
