@@ -18877,6 +18877,37 @@ class bvh_caster {
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/detail/line_scanner.hpp ----------------------------------------------
+
+/// @file
+/// The instruments that measure line by line: a scan line of a 2D range finder and a column of a
+/// spinning lidar are both a fan of beams with one pose and one time. Lines follow each other at a
+/// constant rate, and only the pose of a line within the sensor differs between instruments.
+
+namespace gnomon::simulation::detail {
+
+/// An instrument that measures lines of beams(). Line i is measured (i + 0.5) / line_rate() seconds
+/// after the start; line_pose(i) is the pose of its frame in the sensor's frame, without
+/// translation; direction(j) is the direction of beam j in the frame of its line, of unit length.
+template <class S>
+concept line_scanner = requires(const S& s, std::size_t number, double seconds) {
+    { s.beams() } -> std::same_as<std::size_t>;
+    { s.lines(seconds) } -> std::same_as<std::size_t>;
+    { s.line_rate() } -> std::same_as<double>;
+    { s.line_pose(number) } -> std::same_as<pose>;
+    { s.direction(number) } -> std::same_as<Eigen::Vector3d>;
+    { s.min_range } -> std::convertible_to<double>;
+    { s.max_range } -> std::convertible_to<double>;
+    s.require_valid();
+};
+
+/// The largest integer not above x, with a tolerance of 1e-6 for rounding.
+[[nodiscard]] inline std::size_t whole(double x) {
+    return static_cast<std::size_t>(std::floor(x + 1e-6));
+}
+
+}  // namespace gnomon::simulation::detail
+
 // -------- gnomon/simulation/scanner.hpp ----------------------------------------------------------
 
 /// @file
@@ -18898,11 +18929,19 @@ struct scanner {
 
     /// The number of beams of a scan line. Precondition: the scanner is valid.
     [[nodiscard]] std::size_t beams() const {
-        return whole(field_of_view.radians() / resolution.radians());
+        return detail::whole(field_of_view.radians() / resolution.radians());
     }
 
     /// The number of scan lines in `seconds`. Precondition: fewer than 2^53.
-    [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
+    [[nodiscard]] std::size_t lines(double seconds) const {
+        return detail::whole(seconds * frequency);
+    }
+
+    /// Scan lines per second [Hz].
+    [[nodiscard]] double line_rate() const { return frequency; }
+
+    /// The frame of a scan line in the sensor's frame: all lie in its x-y plane.
+    [[nodiscard]] pose line_pose(std::size_t) const { return {}; }
 
     /// The direction of beam j in the sensor's frame, from right to left and symmetric about the
     /// optical axis. The field of view is divided into sectors of the width `resolution` with a
@@ -18929,10 +18968,6 @@ struct scanner {
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
                 "scanner: needs 0 <= min_range < max_range, finite");
     }
-
-  private:
-    /// The largest integer not above x, with a tolerance of 1e-6 for rounding.
-    static std::size_t whole(double x) { return static_cast<std::size_t>(std::floor(x + 1e-6)); }
 };
 
 /// The range finders of the thesis, with the figures of their data sheets. The data sheets give
@@ -19354,12 +19389,13 @@ class instrument {
 // -------- gnomon/simulation/trajectory.hpp -------------------------------------------------------
 
 /// @file
-/// The motion of a 2D range finder during a 3D scan: the `sensor_trajectory` concept and its
-/// models.
+/// The motion of a range finder or a spinning lidar during a scan: the `sensor_trajectory` concept
+/// and its models.
 ///
 /// A trajectory has a `duration` [s] and gives the pose of the sensor at each time from 0 to it.
-/// Models: `horizontal`, `vertical`, `rotational`, `fixed`, and `along(duration, f)` for any
-/// function f of time. Klasing 2010, Sec. 2.4.3, Fig. 2.14.
+/// Models: `horizontal`, `vertical`, `rotational` (Klasing 2010, Sec. 2.4.3, Fig. 2.14), `fixed`,
+/// `driving`, and `along(duration, f)` for any function f of time; `joint_motion` of
+/// gnomon/simulation/kinematic_chain.hpp.
 
 namespace gnomon::simulation {
 
@@ -19420,7 +19456,27 @@ struct fixed {
     [[nodiscard]] pose operator()(double) const { return mount; }
 };
 
-/// Moves by a function of time, such as the odometry of a driving robot or a kinematic chain.
+/// Drives with a constant velocity and a constant rate of turn, along a line or an arc.
+struct driving {
+    pose mount = {};                                             ///< the sensor at the time 0
+    double duration = 0.1;                                       ///< t_s [s]
+    Eigen::Vector3d velocity = Eigen::Vector3d(15.0, 0.0, 0.0);  ///< in the sensor's frame [m/s]
+    angle turn_per_second = {};  ///< about the z axis of the mount, to the left
+
+    [[nodiscard]] pose operator()(double seconds) const {
+        const double half = 0.5 * seconds * turn_per_second.radians();
+        // The integral of the turning velocity: in the plane of the turn the chord of the arc,
+        // which points half the turn to the left and is sin(half) / half times as long as the arc.
+        const double chord = seconds * (half == 0.0 ? 1.0 : std::sin(half) / half);
+        const pose half_turn = yaw(radians(half));
+        pose moved = half_turn * half_turn;
+        moved.position = half_turn.direction_out(
+            {velocity.x() * chord, velocity.y() * chord, velocity.z() * seconds});
+        return mount * moved;
+    }
+};
+
+/// Moves by a function of time, such as the odometry of a robot.
 template <class F>
 struct along {
     double duration;  ///< t_s [s]
@@ -19461,9 +19517,9 @@ struct true_scan {
 // -------- gnomon/simulation/simulate.hpp ---------------------------------------------------------
 
 /// @file
-/// Simulates the scan of a scene. A range finder moves along its trajectory, and each beam gives a
-/// reading; a depth camera stands still, and each pixel gives one. Each valid reading is a point
-/// (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene. A range finder or a spinning lidar moves along its trajectory,
+/// and each beam gives a reading; a depth camera stands still, and each pixel gives one. Each valid
+/// reading is a point (Klasing 2010, Sec. 2.4.3).
 
 namespace gnomon::simulation {
 
@@ -19540,74 +19596,89 @@ template <ray_caster C, execution X>
     return result;
 }
 
+/// Where the lines of a scan are measured.
+struct measured_lines {
+    std::vector<pose> poses;                  ///< of the lines' frames in the scene
+    std::vector<Eigen::Vector3d> viewpoints;  ///< of the lines [m]
+
+    /// @throws std::invalid_argument  if the duration is negative or not finite, there are more
+    ///                                rays than a point range may hold, or a pose of the trajectory
+    ///                                is no rigid motion
+    measured_lines(const sensor_trajectory auto& trajectory, const line_scanner auto& finder) {
+        const double duration = trajectory.duration;
+        const double rate = finder.line_rate();
+        gnomon::detail::require(duration >= 0.0 && duration * rate < 4e9,
+                                "simulate: the duration must be finite and not negative");
+        const std::size_t lines = finder.lines(duration);
+        gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / finder.beams(),
+                                "simulate: more rays than a point range may hold");
+        for (std::size_t line = 0; line < lines; ++line) {
+            const pose sensor = trajectory((static_cast<double>(line) + 0.5) / rate);
+            gnomon::detail::require(is_rigid(sensor),
+                                    "simulate: a pose of the trajectory is no rigid motion");
+            poses.push_back(sensor * finder.line_pose(line));
+            viewpoints.push_back(sensor.position);
+        }
+    }
+
+    /// One view point for the points of all readings, or one per line if the sensor moves.
+    [[nodiscard]] viewpoint_table table(const auto& chunks, std::size_t beams) && {
+        if (viewpoints.empty()) return {};
+        const bool moves =
+            std::any_of(viewpoints.begin(), viewpoints.end(), [&](const Eigen::Vector3d& v) {
+                return squared_distance(v, viewpoints.front()) > 0.0;
+            });
+        if (!moves) return viewpoints.front();
+        std::vector<point_index> line_of_point;
+        for (const auto& kept : chunks) {
+            for (const auto& one : kept)
+                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
+        }
+        return viewpoint_table(std::move(viewpoints), std::move(line_of_point));
+    }
+};
+
 }  // namespace detail
 
-/// Simulates a scan, scan line by scan line, with the given ray caster.
+/// Simulates a scan, line by line, with the given ray caster.
 ///
 /// The same seed gives the same bytes for every execution.
 /// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint; memory
-/// is proportional to the points, not to the rays.
+/// is proportional to the points and the lines, not to the rays.
 ///
 /// @param world   source of the ground truth. Precondition: `caster` was built from it
-/// @param finder  gives n = lines(duration) * beams() rays
+/// @param finder  a `scanner` or a `spinning_lidar`; gives n = lines(duration) * beams() rays
 /// @return the points of all readings that did not fail, with keep_failed also of those that did;
-///         one view point for all points, or one per scan line if the sensor moves
+///         one view point for all points, or, if the sensor moves, one per scan line or column
 /// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
 ///                                finite, there are more rays than a point range may hold, a pose
 ///                                of the trajectory is no rigid motion, or the caster reports
 ///                                a surface that `world` does not have
-template <ray_caster C, sensor_trajectory T, execution X = sequential>
+template <ray_caster C, sensor_trajectory T, detail::line_scanner S = scanner,
+          execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+                                 const S& finder = {}, const beam& b = {}, const X& run = {}) {
     finder.require_valid();
-    const double duration = trajectory.duration;
-    gnomon::detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
-                            "simulate: the duration must be finite and not negative");
-    const std::size_t beams = finder.beams();
-    const std::size_t lines = finder.lines(duration);
-    gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / beams,
-                            "simulate: more rays than a point range may hold");
+    detail::measured_lines lines(trajectory, finder);
     const detail::instrument<C> read(caster, b, finder.min_range, finder.max_range);
-
-    std::vector<pose> poses;
-    std::vector<Eigen::Vector3d> viewpoints;
-    bool moves = false;
-    for (std::size_t line = 0; line < lines; ++line) {
-        poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
-        gnomon::detail::require(is_rigid(poses.back()),
-                                "simulate: a pose of the trajectory is no rigid motion");
-        viewpoints.push_back(poses.back().position);
-        moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
-    }
+    const std::size_t beams = finder.beams();
     std::vector<Eigen::Vector3d> fan;
     for (std::size_t j = 0; j < beams; ++j) fan.push_back(finder.direction(j));
     const auto ray_of = [&](std::size_t i) {
-        const pose& sensor = poses[i / beams];
-        return ray{sensor.position, sensor.direction_out(fan[i % beams])};
+        const pose& line = lines.poses[i / beams];
+        return ray{line.position, line.direction_out(fan[i % beams])};
     };
 
-    const auto readings = detail::read_rays<C>(read, b, lines * beams, ray_of, run);
+    const auto readings = detail::read_rays<C>(read, b, lines.poses.size() * beams, ray_of, run);
     true_scan result = detail::points_of(readings, world, ray_of);
-    if (moves) {
-        std::vector<point_index> line_of_point;
-        line_of_point.reserve(result.scan.size());
-        for (const auto& kept : readings) {
-            for (const auto& one : kept)
-                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
-        }
-        result.scan.viewpoints = viewpoint_table(std::move(viewpoints), std::move(line_of_point));
-    } else if (!viewpoints.empty()) {
-        result.scan.viewpoints = viewpoints.front();
-    }
+    result.scan.viewpoints = std::move(lines).table(readings, beams);
     return result;
 }
 
 /// Simulates a scan, as above, with a `bvh_caster`.
-template <sensor_trajectory T, execution X = sequential>
-[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+template <sensor_trajectory T, detail::line_scanner S = scanner, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory, const S& finder = {},
+                                 const beam& b = {}, const X& run = {}) {
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
 }
 
@@ -20698,6 +20769,82 @@ struct room_options {
 
 }  // namespace gnomon::simulation::scenes
 
+// -------- gnomon/simulation/kinematic_chain.hpp --------------------------------------------------
+
+/// @file
+/// A kinematic chain that carries a sensor, such as a robot arm or a robot that turns in place.
+/// The pose of the sensor follows from the values of the joints alone, by the convention of Denavit
+/// and Hartenberg (1955): each joint has a frame with four parameters, and the chain is the product
+/// of the frames.
+///
+/// Klasing 2010, Sec. 2.5, Fig. 2.17: an arm with seven joints and a UTM-30LX as its end effector;
+/// a robot that turns in place below a vertically mounted LMS-400.
+
+namespace gnomon::simulation {
+
+/// What the value of a joint changes.
+enum class joint_kind : char {
+    revolute,  ///< the angle theta, by a value in [rad]
+    prismatic  ///< the offset d, by a value in [m]
+};
+
+/// A joint in the standard convention of Denavit and Hartenberg: a rotation by theta about the z
+/// axis of the frame before it, a translation by d along this axis, a translation by a along the
+/// new x axis, and a rotation by alpha about this axis.
+struct chain_joint {
+    angle theta = {};  ///< about the old z axis, at the value 0
+    double d = 0.0;    ///< along the old z axis, at the value 0 [m]
+    double a = 0.0;    ///< along the new x axis [m]
+    angle alpha = {};  ///< about the new x axis
+    joint_kind kind = joint_kind::revolute;
+
+    /// The pose of the frame behind the joint in the frame before it.
+    /// @param value  added to theta [rad] or d [m]
+    [[nodiscard]] pose operator()(double value) const {
+        const bool turns = kind == joint_kind::revolute;
+        return yaw(radians(theta.radians() + (turns ? value : 0.0))) *
+               at(a, 0.0, d + (turns ? 0.0 : value)) * roll(alpha);
+    }
+};
+
+/// Joints one after the other, between a base in the scene and a sensor.
+struct kinematic_chain {
+    pose base = {};  ///< the frame before the first joint
+    std::vector<chain_joint> joints = {};
+    pose tool = {};  ///< the sensor in the frame behind the last joint
+
+    /// Forward kinematics: the pose of the sensor. O(joints).
+    /// @param values  one per joint [rad] or [m]
+    /// @throws std::invalid_argument  if there is another number of values than of joints
+    [[nodiscard]] pose operator()(std::span<const double> values) const {
+        gnomon::detail::require(values.size() == joints.size(),
+                                "kinematic_chain: needs one value per joint");
+        pose result = base;
+        for (std::size_t i = 0; i < joints.size(); ++i) result = result * joints[i](values[i]);
+        return result * tool;
+    }
+};
+
+/// A motion of all joints at once, each with a constant speed. Models `sensor_trajectory`; calls
+/// throw what the chain throws, for either list of values.
+struct joint_motion {
+    kinematic_chain chain;
+    std::vector<double> from;  ///< the values at the time 0 [rad] or [m]
+    std::vector<double> to;    ///< the values at the end
+    double duration = 4.0;     ///< t_s [s]
+
+    [[nodiscard]] pose operator()(double seconds) const {
+        gnomon::detail::require(from.size() == to.size(),
+                                "joint_motion: needs as many values at the end as at the start");
+        std::vector<double> values;
+        for (std::size_t i = 0; i < from.size(); ++i)
+            values.push_back(from[i] + (to[i] - from[i]) * (seconds / duration));
+        return chain(values);
+    }
+};
+
+}  // namespace gnomon::simulation
+
 // -------- gnomon/simulation/sphere.hpp -----------------------------------------------------------
 
 /// @file
@@ -20723,6 +20870,123 @@ struct sphere {
         return detail::first_hit_of({&all, 1}, {}, r);
     }
 };
+
+}  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/spinning_lidar.hpp ---------------------------------------------------
+
+/// @file
+/// A spinning multi-beam lidar: beams of fixed elevations turn about the z axis of the sensor and
+/// fire all at once, column by column. x is the forward direction, z the axis of rotation.
+///
+/// A sweep begins behind the sensor and turns clockwise, seen from above, so that the seam between
+/// two sweeps of a moving sensor lies behind it. Real instruments fire the beams of a column one
+/// after the other, within 46 to 55 microseconds; this is not modelled.
+
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// Appends `count` elevations, from `highest` downwards in equal steps [deg].
+inline void append_elevations(std::vector<angle>& all, std::size_t count, double highest,
+                              double step) {
+    for (std::size_t i = 0; i < count; ++i)
+        all.push_back(degrees(highest - step * static_cast<double>(i)));
+}
+
+/// 16 beams, 15 to -15 degrees.
+[[nodiscard]] inline std::vector<angle> sixteen_elevations() {
+    std::vector<angle> all;
+    append_elevations(all, 16, 15.0, 2.0);
+    return all;
+}
+
+}  // namespace detail
+
+/// A spinning multi-beam lidar. The default is a Velodyne VLP-16 at 10 Hz.
+struct spinning_lidar {
+    /// Of the beams, above the plane of rotation, in the order of the beams of a column.
+    std::vector<angle> elevations = detail::sixteen_elevations();
+    std::size_t columns = 1'808;  ///< per revolution
+    double frequency = 10.0;      ///< revolutions per second [Hz]
+    double min_range = 0.4;       ///< nearer surfaces give no reading [m]
+    double max_range = 100.0;     ///< farther surfaces give no reading [m]
+
+    /// The number of beams of a column.
+    [[nodiscard]] std::size_t beams() const { return elevations.size(); }
+
+    /// The duration of one revolution [s].
+    [[nodiscard]] double revolution() const { return 1.0 / frequency; }
+
+    /// Columns per second [Hz].
+    [[nodiscard]] double line_rate() const { return frequency * static_cast<double>(columns); }
+
+    /// The number of columns in `seconds`. Precondition: fewer than 2^53.
+    [[nodiscard]] std::size_t lines(double seconds) const {
+        return detail::whole(seconds * line_rate());
+    }
+
+    /// The frame of a column in the sensor's frame. A revolution is divided into sectors, with a
+    /// column in the middle of each.
+    [[nodiscard]] pose line_pose(std::size_t column) const {
+        const double turned =
+            (static_cast<double>(column % columns) + 0.5) / static_cast<double>(columns);
+        return yaw(radians(std::numbers::pi * (1.0 - 2.0 * turned)));
+    }
+
+    /// The direction of beam j in the frame of its column, of unit length; it is the direction in
+    /// the sensor's frame while the column looks forward.
+    [[nodiscard]] Eigen::Vector3d direction(std::size_t j) const {
+        return {cos(elevations[j]), 0.0, sin(elevations[j])};
+    }
+
+    /// @throws std::invalid_argument  unless there are 1 to 10,000 beams with elevations between
+    ///                                -90 and 90 degrees, 1 to 10,000,000 columns, the frequency is
+    ///                                positive and finite, and 0 <= min_range < max_range, which is
+    ///                                finite
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(!elevations.empty() && elevations.size() <= 10'000,
+                "spinning_lidar: needs 1 to 10,000 beams");
+        require(std::all_of(elevations.begin(), elevations.end(),
+                            [](angle e) { return e > degrees(-90) && e < degrees(90); }),
+                "spinning_lidar: elevations must be between -90 and 90 degrees");
+        require(columns >= 1 && columns <= 10'000'000,
+                "spinning_lidar: needs 1 to 10,000,000 columns");
+        require(frequency > 0.0 && std::isfinite(frequency),
+                "spinning_lidar: the frequency must be positive and finite");
+        require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
+                "spinning_lidar: needs 0 <= min_range < max_range, finite");
+    }
+};
+
+/// Spinning lidars of Velodyne, with the elevations, the times between two columns and the maximum
+/// ranges of their user manuals. The minimum ranges of the VLP-16 and the HDL-64E are those of
+/// ROS's driver. The manuals give standard deviations of 30 mm (VLP-16), 20 mm (HDL-32E) and less
+/// than 20 mm (HDL-64E). They are set in the beam.
+namespace scanners {
+
+/// Velodyne VLP-16 at 10 Hz: 16 beams in steps of 2 degrees, a column each 55.296 microseconds.
+[[nodiscard]] inline spinning_lidar velodyne_vlp_16() { return {}; }
+
+/// Velodyne HDL-32E at 20 Hz: 32 beams in steps of 4/3 of a degree, a column each 46.08
+/// microseconds.
+[[nodiscard]] inline spinning_lidar velodyne_hdl_32e() {
+    spinning_lidar result{.elevations = {}, .columns = 1'085, .frequency = 20.0, .min_range = 0.05};
+    detail::append_elevations(result.elevations, 32, 32.0 / 3.0, 4.0 / 3.0);
+    return result;
+}
+
+/// Velodyne HDL-64E at 10 Hz: 32 beams in steps of 1/3 of a degree above 32 beams in steps of half
+/// a degree; 1.333 million readings per second.
+[[nodiscard]] inline spinning_lidar velodyne_hdl_64e() {
+    spinning_lidar result{.elevations = {}, .columns = 2'083, .min_range = 0.9, .max_range = 120.0};
+    detail::append_elevations(result.elevations, 32, 2.0, 1.0 / 3.0);
+    detail::append_elevations(result.elevations, 32, -53.0 / 6.0, 0.5);
+    return result;
+}
+
+}  // namespace scanners
 
 }  // namespace gnomon::simulation
 
