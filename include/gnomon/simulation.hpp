@@ -28,9 +28,11 @@
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/sphere.hpp>
 #include <gnomon/simulation/spinning_lidar.hpp>
+#include <gnomon/simulation/street.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
 #include <gnomon/simulation/table.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 #include <gnomon/simulation/trajectory.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
 #include <gnomon/simulation/true_scan.hpp>
+#include <gnomon/simulation/vehicle.hpp>

@@ -124,6 +124,7 @@ TEST(joint_motion, obeys_the_laws) {
 /// The arm of Fig. 2.17 (b), hanging from the ceiling: seven revolute joints, the axes of shoulder
 /// and wrist each through one point. The thesis gives no lengths; these are of a human arm. The
 /// optical axis of the UTM-30LX is the axis of the last joint.
+// [hanging_arm]
 kinematic_chain hanging_arm() {
     return {.base = sim::at(0.3, 0.0, 2.3) * sim::roll(degrees(180)),
             .joints = {{.d = 0.2, .alpha = degrees(-90)},
@@ -135,6 +136,7 @@ kinematic_chain hanging_arm() {
                        {.d = 0.1}},
             .tool = sim::pitch(degrees(-90))};
 }
+// [hanging_arm]
 const std::vector<double> bent{0.2, 0.4, -0.3, 0.9, 0.1, 0.5, 0.0};
 
 bool have_same_bytes(const sim::true_scan& a, const sim::true_scan& b) {
