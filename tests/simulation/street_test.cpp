@@ -245,6 +245,10 @@ TEST(street, has_returns_of_its_own_car_if_there_is_one) {
             with, sim::fixed{.mount = with.sensor, .duration = lidar.revolution()}, lidar);
         EXPECT_GT(points_of_kinds(with, truth)["own car"], 1000u);
         EXPECT_EQ(with.objects().size(), without.objects().size() + 1);
+        // The sensor stands in the middle of the roof.
+        const auto below = sim::bvh_caster(with)({with.sensor.position, {0, 0, -1}});
+        ASSERT_TRUE(below);
+        EXPECT_EQ(with.surface_name(below->surface), "own car/cabin/roof");
     }
 }
 
