@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// What would a range finder or a depth camera see, and what is the truth about each point? Scans a
-/// room of the library or a mesh file and writes points, truth, names and a picture.
+/// What would a range finder, a depth camera or a spinning lidar see, and what is the truth about
+/// each point? Scans a room or a street of the library or a mesh file and writes points, truth,
+/// names and a picture.
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <numbers>
 #include <numeric>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -34,12 +36,16 @@ using json = nlohmann::ordered_json;
 sim::true_scan scan_of(const sim::scene& world, const options& o) {
     const progress telling("scanning");
     sim::beam beam = o.beam;
-    if (o.camera) {
+    if (const auto* camera = std::get_if<sim::depth_camera>(&o.device)) {
         beam.sigma = 0.0;  // the camera has a noise of its own
-        if (o.skimmed) beam.footprint = o.camera->pixel();
-        return sim::simulate(world, world.sensor, *o.camera, beam, o.threads);
+        if (o.skimmed) beam.footprint = camera->pixel();
+        return sim::simulate(world, world.sensor, *camera, beam, o.threads);
     }
     if (o.skimmed) beam.footprint.divergence = gnomon::radians(0.004);
+    if (const auto* lidar = std::get_if<sim::spinning_lidar>(&o.device)) {
+        const sim::fixed sweep{.mount = world.sensor, .duration = lidar->revolution()};
+        return sim::simulate(world, sweep, *lidar, beam, o.threads);
+    }
     const auto along = [&](const auto& trajectory) {
         return sim::simulate(world, trajectory, o.finder, beam, o.threads);
     };

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,17 +21,18 @@ namespace sim = gnomon::simulation;
 inline constexpr const char* usage =
     R"(usage: simulate_scan --out DIR [options]
 
-Scans a scene with a simulated range finder or depth camera. Writes scan.ply, the points with what is true of
-them (normal, object, part, surface, range, echo), scan.png and names.json into DIR.
+Scans a scene with a simulated range finder, depth camera or spinning lidar. Writes scan.ply, the points with
+what is true of them (normal, object, part, surface, range, echo), scan.png and names.json into DIR.
 
   --scene NAME         kitchen, living_room, box_and_cylinder, boxes_and_bin, two_chairs,
-                       seat_armchair_table, furnished_room (of the seed), or a mesh file such as
-                       FILE.obj, z up, in metres (kitchen)
-  --scanner NAME       range_finder, or a depth camera with its own resolution and noise:
-                       structured_light, time_of_flight or stereo (range_finder)
+                       seat_armchair_table, furnished_room or street (of the seed), or a mesh file
+                       such as FILE.obj, z up, in metres (kitchen)
+  --scanner NAME       range_finder; a depth camera with its own resolution and noise:
+                       structured_light, time_of_flight or stereo; or one sweep of a spinning lidar:
+                       velodyne_vlp_16, velodyne_hdl_32e or velodyne_hdl_64e (range_finder)
   --trajectory NAME    of a range finder: horizontal, vertical or rotational (rotational)
   --density NAME       of a range finder: low, medium or high, 7,200, 28,800 or 115,200 beams (high)
-  --sigma M            of a range finder: standard deviation of the range (0.015)
+  --sigma M            of a range finder or lidar: standard deviation of the range (0.015)
   --skimmed            beams (4 mrad) or pixels of finite width, which meet several surfaces at
                        edges
   --seed N             of all that is random (1)
@@ -42,13 +44,16 @@ them (normal, object, part, surface, range, echo), scan.png and names.json into 
   --help               this text
 )";
 
+/// The range finder of --density, a depth camera, or a spinning lidar.
+using instrument = std::variant<std::monostate, sim::depth_camera, sim::spinning_lidar>;
+
 enum class trajectory_kind : char { horizontal, vertical, rotational };
 
 struct options {
     std::string scene = "kitchen";  ///< a name, or the path of a mesh file
     std::string out;
     trajectory_kind trajectory = trajectory_kind::rotational;
-    std::optional<sim::depth_camera> camera;  ///< in place of the range finder
+    instrument device;  ///< in place of the range finder, if it is another one
     sim::scanner finder;
     sim::beam beam{.sigma = 0.015};
     bool skimmed = false;
@@ -86,12 +91,14 @@ inline const option<options> known_options[] = {
      [](options& o, const std::string&, const std::string& value) { o.scene = value; }},
     {"--scanner", true,
      [](options& o, const std::string& name, const std::string& value) {
-         o.camera = chosen<std::optional<sim::depth_camera>>(
-             name, value,
-             {{"range_finder", std::nullopt},
-              {"structured_light", sim::scanners::structured_light()},
-              {"time_of_flight", sim::scanners::time_of_flight()},
-              {"stereo", sim::scanners::stereo()}});
+         o.device = chosen<instrument>(name, value,
+                                       {{"range_finder", std::monostate()},
+                                        {"structured_light", sim::scanners::structured_light()},
+                                        {"time_of_flight", sim::scanners::time_of_flight()},
+                                        {"stereo", sim::scanners::stereo()},
+                                        {"velodyne_vlp_16", sim::scanners::velodyne_vlp_16()},
+                                        {"velodyne_hdl_32e", sim::scanners::velodyne_hdl_32e()},
+                                        {"velodyne_hdl_64e", sim::scanners::velodyne_hdl_64e()}});
      }},
     {"--trajectory", true,
      [](options& o, const std::string& name, const std::string& value) {

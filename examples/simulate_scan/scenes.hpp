@@ -44,9 +44,10 @@ inline sim::scene scene_of(const options& o) {
         {"boxes_and_bin", [](const options&) { return sim::scenes::boxes_and_bin(); }},
         {"two_chairs", [](const options&) { return sim::scenes::two_chairs(); }},
         {"seat_armchair_table", [](const options&) { return sim::scenes::seat_armchair_table(); }},
-        {"furnished_room", [](const options& with) {
-             return sim::scenes::furnished_room({.seed = with.beam.seed});
-         }}};
+        {"furnished_room",
+         [](const options& with) { return sim::scenes::furnished_room({.seed = with.beam.seed}); }},
+        {"street",
+         [](const options& with) { return sim::scenes::street({.seed = with.beam.seed}); }}};
     const auto known = scenes.find(o.scene);
     if (known == scenes.end() && o.scene.find('.') == std::string::npos)
         throw usage_error("--scene: '" + o.scene + "' is neither a scene nor the name of a file");

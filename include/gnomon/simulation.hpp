@@ -16,6 +16,7 @@
 #include <gnomon/simulation/depth_camera.hpp>
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/furniture.hpp>
+#include <gnomon/simulation/kinematic_chain.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>
@@ -26,9 +27,12 @@
 #include <gnomon/simulation/shape.hpp>
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/sphere.hpp>
+#include <gnomon/simulation/spinning_lidar.hpp>
+#include <gnomon/simulation/street.hpp>
 #include <gnomon/simulation/surface_of_revolution.hpp>
 #include <gnomon/simulation/table.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
 #include <gnomon/simulation/trajectory.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
 #include <gnomon/simulation/true_scan.hpp>
+#include <gnomon/simulation/vehicle.hpp>

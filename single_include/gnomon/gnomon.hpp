@@ -21,6 +21,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <limits>
+#include <map>
 #include <memory>
 #include <new>
 #include <numbers>
@@ -18947,6 +18948,37 @@ class bvh_caster {
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/detail/line_scanner.hpp ----------------------------------------------
+
+/// @file
+/// The instruments that measure line by line: a scan line of a 2D range finder and a column of a
+/// spinning lidar are both a fan of beams with one pose and one time. Lines follow each other at a
+/// constant rate, and only the pose of a line within the sensor differs between instruments.
+
+namespace gnomon::simulation::detail {
+
+/// An instrument that measures lines of beams(). Line i is measured (i + 0.5) / line_rate() seconds
+/// after the start; line_pose(i) is the pose of its frame in the sensor's frame, without
+/// translation; direction(j) is the direction of beam j in the frame of its line, of unit length.
+template <class S>
+concept line_scanner = requires(const S& s, std::size_t number, double seconds) {
+    { s.beams() } -> std::same_as<std::size_t>;
+    { s.lines(seconds) } -> std::same_as<std::size_t>;
+    { s.line_rate() } -> std::same_as<double>;
+    { s.line_pose(number) } -> std::same_as<pose>;
+    { s.direction(number) } -> std::same_as<Eigen::Vector3d>;
+    { s.min_range } -> std::convertible_to<double>;
+    { s.max_range } -> std::convertible_to<double>;
+    s.require_valid();
+};
+
+/// The largest integer not above x, with a tolerance of 1e-6 for rounding.
+[[nodiscard]] inline std::size_t whole(double x) {
+    return static_cast<std::size_t>(std::floor(x + 1e-6));
+}
+
+}  // namespace gnomon::simulation::detail
+
 // -------- gnomon/simulation/scanner.hpp ----------------------------------------------------------
 
 /// @file
@@ -18968,11 +19000,19 @@ struct scanner {
 
     /// The number of beams of a scan line. Precondition: the scanner is valid.
     [[nodiscard]] std::size_t beams() const {
-        return whole(field_of_view.radians() / resolution.radians());
+        return detail::whole(field_of_view.radians() / resolution.radians());
     }
 
     /// The number of scan lines in `seconds`. Precondition: fewer than 2^53.
-    [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
+    [[nodiscard]] std::size_t lines(double seconds) const {
+        return detail::whole(seconds * frequency);
+    }
+
+    /// Scan lines per second [Hz].
+    [[nodiscard]] double line_rate() const { return frequency; }
+
+    /// The frame of a scan line in the sensor's frame: all lie in its x-y plane.
+    [[nodiscard]] pose line_pose(std::size_t) const { return {}; }
 
     /// The direction of beam j in the sensor's frame, from right to left and symmetric about the
     /// optical axis. The field of view is divided into sectors of the width `resolution` with a
@@ -18999,10 +19039,6 @@ struct scanner {
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
                 "scanner: needs 0 <= min_range < max_range, finite");
     }
-
-  private:
-    /// The largest integer not above x, with a tolerance of 1e-6 for rounding.
-    static std::size_t whole(double x) { return static_cast<std::size_t>(std::floor(x + 1e-6)); }
 };
 
 /// The range finders of the thesis, with the figures of their data sheets. The data sheets give
@@ -19424,12 +19460,13 @@ class instrument {
 // -------- gnomon/simulation/trajectory.hpp -------------------------------------------------------
 
 /// @file
-/// The motion of a 2D range finder during a 3D scan: the `sensor_trajectory` concept and its
-/// models.
+/// The motion of a range finder or a spinning lidar during a scan: the `sensor_trajectory` concept
+/// and its models.
 ///
 /// A trajectory has a `duration` [s] and gives the pose of the sensor at each time from 0 to it.
-/// Models: `horizontal`, `vertical`, `rotational`, `fixed`, and `along(duration, f)` for any
-/// function f of time. Klasing 2010, Sec. 2.4.3, Fig. 2.14.
+/// Models: `horizontal`, `vertical`, `rotational` (Klasing 2010, Sec. 2.4.3, Fig. 2.14), `fixed`,
+/// `driving`, and `along(duration, f)` for any function f of time; `joint_motion` of
+/// gnomon/simulation/kinematic_chain.hpp.
 
 namespace gnomon::simulation {
 
@@ -19490,7 +19527,27 @@ struct fixed {
     [[nodiscard]] pose operator()(double) const { return mount; }
 };
 
-/// Moves by a function of time, such as the odometry of a driving robot or a kinematic chain.
+/// Drives with a constant velocity and a constant rate of turn, along a line or an arc.
+struct driving {
+    pose mount = {};                                             ///< the sensor at the time 0
+    double duration = 0.1;                                       ///< t_s [s]
+    Eigen::Vector3d velocity = Eigen::Vector3d(15.0, 0.0, 0.0);  ///< in the sensor's frame [m/s]
+    angle turn_per_second = {};  ///< about the z axis of the mount, to the left
+
+    [[nodiscard]] pose operator()(double seconds) const {
+        const double half = 0.5 * seconds * turn_per_second.radians();
+        // The integral of the turning velocity: in the plane of the turn the chord of the arc,
+        // which points half the turn to the left and is sin(half) / half times as long as the arc.
+        const double chord = seconds * (half == 0.0 ? 1.0 : std::sin(half) / half);
+        const pose half_turn = yaw(radians(half));
+        pose moved = half_turn * half_turn;
+        moved.position = half_turn.direction_out(
+            {velocity.x() * chord, velocity.y() * chord, velocity.z() * seconds});
+        return mount * moved;
+    }
+};
+
+/// Moves by a function of time, such as the odometry of a robot.
 template <class F>
 struct along {
     double duration;  ///< t_s [s]
@@ -19531,9 +19588,9 @@ struct true_scan {
 // -------- gnomon/simulation/simulate.hpp ---------------------------------------------------------
 
 /// @file
-/// Simulates the scan of a scene. A range finder moves along its trajectory, and each beam gives a
-/// reading; a depth camera stands still, and each pixel gives one. Each valid reading is a point
-/// (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene. A range finder or a spinning lidar moves along its trajectory,
+/// and each beam gives a reading; a depth camera stands still, and each pixel gives one. Each valid
+/// reading is a point (Klasing 2010, Sec. 2.4.3).
 
 namespace gnomon::simulation {
 
@@ -19610,74 +19667,89 @@ template <ray_caster C, execution X>
     return result;
 }
 
+/// Where the lines of a scan are measured.
+struct measured_lines {
+    std::vector<pose> poses;                  ///< of the lines' frames in the scene
+    std::vector<Eigen::Vector3d> viewpoints;  ///< of the lines [m]
+
+    /// @throws std::invalid_argument  if the duration is negative or not finite, there are more
+    ///                                rays than a point range may hold, or a pose of the trajectory
+    ///                                is no rigid motion
+    measured_lines(const sensor_trajectory auto& trajectory, const line_scanner auto& finder) {
+        const double duration = trajectory.duration;
+        const double rate = finder.line_rate();
+        gnomon::detail::require(duration >= 0.0 && duration * rate < 4e9,
+                                "simulate: the duration must be finite and not negative");
+        const std::size_t lines = finder.lines(duration);
+        gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / finder.beams(),
+                                "simulate: more rays than a point range may hold");
+        for (std::size_t line = 0; line < lines; ++line) {
+            const pose sensor = trajectory((static_cast<double>(line) + 0.5) / rate);
+            gnomon::detail::require(is_rigid(sensor),
+                                    "simulate: a pose of the trajectory is no rigid motion");
+            poses.push_back(sensor * finder.line_pose(line));
+            viewpoints.push_back(sensor.position);
+        }
+    }
+
+    /// One view point for the points of all readings, or one per line if the sensor moves.
+    [[nodiscard]] viewpoint_table table(const auto& chunks, std::size_t beams) && {
+        if (viewpoints.empty()) return {};
+        const bool moves =
+            std::any_of(viewpoints.begin(), viewpoints.end(), [&](const Eigen::Vector3d& v) {
+                return squared_distance(v, viewpoints.front()) > 0.0;
+            });
+        if (!moves) return viewpoints.front();
+        std::vector<point_index> line_of_point;
+        for (const auto& kept : chunks) {
+            for (const auto& one : kept)
+                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
+        }
+        return viewpoint_table(std::move(viewpoints), std::move(line_of_point));
+    }
+};
+
 }  // namespace detail
 
-/// Simulates a scan, scan line by scan line, with the given ray caster.
+/// Simulates a scan, line by line, with the given ray caster.
 ///
 /// The same seed gives the same bytes for every execution.
 /// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint; memory
-/// is proportional to the points, not to the rays.
+/// is proportional to the points and the lines, not to the rays.
 ///
 /// @param world   source of the ground truth. Precondition: `caster` was built from it
-/// @param finder  gives n = lines(duration) * beams() rays
+/// @param finder  a `scanner` or a `spinning_lidar`; gives n = lines(duration) * beams() rays
 /// @return the points of all readings that did not fail, with keep_failed also of those that did;
-///         one view point for all points, or one per scan line if the sensor moves
+///         one view point for all points, or, if the sensor moves, one per scan line or column
 /// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
 ///                                finite, there are more rays than a point range may hold, a pose
 ///                                of the trajectory is no rigid motion, or the caster reports
 ///                                a surface that `world` does not have
-template <ray_caster C, sensor_trajectory T, execution X = sequential>
+template <ray_caster C, sensor_trajectory T, detail::line_scanner S = scanner,
+          execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+                                 const S& finder = {}, const beam& b = {}, const X& run = {}) {
     finder.require_valid();
-    const double duration = trajectory.duration;
-    gnomon::detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
-                            "simulate: the duration must be finite and not negative");
-    const std::size_t beams = finder.beams();
-    const std::size_t lines = finder.lines(duration);
-    gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / beams,
-                            "simulate: more rays than a point range may hold");
+    detail::measured_lines lines(trajectory, finder);
     const detail::instrument<C> read(caster, b, finder.min_range, finder.max_range);
-
-    std::vector<pose> poses;
-    std::vector<Eigen::Vector3d> viewpoints;
-    bool moves = false;
-    for (std::size_t line = 0; line < lines; ++line) {
-        poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
-        gnomon::detail::require(is_rigid(poses.back()),
-                                "simulate: a pose of the trajectory is no rigid motion");
-        viewpoints.push_back(poses.back().position);
-        moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
-    }
+    const std::size_t beams = finder.beams();
     std::vector<Eigen::Vector3d> fan;
     for (std::size_t j = 0; j < beams; ++j) fan.push_back(finder.direction(j));
     const auto ray_of = [&](std::size_t i) {
-        const pose& sensor = poses[i / beams];
-        return ray{sensor.position, sensor.direction_out(fan[i % beams])};
+        const pose& line = lines.poses[i / beams];
+        return ray{line.position, line.direction_out(fan[i % beams])};
     };
 
-    const auto readings = detail::read_rays<C>(read, b, lines * beams, ray_of, run);
+    const auto readings = detail::read_rays<C>(read, b, lines.poses.size() * beams, ray_of, run);
     true_scan result = detail::points_of(readings, world, ray_of);
-    if (moves) {
-        std::vector<point_index> line_of_point;
-        line_of_point.reserve(result.scan.size());
-        for (const auto& kept : readings) {
-            for (const auto& one : kept)
-                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
-        }
-        result.scan.viewpoints = viewpoint_table(std::move(viewpoints), std::move(line_of_point));
-    } else if (!viewpoints.empty()) {
-        result.scan.viewpoints = viewpoints.front();
-    }
+    result.scan.viewpoints = std::move(lines).table(readings, beams);
     return result;
 }
 
 /// Simulates a scan, as above, with a `bvh_caster`.
-template <sensor_trajectory T, execution X = sequential>
-[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+template <sensor_trajectory T, detail::line_scanner S = scanner, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory, const S& finder = {},
+                                 const beam& b = {}, const X& run = {}) {
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
 }
 
@@ -20768,6 +20840,82 @@ struct room_options {
 
 }  // namespace gnomon::simulation::scenes
 
+// -------- gnomon/simulation/kinematic_chain.hpp --------------------------------------------------
+
+/// @file
+/// A kinematic chain that carries a sensor, such as a robot arm or a robot that turns in place.
+/// The pose of the sensor follows from the values of the joints alone, by the convention of Denavit
+/// and Hartenberg (1955): each joint has a frame with four parameters, and the chain is the product
+/// of the frames.
+///
+/// Klasing 2010, Sec. 2.5, Fig. 2.17: an arm with seven joints and a UTM-30LX as its end effector;
+/// a robot that turns in place below a vertically mounted LMS-400.
+
+namespace gnomon::simulation {
+
+/// What the value of a joint changes.
+enum class joint_kind : char {
+    revolute,  ///< the angle theta, by a value in [rad]
+    prismatic  ///< the offset d, by a value in [m]
+};
+
+/// A joint in the standard convention of Denavit and Hartenberg: a rotation by theta about the z
+/// axis of the frame before it, a translation by d along this axis, a translation by a along the
+/// new x axis, and a rotation by alpha about this axis.
+struct chain_joint {
+    angle theta = {};  ///< about the old z axis, at the value 0
+    double d = 0.0;    ///< along the old z axis, at the value 0 [m]
+    double a = 0.0;    ///< along the new x axis [m]
+    angle alpha = {};  ///< about the new x axis
+    joint_kind kind = joint_kind::revolute;
+
+    /// The pose of the frame behind the joint in the frame before it.
+    /// @param value  added to theta [rad] or d [m]
+    [[nodiscard]] pose operator()(double value) const {
+        const bool turns = kind == joint_kind::revolute;
+        return yaw(radians(theta.radians() + (turns ? value : 0.0))) *
+               at(a, 0.0, d + (turns ? 0.0 : value)) * roll(alpha);
+    }
+};
+
+/// Joints one after the other, between a base in the scene and a sensor.
+struct kinematic_chain {
+    pose base = {};  ///< the frame before the first joint
+    std::vector<chain_joint> joints = {};
+    pose tool = {};  ///< the sensor in the frame behind the last joint
+
+    /// Forward kinematics: the pose of the sensor. O(joints).
+    /// @param values  one per joint [rad] or [m]
+    /// @throws std::invalid_argument  if there is another number of values than of joints
+    [[nodiscard]] pose operator()(std::span<const double> values) const {
+        gnomon::detail::require(values.size() == joints.size(),
+                                "kinematic_chain: needs one value per joint");
+        pose result = base;
+        for (std::size_t i = 0; i < joints.size(); ++i) result = result * joints[i](values[i]);
+        return result * tool;
+    }
+};
+
+/// A motion of all joints at once, each with a constant speed. Models `sensor_trajectory`; calls
+/// throw what the chain throws, for either list of values.
+struct joint_motion {
+    kinematic_chain chain;
+    std::vector<double> from;  ///< the values at the time 0 [rad] or [m]
+    std::vector<double> to;    ///< the values at the end
+    double duration = 4.0;     ///< t_s [s]
+
+    [[nodiscard]] pose operator()(double seconds) const {
+        gnomon::detail::require(from.size() == to.size(),
+                                "joint_motion: needs as many values at the end as at the start");
+        std::vector<double> values;
+        for (std::size_t i = 0; i < from.size(); ++i)
+            values.push_back(from[i] + (to[i] - from[i]) * (seconds / duration));
+        return chain(values);
+    }
+};
+
+}  // namespace gnomon::simulation
+
 // -------- gnomon/simulation/sphere.hpp -----------------------------------------------------------
 
 /// @file
@@ -20793,6 +20941,123 @@ struct sphere {
         return detail::first_hit_of({&all, 1}, {}, r);
     }
 };
+
+}  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/spinning_lidar.hpp ---------------------------------------------------
+
+/// @file
+/// A spinning multi-beam lidar: beams of fixed elevations turn about the z axis of the sensor and
+/// fire all at once, column by column. x is the forward direction, z the axis of rotation.
+///
+/// A sweep begins behind the sensor and turns clockwise, seen from above, so that the seam between
+/// two sweeps of a moving sensor lies behind it. Real instruments fire the beams of a column one
+/// after the other, within 46 to 55 microseconds; this is not modelled.
+
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// Appends `count` elevations, from `highest` downwards in equal steps [deg].
+inline void append_elevations(std::vector<angle>& all, std::size_t count, double highest,
+                              double step) {
+    for (std::size_t i = 0; i < count; ++i)
+        all.push_back(degrees(highest - step * static_cast<double>(i)));
+}
+
+/// 16 beams, 15 to -15 degrees.
+[[nodiscard]] inline std::vector<angle> sixteen_elevations() {
+    std::vector<angle> all;
+    append_elevations(all, 16, 15.0, 2.0);
+    return all;
+}
+
+}  // namespace detail
+
+/// A spinning multi-beam lidar. The default is a Velodyne VLP-16 at 10 Hz.
+struct spinning_lidar {
+    /// Of the beams, above the plane of rotation, in the order of the beams of a column.
+    std::vector<angle> elevations = detail::sixteen_elevations();
+    std::size_t columns = 1'808;  ///< per revolution
+    double frequency = 10.0;      ///< revolutions per second [Hz]
+    double min_range = 0.4;       ///< nearer surfaces give no reading [m]
+    double max_range = 100.0;     ///< farther surfaces give no reading [m]
+
+    /// The number of beams of a column.
+    [[nodiscard]] std::size_t beams() const { return elevations.size(); }
+
+    /// The duration of one revolution [s].
+    [[nodiscard]] double revolution() const { return 1.0 / frequency; }
+
+    /// Columns per second [Hz].
+    [[nodiscard]] double line_rate() const { return frequency * static_cast<double>(columns); }
+
+    /// The number of columns in `seconds`. Precondition: fewer than 2^53.
+    [[nodiscard]] std::size_t lines(double seconds) const {
+        return detail::whole(seconds * line_rate());
+    }
+
+    /// The frame of a column in the sensor's frame. A revolution is divided into sectors, with a
+    /// column in the middle of each.
+    [[nodiscard]] pose line_pose(std::size_t column) const {
+        const double turned =
+            (static_cast<double>(column % columns) + 0.5) / static_cast<double>(columns);
+        return yaw(radians(std::numbers::pi * (1.0 - 2.0 * turned)));
+    }
+
+    /// The direction of beam j in the frame of its column, of unit length; it is the direction in
+    /// the sensor's frame while the column looks forward.
+    [[nodiscard]] Eigen::Vector3d direction(std::size_t j) const {
+        return {cos(elevations[j]), 0.0, sin(elevations[j])};
+    }
+
+    /// @throws std::invalid_argument  unless there are 1 to 10,000 beams with elevations between
+    ///                                -90 and 90 degrees, 1 to 10,000,000 columns, the frequency is
+    ///                                positive and finite, and 0 <= min_range < max_range, which is
+    ///                                finite
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(!elevations.empty() && elevations.size() <= 10'000,
+                "spinning_lidar: needs 1 to 10,000 beams");
+        require(std::all_of(elevations.begin(), elevations.end(),
+                            [](angle e) { return e > degrees(-90) && e < degrees(90); }),
+                "spinning_lidar: elevations must be between -90 and 90 degrees");
+        require(columns >= 1 && columns <= 10'000'000,
+                "spinning_lidar: needs 1 to 10,000,000 columns");
+        require(frequency > 0.0 && std::isfinite(frequency),
+                "spinning_lidar: the frequency must be positive and finite");
+        require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
+                "spinning_lidar: needs 0 <= min_range < max_range, finite");
+    }
+};
+
+/// Spinning lidars of Velodyne, with the elevations, the times between two columns and the maximum
+/// ranges of their user manuals. The minimum ranges of the VLP-16 and the HDL-64E are those of
+/// ROS's driver. The manuals give standard deviations of 30 mm (VLP-16), 20 mm (HDL-32E) and less
+/// than 20 mm (HDL-64E). They are set in the beam.
+namespace scanners {
+
+/// Velodyne VLP-16 at 10 Hz: 16 beams in steps of 2 degrees, a column each 55.296 microseconds.
+[[nodiscard]] inline spinning_lidar velodyne_vlp_16() { return {}; }
+
+/// Velodyne HDL-32E at 20 Hz: 32 beams in steps of 4/3 of a degree, a column each 46.08
+/// microseconds.
+[[nodiscard]] inline spinning_lidar velodyne_hdl_32e() {
+    spinning_lidar result{.elevations = {}, .columns = 1'085, .frequency = 20.0, .min_range = 0.05};
+    detail::append_elevations(result.elevations, 32, 32.0 / 3.0, 4.0 / 3.0);
+    return result;
+}
+
+/// Velodyne HDL-64E at 10 Hz: 32 beams in steps of 1/3 of a degree above 32 beams in steps of half
+/// a degree; 1.333 million readings per second.
+[[nodiscard]] inline spinning_lidar velodyne_hdl_64e() {
+    spinning_lidar result{.elevations = {}, .columns = 2'083, .min_range = 0.9, .max_range = 120.0};
+    detail::append_elevations(result.elevations, 32, 2.0, 1.0 / 3.0);
+    detail::append_elevations(result.elevations, 32, -53.0 / 6.0, 0.5);
+    return result;
+}
+
+}  // namespace scanners
 
 }  // namespace gnomon::simulation
 
@@ -20962,5 +21227,616 @@ class triangle_mesh {
 };
 
 }  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/detail/mesh_builder.hpp ----------------------------------------------
+
+/// @file
+/// A builder of triangle meshes from convex planar faces, each face on a named surface.
+
+namespace gnomon::simulation::detail {
+
+/// Collects faces. Faces share no vertices; faces whose edges have equal ends are watertight.
+class mesh_builder {
+  public:
+    /// Begins a new surface, to which the following faces belong.
+    mesh_builder& surface(std::string name) {
+        names_.push_back(std::move(name));
+        return *this;
+    }
+
+    /// Adds a convex planar polygon of three or more corners [m]. Precondition: a surface was
+    /// begun.
+    mesh_builder& face(std::span<const Eigen::Vector3d> corners) {
+        const auto first = static_cast<std::uint32_t>(faces_.vertices.size());
+        faces_.vertices.insert(faces_.vertices.end(), corners.begin(), corners.end());
+        for (std::uint32_t i = 2; i < corners.size(); ++i) {
+            faces_.triangles.push_back({first, first + i - 1, first + i});
+            faces_.surface_of_triangle.push_back(static_cast<std::int32_t>(names_.size() - 1));
+        }
+        return *this;
+    }
+    mesh_builder& face(std::initializer_list<Eigen::Vector3d> corners) {
+        return face(std::span(corners.begin(), corners.size()));
+    }
+
+    /// @throws std::invalid_argument  as triangle_mesh does
+    [[nodiscard]] triangle_mesh mesh() const { return triangle_mesh(faces_, names_); }
+
+  private:
+    polyhedron faces_;
+    std::vector<std::string> names_;
+};
+
+/// A corner of a side view, on both sides of the plane y = 0.
+struct profile_corner {
+    double x;           ///< [m]
+    double z;           ///< [m]
+    double half_width;  ///< distance from the plane y = 0 [m]
+};
+
+/// A solid that is symmetric about y = 0, from a convex side view whose half widths are linear in x
+/// and z: one surface from each corner to the next one, by the given names, then "left" and
+/// "right".
+[[nodiscard]] inline triangle_mesh symmetric_solid(std::span<const profile_corner> profile,
+                                                   std::span<const char* const> names) {
+    std::vector<Eigen::Vector3d> left, right;
+    for (const profile_corner& c : profile) {
+        left.push_back({c.x, c.half_width, c.z});
+        right.push_back({c.x, -c.half_width, c.z});
+    }
+    mesh_builder b;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const std::size_t next = (i + 1) % profile.size();
+        b.surface(names[i]).face({left[i], left[next], right[next], right[i]});
+    }
+    return b.surface("left").face(left).surface("right").face(right).mesh();
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/detail/greenery.hpp --------------------------------------------------
+
+/// @file
+/// Trees and hedges: many small leaves of random attitude. Rays pass between the leaves, and the
+/// surface is as rough as the leaves are deep.
+///
+/// A ray through leaves of area A, of which there are n per cubic metre in all attitudes, meets
+/// n A / 2 of them per metre on average.
+
+namespace gnomon::simulation::detail {
+
+/// A rotation about z by an angle of uniform distribution, then of the z axis to a direction of
+/// uniform distribution on the sphere.
+[[nodiscard]] inline pose any_attitude(random_stream& random) {
+    const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
+    const double slope = std::acos(random.uniform(-1.0, 1.0));
+    const double spin = random.uniform(-std::numbers::pi, std::numbers::pi);
+    return yaw(radians(heading)) * pitch(radians(slope)) * yaw(radians(spin));
+}
+
+/// Square leaves on one surface, "leaves", that fill a volume [m^3] so that a ray meets `per_meter`
+/// of them per metre.
+/// @param edge   of a leaf [m]
+/// @param place  draws the middle of a leaf, uniform in the volume
+[[nodiscard]] triangle_mesh foliage(random_stream& random, double volume, double per_meter,
+                                    double edge, auto&& place) {
+    mesh_builder b;
+    b.surface("leaves");
+    const auto count = static_cast<int>(std::ceil(2.0 * per_meter * volume / (edge * edge)));
+    for (int i = 0; i < count; ++i) {
+        pose leaf = any_attitude(random);
+        leaf.position = place();
+        const double h = 0.5 * edge;
+        b.face({leaf.point_out({-h, -h, 0.0}), leaf.point_out({h, -h, 0.0}),
+                leaf.point_out({h, h, 0.0}), leaf.point_out({-h, h, 0.0})});
+    }
+    return b.mesh();
+}
+
+/// Adds a tree with the parts "trunk" and "crown", an ellipsoid of leaves above 2.3 m.
+inline void add_tree(scene& world, std::string name, const pose& at, random_stream& random) {
+    const double radius = random.uniform(1.2, 1.9);
+    const double half_height = radius * random.uniform(0.9, 1.5);
+    const double middle = 2.3 + half_height;
+    const double trunk = random.uniform(0.10, 0.18);
+    const std::int32_t object = world.add_object(std::move(name));
+    world.add(world.add_part(object, "trunk"), cylinder{trunk, middle}, at);
+    const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * half_height;
+    world.add(world.add_part(object, "crown"),
+              foliage(random, volume, 0.7, 0.16,
+                      [&] {
+                          const Eigen::Vector3d direction =
+                              any_attitude(random).direction_out({0.0, 0.0, 1.0});
+                          const double share = std::cbrt(random.uniform());
+                          return Eigen::Vector3d(direction.x() * radius * share,
+                                                 direction.y() * radius * share,
+                                                 middle + direction.z() * half_height * share);
+                      }),
+              at);
+}
+
+/// Adds a hedge of leaves that fill a box.
+inline void add_hedge(scene& world, std::string name, const pose& at, const bounds& extent,
+                      random_stream& random) {
+    const Eigen::Vector3d size = extent.size();
+    world.add_object(std::move(name),
+                     foliage(random, size.x() * size.y() * size.z(), 5.0, 0.11,
+                             [&] {
+                                 const double x = random.uniform(extent.low.x(), extent.high.x());
+                                 const double y = random.uniform(extent.low.y(), extent.high.y());
+                                 const double z = random.uniform(extent.low.z(), extent.high.z());
+                                 return Eigen::Vector3d(x, y, z);
+                             }),
+                     at);
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/detail/house.hpp -----------------------------------------------------
+
+/// @file
+/// Houses of a street: a facade with recessed windows and a door, gables and a pitched roof. The
+/// wall of the facade is one surface, without its recesses.
+
+namespace gnomon::simulation::detail {
+
+/// A house. Its frame lies on the ground at an end of the facade: x runs along the facade, y into
+/// the house. Lengths in [m].
+struct house {
+    double width = 10.0;   ///< of the facade
+    double depth = 9.0;    ///< along y
+    double eaves = 6.0;    ///< height of the facade
+    double ridge = 9.0;    ///< height of the roof
+    double recess = 0.15;  ///< of windows and door behind the wall
+    int storeys = 2;       ///< rows of windows
+    int bays = 4;          ///< columns of windows
+    int door = 1;          ///< number of the bay of the door, from 0
+    double window_width = 1.2;
+    double sill = 0.9;    ///< height of the lower edge of a window above its storey
+    double lintel = 2.3;  ///< height of the upper edge of windows and door above their storey
+
+    /// The middle of a bay, along x.
+    [[nodiscard]] double middle_of(int bay) const { return (bay + 0.5) * width / bays; }
+};
+
+/// A rectangle of a facade [m].
+struct facade_cell {
+    double left;
+    double right;
+    double low;
+    double high;
+};
+
+/// Adds an opening: a pane behind the wall with the given name, and what connects them.
+inline void add_recess(mesh_builder& b, const std::string& name, const facade_cell& c,
+                       double depth) {
+    const auto corner = [](double x, double y, double z) { return Eigen::Vector3d(x, y, z); };
+    const auto level = [&](const char* side, double z) {
+        b.surface(name + side)
+            .face({corner(c.left, 0.0, z), corner(c.right, 0.0, z), corner(c.right, depth, z),
+                   corner(c.left, depth, z)});
+    };
+    const auto upright = [&](const char* side, double x) {
+        b.surface(name + side)
+            .face({corner(x, 0.0, c.low), corner(x, depth, c.low), corner(x, depth, c.high),
+                   corner(x, 0.0, c.high)});
+    };
+    b.surface(name).face({corner(c.left, depth, c.low), corner(c.right, depth, c.low),
+                          corner(c.right, depth, c.high), corner(c.left, depth, c.high)});
+    upright(" left", c.left);
+    upright(" right", c.right);
+    level(" lintel", c.high);
+    // Below a door lies the ground.
+    if (c.low > 0.0) level(" sill", c.low);
+}
+
+/// The facade in the plane y = 0: a grid of cells, of which those in odd rows and columns are open.
+[[nodiscard]] inline triangle_mesh facade_of(const house& h) {
+    std::vector<double> x{0.0}, z{0.0};
+    for (int bay = 0; bay < h.bays; ++bay) {
+        x.push_back(h.middle_of(bay) - 0.5 * h.window_width);
+        x.push_back(h.middle_of(bay) + 0.5 * h.window_width);
+    }
+    x.push_back(h.width);
+    for (int storey = 0; storey < h.storeys; ++storey) {
+        z.push_back(storey * h.eaves / h.storeys + h.sill);
+        z.push_back(storey * h.eaves / h.storeys + h.lintel);
+    }
+    z.push_back(h.eaves);
+
+    mesh_builder wall;
+    wall.surface("wall");
+    std::vector<facade_cell> windows;
+    const auto door = static_cast<std::size_t>(2 * h.door + 1);
+    for (std::size_t row = 0; row + 1 < z.size(); ++row) {
+        for (std::size_t column = 0; column + 1 < x.size(); ++column) {
+            if (column == door && row < 2) continue;
+            const facade_cell c{x[column], x[column + 1], z[row], z[row + 1]};
+            if (row % 2 == 1 && column % 2 == 1) {
+                windows.push_back(c);
+            } else {
+                wall.face(
+                    {Eigen::Vector3d(c.left, 0.0, c.low), Eigen::Vector3d(c.right, 0.0, c.low),
+                     Eigen::Vector3d(c.right, 0.0, c.high), Eigen::Vector3d(c.left, 0.0, c.high)});
+            }
+        }
+    }
+    add_recess(wall, "door", {x[door], x[door + 1], 0.0, h.lintel}, h.recess);
+    int number = 0;
+    for (const facade_cell& c : windows)
+        add_recess(wall, numbered("window", ++number), c, h.recess);
+    return wall.mesh();
+}
+
+/// The sides and the roof of a house.
+[[nodiscard]] inline triangle_mesh shell_of(const house& h) {
+    const double middle = 0.5 * h.depth;
+    const auto gable = [&](double x) {
+        return std::vector<Eigen::Vector3d>{{x, 0.0, 0.0},
+                                            {x, h.depth, 0.0},
+                                            {x, h.depth, h.eaves},
+                                            {x, middle, h.ridge},
+                                            {x, 0.0, h.eaves}};
+    };
+    const auto left = gable(0.0), right = gable(h.width);
+    mesh_builder b;
+    b.surface("left").face(left).surface("right").face(right);
+    b.surface("back").face({left[1], right[1], right[2], left[2]});
+    b.surface("roof back").face({left[2], right[2], right[3], left[3]});
+    b.surface("roof front").face({left[3], right[3], right[4], left[4]});
+    return b.mesh();
+}
+
+/// Adds a house with the parts "facade" (surfaces "wall", "door", "window 1", ..., and for each
+/// opening its "left", "right", "lintel" and, of windows, "sill") and "shell" ("left", "right",
+/// "back", "roof back", "roof front").
+inline void add_house(scene& world, std::string name, const house& h, const pose& at) {
+    const std::int32_t object = world.add_object(std::move(name));
+    world.add(world.add_part(object, "facade"), facade_of(h), at);
+    world.add(world.add_part(object, "shell"), shell_of(h), at);
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/vehicle.hpp ----------------------------------------------------------
+
+/// @file
+/// Cars and vans, given by their dimensions: a body with a bonnet, a cabin with a slanted
+/// windscreen and four wheels, with planar faces except for the wheels.
+
+namespace gnomon::simulation {
+
+/// A car. Its frame lies on the road below the middle of the body; it faces +x. Lengths in [m].
+struct vehicle {
+    double length = 4.30;       ///< of the body, along x
+    double width = 1.76;        ///< of the body, along y
+    double height = 1.47;       ///< of the roof
+    double clearance = 0.22;    ///< height of the lower side of the body
+    double belt_height = 0.92;  ///< of the upper side of the body, where the cabin begins
+    double nose_height = 0.72;  ///< of the front end of the bonnet
+    double bonnet = 1.05;       ///< length of the bonnet
+    double boot = 0.45;         ///< length of the boot, behind the cabin
+    double windscreen = 0.75;   ///< how far the top of the windscreen lies behind its bottom
+    double rear_window = 0.40;  ///< how far the top of the rear window lies before its bottom
+    double roof_inset = 0.14;   ///< how far the roof is narrower than the body, at each side
+    double wheel_diameter = 0.63;
+    double wheel_width = 0.21;
+    double wheel_base = 2.60;  ///< distance between the axles
+};
+
+/// A delivery van.
+[[nodiscard]] inline vehicle van() {
+    return {.length = 5.20,
+            .width = 1.96,
+            .height = 2.15,
+            .clearance = 0.26,
+            .belt_height = 1.12,
+            .nose_height = 0.92,
+            .bonnet = 0.75,
+            .boot = 0.02,
+            .windscreen = 0.70,
+            .rear_window = 0.08,
+            .roof_inset = 0.10,
+            .wheel_diameter = 0.68,
+            .wheel_width = 0.22,
+            .wheel_base = 3.20};
+}
+
+/// The vehicle with all lengths multiplied by `scale`.
+[[nodiscard]] inline vehicle scaled(vehicle v, double scale) {
+    for (double* measure : {&v.length, &v.width, &v.height, &v.clearance, &v.belt_height,
+                            &v.nose_height, &v.bonnet, &v.boot, &v.windscreen, &v.rear_window,
+                            &v.roof_inset, &v.wheel_diameter, &v.wheel_width, &v.wheel_base}) {
+        *measure *= scale;
+    }
+    return v;
+}
+
+namespace detail {
+
+/// @throws std::invalid_argument  unless the vehicle can be built
+inline void require_valid(const vehicle& v) {
+    using gnomon::detail::require;
+    for (const double measure : {v.clearance, v.bonnet, v.boot, v.windscreen, v.rear_window,
+                                 v.roof_inset, v.wheel_width}) {
+        require(measure >= 0.0, "vehicle: dimensions must not be negative");
+    }
+    require(v.clearance < v.nose_height && v.nose_height <= v.belt_height &&
+                v.belt_height < v.height && v.height < 100.0,
+            "vehicle: needs clearance < nose height <= belt height < height, less than 100 m");
+    require(v.bonnet + v.windscreen + v.rear_window + v.boot < v.length && v.length < 100.0,
+            "vehicle: needs a roof between windscreen and rear window, and less than 100 m");
+    require(2.0 * v.roof_inset < v.width && 2.0 * v.wheel_width < v.width && v.width < 100.0,
+            "vehicle: roof and wheels must be narrower than the body, less than 100 m wide");
+    require(
+        v.wheel_diameter > 0.0 && v.wheel_base > 0.0 && v.wheel_base + v.wheel_diameter <= v.length,
+        "vehicle: the wheels must lie between the ends of the body");
+}
+
+}  // namespace detail
+
+/// Adds a vehicle with the parts "body" (surfaces "bottom", "front", "bonnet", "deck", "rear",
+/// "left", "right"), "cabin" ("windscreen", "roof", "rear window", "floor", "left", "right") and
+/// "wheel 1" to "wheel 4". The deck is the upper side of the body below the cabin and of the boot.
+/// @return the number of the object
+/// @throws std::invalid_argument  if dimensions are negative, not finite, or inconsistent; the
+///                                scene is then left as it was
+inline std::int32_t add(scene& world, std::string name, const vehicle& v, const pose& at = {}) {
+    detail::require_valid(v);
+    const double front = 0.5 * v.length;
+    const double half = 0.5 * v.width;
+    const double roof = half - v.roof_inset;
+    const double cowl = front - v.bonnet;
+    const double end = v.boot - front;
+    const std::array<detail::profile_corner, 5> body{{{-front, v.clearance, half},
+                                                      {front, v.clearance, half},
+                                                      {front, v.nose_height, half},
+                                                      {cowl, v.belt_height, half},
+                                                      {-front, v.belt_height, half}}};
+    const std::array<detail::profile_corner, 4> cabin{{{cowl, v.belt_height, half},
+                                                       {cowl - v.windscreen, v.height, roof},
+                                                       {end + v.rear_window, v.height, roof},
+                                                       {end, v.belt_height, half}}};
+    const std::int32_t object = world.add_object(std::move(name));
+    world.add(
+        world.add_part(object, "body"),
+        detail::symmetric_solid(body, std::array{"bottom", "front", "bonnet", "deck", "rear"}), at);
+    world.add(
+        world.add_part(object, "cabin"),
+        detail::symmetric_solid(cabin, std::array{"windscreen", "roof", "rear window", "floor"}),
+        at);
+    // The wheels stand out of the body by a tenth of their width.
+    const double side = half - 0.9 * v.wheel_width;
+    const double radius = 0.5 * v.wheel_diameter;
+    int number = 0;
+    for (const double x : {-0.5 * v.wheel_base, 0.5 * v.wheel_base}) {
+        for (const double turn : {90.0, -90.0}) {
+            pose axle = roll(degrees(turn));
+            axle.position = {x, turn > 0.0 ? -side : side, radius};
+            world.add(world.add_part(object, detail::numbered("wheel", ++number)),
+                      cylinder{radius, v.wheel_width}, at * axle);
+        }
+    }
+    return object;
+}
+
+}  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/detail/street_builder.hpp --------------------------------------------
+
+/// @file
+/// The builder of random streets. Both sides of a street are built alike, each in a frame whose y
+/// axis points away from the middle of the road: that of the scene for the left side, turned by 180
+/// degrees for the right side. Traffic keeps to the right and so goes along -x in either frame.
+
+namespace gnomon::simulation::detail {
+
+/// Draws a street from -length / 2 to length / 2 along x, with the sensor in the middle of its
+/// length. The numbers of objects begin with 1 for each kind.
+class street_builder {
+  public:
+    street_builder(double length, double kerb, std::uint64_t seed)
+        : random_(seed),
+          end_(0.5 * length),
+          kerb_(kerb),
+          lane_(random_.uniform(3.0, 3.4)),
+          road_(lane_ + random_.uniform(2.4, 2.8)),
+          front_(road_ + random_.uniform(2.8, 3.8)) {
+        world_.sensor = at(0.0, -0.5 * lane_, random_.uniform(1.7, 2.0));
+        world_.add_object("road", plane_patch{length, 2.0 * road_});
+        for (const auto& [name, turned] : {std::pair{"left", 0.0}, std::pair{"right", 180.0}}) {
+            side_ = yaw(degrees(turned));
+            add_ground(name);
+            add_houses();
+            add_trees_and_poles();
+            add_parked_vehicles();
+            add_traffic();
+        }
+    }
+
+    /// Adds the car that carries the sensor in the middle of its roof.
+    void add_own_car() {
+        const vehicle car;
+        const double roof = 0.5 * (car.boot + car.rear_window - car.bonnet - car.windscreen);
+        add(world_, "own car", car, at(-roof, world_.sensor.position.y(), 0.0));
+    }
+
+    [[nodiscard]] const scene& world() const { return world_; }
+
+  private:
+    /// "tree 3"
+    [[nodiscard]] std::string next(const std::string& kind) {
+        return numbered(kind, ++count_[kind]);
+    }
+
+    /// The pavement reaches below the houses and to the gaps between them.
+    void add_ground(const std::string& name) {
+        constexpr double behind = 16.0;
+        const double width = front_ + behind - road_;
+        world_.add_object("kerb " + name, plane_patch{2.0 * end_, kerb_},
+                          side_ * at(0.0, road_, 0.5 * kerb_) * roll(degrees(90)));
+        world_.add_object("pavement " + name, plane_patch{2.0 * end_, width},
+                          side_ * at(0.0, road_ + 0.5 * width, kerb_));
+    }
+
+    /// A row of houses. Half of them stand at the pavement, the others behind a hedge.
+    void add_houses() {
+        double x = -end_ + random_.uniform(0.0, 3.0);
+        while (true) {
+            house h;
+            h.bays = 3 + static_cast<int>(random_.bits() % 3);
+            h.width = h.bays * random_.uniform(2.4, 3.1);
+            if (x + h.width > end_) return;
+            h.storeys = 2 + static_cast<int>(random_.bits() % 3);
+            h.eaves = h.storeys * random_.uniform(2.7, 3.2);
+            h.ridge = h.eaves + random_.uniform(1.5, 4.0);
+            h.recess = random_.uniform(0.10, 0.20);
+            h.window_width = random_.uniform(1.0, 1.4);
+            h.door = static_cast<int>(random_.bits() % static_cast<unsigned>(h.bays));
+            const bool has_garden = random_.uniform() < 0.5;
+            const double setback =
+                has_garden ? random_.uniform(1.5, 3.0) : random_.uniform(0.0, 0.5);
+            add_house(world_, next("house"), h, side_ * at(x, front_ + setback, kerb_));
+            if (has_garden) add_hedges(x, h);
+            x += h.width;
+            if (random_.uniform() < 0.3) x += random_.uniform(1.0, 4.0);
+        }
+    }
+
+    /// At the end of the pavement, with an opening before the door of the house.
+    void add_hedges(double x, const house& h) {
+        const double height = random_.uniform(0.9, 1.5);
+        const double path = x + h.middle_of(h.door);
+        for (const auto& [from, to] :
+             {std::pair{x + 0.2, path - 0.7}, std::pair{path + 0.7, x + h.width - 0.2}}) {
+            if (to - from < 1.0) continue;
+            add_hedge(world_, next("hedge"), side_ * at(0.0, front_, kerb_),
+                      {{from, 0.2, 0.05}, {to, 0.75, height}}, random_);
+        }
+    }
+
+    /// In a row on the pavement, near the kerb.
+    void add_trees_and_poles() {
+        for (double x = -end_ + random_.uniform(2.0, 8.0); x < end_ - 2.0;
+             x += random_.uniform(7.0, 12.0)) {
+            const pose place = side_ * at(x, road_ + 0.6, kerb_);
+            const double kind = random_.uniform();
+            if (kind < 0.45) {
+                add_tree(world_, next("tree"), place, random_);
+            } else if (kind < 0.7) {
+                object_builder(world_, next("pole"), place)
+                    .part("post")
+                    .disc(0.0, 0.0, 0.14, 0.0, 6.0)
+                    .part("arm")
+                    .block(0.0, -0.6, 0.08, 1.2, 5.9, 5.98)
+                    .part("lamp")
+                    .block(0.0, -1.3, 0.25, 0.6, 5.8, 5.9);
+            } else if (kind < 0.85) {
+                object_builder(world_, next("pole"), place)
+                    .part("post")
+                    .disc(0.0, 0.0, 0.07, 0.0, 2.7)
+                    .part("sign")
+                    .block(-0.05, 0.0, 0.02, 0.6, 2.0, 2.6);
+            }
+        }
+    }
+
+    /// A car or a van of random size, at a place of the side, along -x.
+    void add_vehicle(const vehicle& v, const std::string& kind, double x, double y) {
+        const angle turned = degrees(180.0 + random_.uniform(-1.5, 1.5));
+        add(world_, next(kind), v, side_ * at(x, y, 0.0) * yaw(turned));
+    }
+
+    [[nodiscard]] std::pair<vehicle, std::string> any_vehicle() {
+        const double scale = random_.uniform(0.92, 1.08);
+        const bool is_van = random_.uniform() < 0.2;
+        return {scaled(is_van ? van() : vehicle{}, scale), is_van ? "van" : "car"};
+    }
+
+    /// At the kerb, at distances that one can leave from, and with free places.
+    void add_parked_vehicles() {
+        double x = -end_ + random_.uniform(0.0, 6.0);
+        while (true) {
+            const auto [v, kind] = any_vehicle();
+            const double y = road_ - 0.5 * v.width - random_.uniform(0.15, 0.35);
+            if (x + v.length > end_) return;
+            add_vehicle(v, kind, x + 0.5 * v.length, y);
+            x += v.length + random_.uniform(0.6, 1.4);
+            if (random_.uniform() < 0.6) x += random_.uniform(5.0, 18.0);
+        }
+    }
+
+    /// In the middle of the lane, not where the sensor's own car is.
+    void add_traffic() {
+        constexpr double free = 9.0;
+        for (double x = -end_ + random_.uniform(3.0, 25.0); x < end_ - 3.0;
+             x += random_.uniform(15.0, 45.0)) {
+            const auto [v, kind] = any_vehicle();
+            const double y = 0.5 * lane_ + random_.uniform(-0.15, 0.15);
+            const bool is_own_lane = side_.point_out({0.0, 1.0, 0.0}).y() < 0.0;
+            if (!is_own_lane || std::abs(x) > free) add_vehicle(v, kind, x, y);
+        }
+    }
+
+    scene world_;
+    random_stream random_;
+    double end_;    ///< half the length of the street [m]
+    double kerb_;   ///< height of the pavements [m]
+    double lane_;   ///< width of a lane [m]
+    double road_;   ///< half the width of the road, from kerb to kerb [m]
+    double front_;  ///< the end of the pavement, from the middle of the road [m]
+    pose side_;     ///< of the side that is built
+    std::map<std::string, int> count_;  ///< objects of each kind
+};
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/street.hpp -----------------------------------------------------------
+
+/// @file
+/// Random streets, one for each seed: a road between kerbs and pavements, rows of houses, hedges,
+/// trees, poles, and parked and driving vehicles.
+
+namespace gnomon::simulation::scenes {
+
+/// Options of street().
+struct street_options {
+    double length = 120.0;  ///< along x, with the sensor in the middle [m]
+    double kerb = 0.12;     ///< height of the pavements above the road [m]
+    bool own_car = false;   ///< a car below the sensor, which stands where the street's sensor is
+    std::uint64_t seed = 1;
+};
+
+/// A straight street along x on the plane z = 0: a road of two lanes of 3.0 to 3.4 m and two rows
+/// of parked vehicles, pavements of 2.8 to 3.8 m and houses of 2 to 4 storeys, half of them behind
+/// hedges. The sensor is level, on the right lane, 1.7 to 2.0 m above the road, and looks along the
+/// lane; no vehicle is less than 6 m before or behind it in its lane. Windows reflect as walls do,
+/// and all vehicles stand still.
+///
+/// Objects have stable names, with numbers from 1 for each kind; objects of the left side come
+/// first. The surfaces that a segmentation should find whole, by their full names:
+///
+///     road/body/plane                  pavement left/body/plane       kerb left/body/plane
+///     house 3/facade/wall              house 3/facade/window 5        house 3/facade/door
+///     house 3/shell/left, right        house 3/shell/roof front
+///     car 2/body/left                  van 1/cabin/windscreen         own car/cabin/roof
+///     tree 1/trunk/mantle              tree 1/crown/leaves            hedge 1/body/leaves
+///     pole 1/post/mantle               pole 1/sign/-x                 pole 2/lamp/-z
+///
+/// The wall of a facade is one surface without its recesses, which are 0.10 to 0.20 m deep. The
+/// kerb is the upright step only; its upper side belongs to the pavement.
+/// @throws std::invalid_argument  unless the length is from 20 to 1,000 m and the kerb from 0.01 to
+///                                0.5 m high
+[[nodiscard]] inline scene street(const street_options& options = {}) {
+    gnomon::detail::require(options.length >= 20.0 && options.length <= 1000.0,
+                            "street: the length must be from 20 to 1,000 m");
+    gnomon::detail::require(options.kerb >= 0.01 && options.kerb <= 0.5,
+                            "street: the kerb must be from 0.01 to 0.5 m high");
+    detail::street_builder builder(options.length, options.kerb, options.seed);
+    if (options.own_car) builder.add_own_car();
+    return builder.world();
+}
+
+}  // namespace gnomon::simulation::scenes
 
 // -------- gnomon/simulation.hpp ------------------------------------------------------------------

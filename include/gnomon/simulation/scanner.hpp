@@ -13,6 +13,8 @@
 #include <gnomon/core/angle.hpp>
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/simulation/detail/line_scanner.hpp>
+#include <gnomon/simulation/pose.hpp>
 
 namespace gnomon::simulation {
 
@@ -27,11 +29,19 @@ struct scanner {
 
     /// The number of beams of a scan line. Precondition: the scanner is valid.
     [[nodiscard]] std::size_t beams() const {
-        return whole(field_of_view.radians() / resolution.radians());
+        return detail::whole(field_of_view.radians() / resolution.radians());
     }
 
     /// The number of scan lines in `seconds`. Precondition: fewer than 2^53.
-    [[nodiscard]] std::size_t lines(double seconds) const { return whole(seconds * frequency); }
+    [[nodiscard]] std::size_t lines(double seconds) const {
+        return detail::whole(seconds * frequency);
+    }
+
+    /// Scan lines per second [Hz].
+    [[nodiscard]] double line_rate() const { return frequency; }
+
+    /// The frame of a scan line in the sensor's frame: all lie in its x-y plane.
+    [[nodiscard]] pose line_pose(std::size_t) const { return {}; }
 
     /// The direction of beam j in the sensor's frame, from right to left and symmetric about the
     /// optical axis. The field of view is divided into sectors of the width `resolution` with a
@@ -58,10 +68,6 @@ struct scanner {
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
                 "scanner: needs 0 <= min_range < max_range, finite");
     }
-
-  private:
-    /// The largest integer not above x, with a tolerance of 1e-6 for rounding.
-    static std::size_t whole(double x) { return static_cast<std::size_t>(std::floor(x + 1e-6)); }
 };
 
 /// The range finders of the thesis, with the figures of their data sheets. The data sheets give

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Simulates the scan of a scene. A range finder moves along its trajectory, and each beam gives a
-/// reading; a depth camera stands still, and each pixel gives one. Each valid reading is a point
-/// (Klasing 2010, Sec. 2.4.3).
+/// Simulates the scan of a scene. A range finder or a spinning lidar moves along its trajectory,
+/// and each beam gives a reading; a depth camera stands still, and each pixel gives one. Each valid
+/// reading is a point (Klasing 2010, Sec. 2.4.3).
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -23,6 +24,7 @@
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/depth_camera.hpp>
 #include <gnomon/simulation/detail/instrument.hpp>
+#include <gnomon/simulation/detail/line_scanner.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
@@ -106,74 +108,89 @@ template <ray_caster C, execution X>
     return result;
 }
 
+/// Where the lines of a scan are measured.
+struct measured_lines {
+    std::vector<pose> poses;                  ///< of the lines' frames in the scene
+    std::vector<Eigen::Vector3d> viewpoints;  ///< of the lines [m]
+
+    /// @throws std::invalid_argument  if the duration is negative or not finite, there are more
+    ///                                rays than a point range may hold, or a pose of the trajectory
+    ///                                is no rigid motion
+    measured_lines(const sensor_trajectory auto& trajectory, const line_scanner auto& finder) {
+        const double duration = trajectory.duration;
+        const double rate = finder.line_rate();
+        gnomon::detail::require(duration >= 0.0 && duration * rate < 4e9,
+                                "simulate: the duration must be finite and not negative");
+        const std::size_t lines = finder.lines(duration);
+        gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / finder.beams(),
+                                "simulate: more rays than a point range may hold");
+        for (std::size_t line = 0; line < lines; ++line) {
+            const pose sensor = trajectory((static_cast<double>(line) + 0.5) / rate);
+            gnomon::detail::require(is_rigid(sensor),
+                                    "simulate: a pose of the trajectory is no rigid motion");
+            poses.push_back(sensor * finder.line_pose(line));
+            viewpoints.push_back(sensor.position);
+        }
+    }
+
+    /// One view point for the points of all readings, or one per line if the sensor moves.
+    [[nodiscard]] viewpoint_table table(const auto& chunks, std::size_t beams) && {
+        if (viewpoints.empty()) return {};
+        const bool moves =
+            std::any_of(viewpoints.begin(), viewpoints.end(), [&](const Eigen::Vector3d& v) {
+                return squared_distance(v, viewpoints.front()) > 0.0;
+            });
+        if (!moves) return viewpoints.front();
+        std::vector<point_index> line_of_point;
+        for (const auto& kept : chunks) {
+            for (const auto& one : kept)
+                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
+        }
+        return viewpoint_table(std::move(viewpoints), std::move(line_of_point));
+    }
+};
+
 }  // namespace detail
 
-/// Simulates a scan, scan line by scan line, with the given ray caster.
+/// Simulates a scan, line by line, with the given ray caster.
 ///
 /// The same seed gives the same bytes for every execution.
 /// Complexity: O(n log(shapes)), times the number of sub-rays if the beam has a footprint; memory
-/// is proportional to the points, not to the rays.
+/// is proportional to the points and the lines, not to the rays.
 ///
 /// @param world   source of the ground truth. Precondition: `caster` was built from it
-/// @param finder  gives n = lines(duration) * beams() rays
+/// @param finder  a `scanner` or a `spinning_lidar`; gives n = lines(duration) * beams() rays
 /// @return the points of all readings that did not fail, with keep_failed also of those that did;
-///         one view point for all points, or one per scan line if the sensor moves
+///         one view point for all points, or, if the sensor moves, one per scan line or column
 /// @throws std::invalid_argument  if scanner or beam are not valid, the duration is negative or not
 ///                                finite, there are more rays than a point range may hold, a pose
 ///                                of the trajectory is no rigid motion, or the caster reports
 ///                                a surface that `world` does not have
-template <ray_caster C, sensor_trajectory T, execution X = sequential>
+template <ray_caster C, sensor_trajectory T, detail::line_scanner S = scanner,
+          execution X = sequential>
 [[nodiscard]] true_scan simulate(const scene& world, const C& caster, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+                                 const S& finder = {}, const beam& b = {}, const X& run = {}) {
     finder.require_valid();
-    const double duration = trajectory.duration;
-    gnomon::detail::require(duration >= 0.0 && duration * finder.frequency < 4e9,
-                            "simulate: the duration must be finite and not negative");
-    const std::size_t beams = finder.beams();
-    const std::size_t lines = finder.lines(duration);
-    gnomon::detail::require(lines < std::numeric_limits<point_index>::max() / beams,
-                            "simulate: more rays than a point range may hold");
+    detail::measured_lines lines(trajectory, finder);
     const detail::instrument<C> read(caster, b, finder.min_range, finder.max_range);
-
-    std::vector<pose> poses;
-    std::vector<Eigen::Vector3d> viewpoints;
-    bool moves = false;
-    for (std::size_t line = 0; line < lines; ++line) {
-        poses.push_back(trajectory((static_cast<double>(line) + 0.5) / finder.frequency));
-        gnomon::detail::require(is_rigid(poses.back()),
-                                "simulate: a pose of the trajectory is no rigid motion");
-        viewpoints.push_back(poses.back().position);
-        moves = moves || squared_distance(viewpoints.back(), viewpoints.front()) > 0.0;
-    }
+    const std::size_t beams = finder.beams();
     std::vector<Eigen::Vector3d> fan;
     for (std::size_t j = 0; j < beams; ++j) fan.push_back(finder.direction(j));
     const auto ray_of = [&](std::size_t i) {
-        const pose& sensor = poses[i / beams];
-        return ray{sensor.position, sensor.direction_out(fan[i % beams])};
+        const pose& line = lines.poses[i / beams];
+        return ray{line.position, line.direction_out(fan[i % beams])};
     };
 
-    const auto readings = detail::read_rays<C>(read, b, lines * beams, ray_of, run);
+    const auto readings = detail::read_rays<C>(read, b, lines.poses.size() * beams, ray_of, run);
     true_scan result = detail::points_of(readings, world, ray_of);
-    if (moves) {
-        std::vector<point_index> line_of_point;
-        line_of_point.reserve(result.scan.size());
-        for (const auto& kept : readings) {
-            for (const auto& one : kept)
-                line_of_point.push_back(static_cast<point_index>(one.ray / beams));
-        }
-        result.scan.viewpoints = viewpoint_table(std::move(viewpoints), std::move(line_of_point));
-    } else if (!viewpoints.empty()) {
-        result.scan.viewpoints = viewpoints.front();
-    }
+    result.scan.viewpoints = std::move(lines).table(readings, beams);
     return result;
 }
 
 /// Simulates a scan, as above, with a `bvh_caster`.
-template <sensor_trajectory T, execution X = sequential>
-[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory,
-                                 const scanner& finder = {}, const beam& b = {},
-                                 const X& run = {}) {
+template <sensor_trajectory T, detail::line_scanner S = scanner, execution X = sequential>
+[[nodiscard]] true_scan simulate(const scene& world, const T& trajectory, const S& finder = {},
+                                 const beam& b = {}, const X& run = {}) {
     return simulate(world, bvh_caster(world), trajectory, finder, b, run);
 }
 
