@@ -43,7 +43,7 @@ class across_lines {
           reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
-    /// line, unless some of its neighbors are across the line.
+    /// line, if none of its neighbors is across the line.
     /// @param neighbors  their indices
     /// @return indices, some of which may be among the neighbors; valid until the next call
     [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
@@ -56,9 +56,8 @@ class across_lines {
         for (const point_index j : neighbors)
             line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
         line.fit();
-        const auto across = std::ranges::count_if(
-            offsets_, [&](const auto& offset) { return !line.is_along(offset); });
-        if (across < std::ssize(counts_)) find(i, u, plane, line);
+        if (std::ranges::all_of(offsets_, [&](const auto& o) { return line.is_along(o); }))
+            find(i, u, plane, line);
         return found_;
     }
 

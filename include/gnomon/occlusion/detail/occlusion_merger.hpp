@@ -68,10 +68,7 @@ class occlusion_merger {
     [[nodiscard]] union_find operator()() {
         union_find sets = agglomeration(regions_)(
             pairs(),
-            [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? dissimilarity_of_apart(a, b)
-                                     : std::numeric_limits<double>::infinity();
-            },
+            [this](const planar_region& a, const planar_region& b) { return dissimilarity(a, b); },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
                 unite_labels(labels_, merged);
@@ -91,7 +88,16 @@ class occlusion_merger {
         return pairs_to_compare(
             regions_.size(), options_.candidates,
             [this](std::size_t r) { return regions_[r].is_planar; },
-            [this](std::size_t r) { return regions_[r].fit.centroid; });
+            [this](std::size_t r) { return regions_[r].fit.centroid; },
+            [this](point_index a, point_index b) {
+                return dissimilarity(regions_[a], regions_[b]) <= 1.0;
+            });
+    }
+
+    /// As dissimilarity_of_apart; infinite if the planes are too far from each other.
+    [[nodiscard]] double dissimilarity(const planar_region& a, const planar_region& b) const {
+        return is_near(a, b) ? dissimilarity_of_apart(a, b)
+                             : std::numeric_limits<double>::infinity();
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of

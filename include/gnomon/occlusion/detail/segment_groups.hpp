@@ -21,13 +21,15 @@
 
 namespace gnomon::detail {
 
-/// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
-/// their numbers, ascending and each pair once. O(m log m) for m segments, or O(m^2) where all are
-/// wanted. (A template, so that only its users compile a search.)
+/// Each flat one of `parts` segments with those `wanted` possible ones whose centroids are nearest,
+/// by their numbers, ascending and each pair once. The 300 nearest ones are looked at. O(m log m)
+/// for m segments. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
+/// @param is_possible  is_possible(s, t): whether two flat ones may be a pair
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
-                                                    auto&& is_flat, auto&& centroid_of) {
+                                                    auto&& is_flat, auto&& centroid_of,
+                                                    auto&& is_possible) {
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {
@@ -35,30 +37,38 @@ namespace gnomon::detail {
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
     }
+    constexpr std::size_t most = 300;  // performance only: almost all that a scan has
     scratch<region_pair> pairs;
-    if (flat.size() <= wanted) {
-        for (std::size_t f = 0; f < flat.size(); ++f)
-            for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
-        return pairs;
-    }
-    constexpr std::size_t few = 300;  // performance only: for more a tree is faster than sorting
-    if (flat.size() > few) {
-        const spatial_index index(centroids);
-        scratch<neighbor> nearest;
-        for (std::size_t f = 0; f < flat.size(); ++f) {
-            knn{.k = wanted}.find(index, f, nearest);
-            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    scratch<neighbor> nearest;  // by their numbers among the flat ones
+    const auto add_nearest = [&](std::size_t f) {
+        std::size_t found = 0;
+        for (auto n = nearest.begin(); n != nearest.end() && found < wanted; ++n) {
+            const region_pair pair = std::minmax(flat[f], flat[n->index]);
+            if (!is_possible(pair.first, pair.second)) continue;
+            pairs.push_back(pair);
+            ++found;
         }
-    } else {
-        scratch<std::pair<double, point_index>> others;
+        return found;
+    };
+    if (flat.size() <= most) {
         for (std::size_t f = 0; f < flat.size(); ++f) {
-            others.clear();
+            nearest.clear();
             for (std::size_t g = 0; g < flat.size(); ++g)
                 if (g != f)
-                    others.emplace_back(squared_distance(centroids[f], centroids[g]), flat[g]);
-            std::sort(others.begin(), others.end());
-            for (std::size_t o = 0; o < wanted; ++o)
-                pairs.push_back(std::minmax(flat[f], others[o].second));
+                    nearest.push_back({squared_distance(centroids[f], centroids[g]),
+                                       static_cast<point_index>(g)});
+            std::sort(nearest.begin(), nearest.end());
+            add_nearest(f);
+        }
+    } else {
+        const spatial_index index(centroids);
+        for (std::size_t f = 0; f < flat.size(); ++f) {
+            const std::size_t before = pairs.size();
+            knn{.k = wanted}.find(index, f, nearest);
+            if (add_nearest(f) >= std::min(wanted, flat.size() - 1)) continue;
+            pairs.resize(before);
+            knn{.k = std::max(wanted, most)}.find(index, f, nearest);
+            add_nearest(f);
         }
     }
     make_unique(pairs);
