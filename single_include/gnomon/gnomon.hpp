@@ -1149,6 +1149,16 @@ struct plane {
     }
 };
 
+namespace detail {
+
+/// @throws std::invalid_argument  unless the plane is in Hesse normal form
+inline void require_hesse(const plane& p) {
+    constexpr double rounding = 1e-6;  // numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
+            "the normal of a plane, or the direction upwards, must be of unit length");
+}
+
+}  // namespace detail
 }  // namespace gnomon
 
 // -------- gnomon/core/random.hpp -----------------------------------------------------------------
@@ -1235,7 +1245,7 @@ class reset_on_move {
 
 namespace gnomon {
 
-/// The view point of every point of a cloud.
+/// The view point of every point of a cloud. A value that does not change.
 class viewpoint_table {
   public:
     /// None known: the origin of the sensor frame stands for all.
@@ -1243,21 +1253,25 @@ class viewpoint_table {
 
     /// One view point [m] for the whole cloud.
     explicit(false) viewpoint_table(const Eigen::Vector3d& viewpoint)
-        : positions_{viewpoint}, scope_(scope::cloud) {}
+        : positions_{viewpoint}, scope_(scope::cloud), number_(next_number()) {}
 
     /// One view point [m] per point, in the points' order.
     explicit viewpoint_table(std::vector<Eigen::Vector3d> per_point)
-        : positions_(std::move(per_point)), scope_(scope::point) {}
+        : positions_(std::move(per_point)), scope_(scope::point), number_(next_number()) {}
 
     /// One view point [m] per scan, and for each point the number of its scan.
     /// @throws std::invalid_argument  if a number has no scan
     viewpoint_table(std::vector<Eigen::Vector3d> per_scan, std::vector<point_index> scan_of_point)
         : positions_(std::move(per_scan)),
           scan_of_point_(std::move(scan_of_point)),
-          scope_(scope::scan) {
+          scope_(scope::scan),
+          number_(next_number()) {
         for (const point_index s : scan_of_point_)
             detail::require(s < positions_.size(), "viewpoint_table: a point of a missing scan");
     }
+
+    /// The same number as that of another table: a copy of it, or as empty.
+    [[nodiscard]] std::uint64_t number() const { return number_; }
 
     /// Whether no view point is known.
     [[nodiscard]] bool empty() const { return positions_.empty(); }
@@ -1301,9 +1315,15 @@ class viewpoint_table {
   private:
     enum class scope : char { none, cloud, scan, point };
 
+    [[nodiscard]] static std::uint64_t next_number() {
+        static std::atomic<std::uint64_t> last{0};
+        return ++last;
+    }
+
     std::vector<Eigen::Vector3d> positions_;
     std::vector<point_index> scan_of_point_;
     detail::reset_on_move<scope> scope_;
+    detail::reset_on_move<std::uint64_t> number_;
 };
 
 /// A range that knows its view points: a `scan`, or what `with_viewpoint(s)` returns.
@@ -2517,6 +2537,61 @@ class assigned_whole : public T {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/core/detail/made_when_asked.hpp -------------------------------------------------
+
+/// @file
+/// Something that follows from a value and is made when it is first asked for.
+
+namespace gnomon::detail {
+
+/// Holds it, whatever its type. It is made again where it is no longer current, in the same memory.
+/// A copy holds nothing. Calls of get() are thread-safe.
+class made_when_asked {
+  public:
+    made_when_asked() = default;
+    made_when_asked(const made_when_asked&) {}
+    made_when_asked(made_when_asked&& other) noexcept { take(other); }
+    made_when_asked& operator=(const made_when_asked&) {
+        forget();
+        return *this;
+    }
+    made_when_asked& operator=(made_when_asked&& other) noexcept {
+        take(other);
+        return *this;
+    }
+    ~made_when_asked() = default;
+
+    /// Whatever was made is no longer current.
+    void forget() { is_made_ = false; }
+
+    /// @param is_current  is_current(what): whether what was made before still is
+    /// @param make        make(what): makes it, in the memory that it has. Throws what this throws.
+    template <class What>
+    [[nodiscard]] const What& get(auto&& is_current, auto&& make) const {
+        const guard_of locked(guard_);
+        if (!what_) what_ = std::make_shared<What>();
+        auto& what = *static_cast<What*>(what_.get());
+        if (!is_made_ || !is_current(std::as_const(what))) {
+            is_made_ = false;
+            make(what);
+            is_made_ = true;
+        }
+        return what;
+    }
+
+  private:
+    void take(made_when_asked& other) {
+        what_ = std::move(other.what_);
+        is_made_ = std::exchange(other.is_made_, false);
+    }
+
+    mutable mutex guard_;
+    mutable std::shared_ptr<void> what_;  // always of one type
+    mutable bool is_made_ = false;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/touched_vector.hpp --------------------------------------------------
 
 /// @file
@@ -3553,6 +3628,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
     void clear() {
         tree_.clear();
         viewpoints = {};
+        kept.forget();
     }
 
     /// Replaces the points, in the memory of the index; allocates only to grow. If this throws, the
@@ -3562,6 +3638,7 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
+        kept.forget();
         try {
             detail::with_table_of(points, [this](auto&& table) {
                 viewpoints = std::forward<decltype(table)>(table);
@@ -3608,6 +3685,8 @@ class spatial_index : public detail::index_queries<spatial_index> {
 
     /// The tree, for algorithms that search for many points at once.
     [[nodiscard]] const detail::leaf_tree& tree() const { return tree_; }
+    /// What algorithms derive from the points and keep here: see detail/across_lines.hpp.
+    detail::made_when_asked kept;
 
   private:
     friend class detail::index_queries<spatial_index>;
@@ -6108,12 +6187,309 @@ void neighborhoods_into(adjacency& graph, const R& points, const N& policy, cons
 
 }  // namespace gnomon
 
+// -------- gnomon/neighborhoods/detail/scan_line.hpp ----------------------------------------------
+
+/// @file
+/// The direction of the scan line through a ray, from the rays around it: nothing need be known of
+/// the sensor, neither the number of a beam nor an axis.
+
+namespace gnomon::detail {
+
+/// Where other rays are around one ray, in the plane across it.
+class ray_plane {
+  public:
+    /// @param u  the direction of the ray, of unit length
+    explicit ray_plane(const Eigen::Vector3d& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
+
+    /// The two coordinates of a direction [rad], for directions near the ray.
+    [[nodiscard]] std::array<double, 2> offset(const Eigen::Vector3d& direction) const {
+        return {dot(direction, right_), dot(direction, up_)};
+    }
+
+  private:
+    Eigen::Vector3d right_, up_;
+};
+
+/// The axis through a ray that most of the rays around it are near. Angles are doubled, so that
+/// both ends of the axis are one.
+class scan_line {
+  public:
+    /// Adds another ray.
+    void add(const std::array<double, 2>& offset, double weight = 1.0) {
+        const auto [x, y] = offset;
+        const double squared = x * x + y * y;
+        if (!(squared > 0.0)) return;
+        cosines_ += weight * (x * x - y * y) / squared;
+        sines_ += weight * 2.0 * x * y / squared;
+    }
+
+    /// Fits the axis to the rays.
+    void fit() {
+        const double size = std::sqrt(cosines_ * cosines_ + sines_ * sines_);
+        if (!(size > 0.0)) return;
+        cosines_ /= size;
+        sines_ /= size;
+        turn_ = {std::sqrt(0.5 + 0.5 * cosines_),
+                 std::copysign(std::sqrt(0.5 - 0.5 * cosines_), sines_)};
+    }
+
+    /// Whether a ray is within 45 degrees of the axis. After fit(). The cosine of the doubled angle
+    /// decides.
+    [[nodiscard]] bool is_along(const std::array<double, 2>& offset) const {
+        const auto [x, y] = offset;
+        return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= 0.0;
+    }
+
+    /// Which of the four quadrants a ray is in: 0 and 1 along the axis, 2 and 3 across it. After
+    /// fit().
+    [[nodiscard]] std::size_t quadrant(const std::array<double, 2>& offset) const {
+        const double along = turn_[0] * offset[0] + turn_[1] * offset[1];
+        const double across = turn_[0] * offset[1] - turn_[1] * offset[0];
+        return is_along(offset) ? (along < 0.0 ? 1 : 0) : (across < 0.0 ? 3 : 2);
+    }
+
+  private:
+    double cosines_ = 0.0, sines_ = 0.0;  // of twice the angle
+    std::array<double, 2> turn_{1.0, 0.0};  // the axis
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/ray_directions.hpp -----------------------------------------
+
+/// @file
+/// The directions in which the points of an index are seen: a tree of unit vectors, in which rays
+/// next to each other are found whatever the ranges of their points, and how far apart they are.
+
+namespace gnomon {
+
+/// How far apart the rays of a scan are.
+struct ray_spacing {
+    angle along = radians(0);   ///< from a ray to the next one of its scan line
+    angle across = radians(0);  ///< to the next scan line
+};
+
+namespace detail {
+
+/// The direction in which a point of an index is seen, of unit length; NaN if the point is not
+/// finite, or at its view point.
+[[nodiscard]] Eigen::Vector3d ray_direction(const auto& index, std::size_t i) {
+    const Eigen::Vector3d way = difference(index[i], index.viewpoints[i]);
+    if (has_length(way)) return scaled(1.0 / length(way), way);
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    return {nan, nan, nan};
+}
+
+/// Rays with directions closer than this are one ray with several returns [rad^2]; numerical.
+inline constexpr double same_ray = 1e-12;
+
+/// The directions, and their spacing. (A template for compile time only.)
+template <class Tree = leaf_tree>
+class ray_directions {
+  public:
+    /// Replaces the directions by those of the points of an index, in the same memory. O(n log n).
+    template <class Index, execution X>
+    void rebuild(const Index& index, const X& run) {
+        struct {
+            const Index& index;
+            [[nodiscard]] std::size_t size() const { return index.size(); }
+            [[nodiscard]] Eigen::Vector3d operator[](std::size_t i) const {
+                return ray_direction(index, i);
+            }
+        } const directions{index};
+        tree_.rebuild(directions, run);
+        viewpoints_ = index.viewpoints.number();
+        measure_spacing();
+    }
+
+    /// Whether they are of view points with this viewpoint_table::number().
+    [[nodiscard]] bool are_from(std::uint64_t viewpoints) const {
+        return viewpoints_ == viewpoints;
+    }
+    [[nodiscard]] const Tree& tree() const { return tree_; }
+    [[nodiscard]] const ray_spacing& spacing() const { return spacing_; }
+
+  private:
+    /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
+    /// across it.
+    void measure_spacing() {
+        constexpr std::size_t seeds = 128;  // performance only
+        constexpr std::size_t few = 64, many = 1024;  // rays; performance only, 30 : 1 and more
+        scratch<double> along, across;
+        scratch<neighbor> near;
+        const std::size_t step = std::max<std::size_t>(1, tree_.leaves() / seeds);
+        for (std::size_t leaf = 0; leaf < tree_.leaves(); leaf += step) {
+            const Eigen::Vector3d u = first_of(leaf);
+            for (const std::size_t count : {few, many}) {
+                search_tree(tree_, u, {.k = count}, near);
+                const auto [a, b] = nearest_around(u, near);
+                const bool is_whole = b < std::numeric_limits<double>::infinity();
+                if (!is_whole && count == few) continue;
+                if (is_whole) across.push_back(b);
+                if (a < std::numeric_limits<double>::infinity()) along.push_back(a);
+                break;
+            }
+        }
+        const auto median = [](scratch<double>& values) {
+            if (values.empty()) return radians(0);
+            const auto half = values.begin() + std::ssize(values) / 2;
+            std::nth_element(values.begin(), half, values.end());
+            return radians(std::sqrt(*half));
+        };
+        spacing_ = {median(along), median(across)};
+    }
+
+    /// The least direction of a leaf, whatever the order of its points.
+    [[nodiscard]] Eigen::Vector3d first_of(std::size_t leaf) const {
+        std::array<double, 3> least{4.0, 4.0, 4.0};
+        const std::size_t begin = leaf * Tree::leaf_size;
+        for (std::size_t p = begin; p < std::min(begin + Tree::leaf_size, tree_.size()); ++p)
+            least = std::min(least, tree_.position(p));
+        return {least[0], least[1], least[2]};
+    }
+
+    /// The squared distances to the nearest ray along the scan line of a ray and across it [rad^2];
+    /// infinite where there is none.
+    /// @param near  the nearest rays, nearest first
+    [[nodiscard]] std::pair<double, double> nearest_around(const Eigen::Vector3d& u,
+                                                           const scratch<neighbor>& near) const {
+        constexpr std::size_t nearest = 4;  // two to either side, or one in each direction
+        const ray_plane plane(u);
+        scan_line line;
+        std::size_t count = 0;
+        for (const neighbor& q : near) {
+            if (q.squared_distance < same_ray) continue;
+            line.add(plane.offset(direction(q)), 1.0 / q.squared_distance);
+            if (++count == nearest) break;
+        }
+        line.fit();
+        constexpr double none = std::numeric_limits<double>::infinity();
+        std::pair found(none, none);
+        for (const neighbor& q : near) {
+            if (q.squared_distance < same_ray) continue;
+            double& to = line.is_along(plane.offset(direction(q))) ? found.first : found.second;
+            to = std::min(to, q.squared_distance);
+        }
+        return found;
+    }
+
+    [[nodiscard]] Eigen::Vector3d direction(const neighbor& q) const {
+        const auto u = tree_.position(tree_.place_of(q.index));
+        return {u[0], u[1], u[2]};
+    }
+
+    Tree tree_;
+    std::uint64_t viewpoints_ = 0;
+    ray_spacing spacing_;
+};
+
+}  // namespace detail
+}  // namespace gnomon
+
+// -------- gnomon/neighborhoods/detail/across_lines.hpp -------------------------------------------
+
+/// @file
+/// Neighbors across scan lines. Where lines are far apart, as those of a spinning lidar on a road,
+/// the nearest points all lie on one line, which determines no surface. Then the points of the next
+/// rays count as well, in each quadrant around the ray.
+
+namespace gnomon::detail {
+
+/// The directions of an index, which keeps them.
+template <execution X>
+[[nodiscard]] const ray_directions<>& directions_of(const spatial_index& index, const X& run) {
+    return index.kept.get<ray_directions<>>(
+        [&](const ray_directions<>& rays) { return rays.are_from(index.viewpoints.number()); },
+        [&](ray_directions<>& rays) { rays.rebuild(index, run); });
+}
+
+/// Searches for them; each thread has its own object.
+template <class Rays = ray_directions<>>
+class across_lines {
+  public:
+    across_lines(const spatial_index& index, const Rays& rays)
+        : index_(index),
+          rays_(rays),
+          reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
+
+    /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
+    /// line, if none of its neighbors is across the line.
+    /// @param neighbors  their indices
+    /// @return indices, some of which may be among the neighbors; valid until the next call
+    [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
+        found_.clear();
+        const Eigen::Vector3d u = ray_direction(index_, i);
+        if (!all_finite(u)) return {};
+        const ray_plane plane(u);
+        scan_line line;
+        offsets_.clear();
+        for (const point_index j : neighbors)
+            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
+        line.fit();
+        if (std::ranges::all_of(offsets_, [&](const auto& o) { return line.is_along(o); }))
+            find(i, u, plane, line);
+        return found_;
+    }
+
+  private:
+    static constexpr std::size_t wanted = 4;  // in each quadrant: chosen on streets 20,001 to 20,005
+    /// Rays farther than that are not next to each other, but at the end of what is seen.
+    static constexpr double most_spacings = 3.5;  // chosen likewise
+
+    void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
+              const scan_line& line) {
+        constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
+        for (std::size_t count = few; count <= many; count *= 4) {
+            search_tree(rays_.tree(), u, {.k = count, .except = i}, near_);
+            counts_ = {};
+            found_.clear();
+            for (const neighbor& q : near_) {
+                if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
+                std::size_t& in_quadrant =
+                    counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
+                if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
+                ++in_quadrant;
+                found_.push_back(q.index);
+            }
+            const bool is_whole =
+                near_.size() < count || near_.back().squared_distance > reach_ * reach_ ||
+                std::ranges::all_of(counts_, [](std::size_t n) { return n == wanted; });
+            if (is_whole) return;
+        }
+    }
+
+    /// Whether two points may be on one surface that is seen from about one place: the straight
+    /// line between them is at an angle to the farther ray, other than across a step of the depth.
+    [[nodiscard]] bool is_beside(point_index i, point_index j) const {
+        constexpr double least_sine = 0.026;  // of 1.5 degrees: chosen likewise
+        constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
+        const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
+        const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
+        if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;
+        const Eigen::Vector3d chord = difference(b, a);
+        const Eigen::Vector3d& far = dot(a, a) > dot(b, b) ? a : b;
+        const Eigen::Vector3d c = cross(chord, far);
+        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
+    }
+
+    const spatial_index& index_;
+    const Rays& rays_;
+    double reach_;  // [rad]
+    std::array<std::size_t, 4> counts_{};
+    scratch<std::array<double, 2>> offsets_;
+    scratch<neighbor> near_;
+    scratch<point_index> found_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/noise_knn.hpp -----------------------------------------------------
 
 /// @file
 /// The k nearest neighbors within a few standard deviations of the noise: as wide as a normal
 /// requires, and no wider, so that edges stay sharp where the sensor is precise. Where fewer points
-/// are that near, the nearest few, however far.
+/// are that near, the nearest few, however far; and where these lie on one scan line, the points of
+/// the next rays around it as well, so that a surface is determined (detail/across_lines.hpp).
 
 namespace gnomon {
 
@@ -6123,6 +6499,7 @@ struct noise_knn {
     std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
     std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
     double deviations = 6.0;               ///< within this number of standard deviations
+    bool sees_across_lines = true;         ///< if view points are known
 
     /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -6145,19 +6522,28 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
+        if (!looks_across(index)) return;
+        detail::scratch<point_index> near;
+        for (const neighbor& q : found) near.push_back(q.index);
+        detail::across_lines across(index, detail::directions_of(index, sequential{}));
+        for (const point_index j : across(static_cast<point_index>(i), near))
+            if (!contains(near, j)) found.push_back({squared_distance(index[i], index[j]), j});
+        std::sort(found.begin(), found.end());
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far
+    /// @param make_visitor_of_all  likewise, for the k nearest neighbors, however far, and those
+    ///                             across scan lines
     /// Errors: those of operator().
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
                auto&& make_visitor_of_all) const {
         require_valid();
+        const auto* rays = looks_across(index) ? &detail::directions_of(index, run) : nullptr;
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
+            [&] { return gate(*this, index, rays, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
@@ -6171,26 +6557,37 @@ struct noise_knn {
     }
 
   private:
+    [[nodiscard]] bool looks_across(const spatial_index& index) const {
+        return sees_across_lines && !index.viewpoints.empty();
+    }
+
+    [[nodiscard]] static bool contains(const auto& all, const auto& one) {
+        return std::find(all.begin(), all.end(), one) != all.end();
+    }
+
     /// The square of the distance [m^2] within which point i has its neighbors.
     [[nodiscard]] double squared_reach(const spatial_index& index, std::size_t i) const {
         const Eigen::Vector3d ray = detail::difference(index[i], index.viewpoints[i]);
         return deviations * deviations * noise.variance_along(ray);
     }
 
-    /// Shows a visitor those of the k nearest that are near enough, and another one all.
+    /// Shows a visitor those of the k nearest that are near enough, and another one all; both also
+    /// those across scan lines.
     template <class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
+        gate(const noise_knn& policy, const spatial_index& index,
+             const detail::ray_directions<>* rays, Visit visit, VisitAll visit_all)
             : policy_(policy),
               index_(index),
               visit_(std::move(visit)),
-              visit_all_(std::move(visit_all)) {}
+              visit_all_(std::move(visit_all)) {
+            if (rays != nullptr) across_.emplace(index, *rays);
+        }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             const detail::leaf_tree& tree = index_.tree();
             const point_index i = tree.index()[place];
-            visit_all_(i, detail::found_neighbors(tree, place, places));
             const double within = policy_.squared_reach(index_, i);
             near_.assign(places.begin(), places.end());
             const auto key = [&](std::uint32_t at) {
@@ -6205,8 +6602,19 @@ struct noise_knn {
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
-            const std::size_t count = static_cast<std::size_t>(end - near_.begin());
-            visit_(i, detail::found_neighbors(tree, place, std::span(near_.data(), count)));
+            near_.erase(end, near_.end());
+            all_.assign(places.begin(), places.end());
+            if (across_) {
+                indices_.clear();
+                for (const std::uint32_t at : near_) indices_.push_back(tree.index()[at]);
+                for (const point_index j : (*across_)(i, indices_)) {
+                    const std::uint32_t at = tree.place_of(j);
+                    for (auto* some : {&near_, &all_})
+                        if (!contains(*some, at)) some->push_back(at);
+                }
+            }
+            visit_all_(i, detail::found_neighbors(tree, place, all_));
+            visit_(i, detail::found_neighbors(tree, place, near_));
         }
 
         void finish() {
@@ -6219,7 +6627,9 @@ struct noise_knn {
         const spatial_index& index_;
         Visit visit_;
         VisitAll visit_all_;
-        detail::scratch<std::uint32_t> near_;
+        std::optional<detail::across_lines<>> across_;
+        detail::scratch<std::uint32_t> near_, all_;  // places
+        detail::scratch<point_index> indices_;       // of the near ones
     };
 };
 
@@ -11523,10 +11933,10 @@ struct point_noise {
 };
 
 /// The noise of a point of an index. The origin stands for an unknown view point.
+/// (A template, so that only its users compile it.)
 /// @param is_seen  whether the view points are known
-[[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
-                                                const noise_curve& noise, std::size_t i,
-                                                bool is_seen) {
+[[nodiscard]] point_noise noise_of_point(const auto& index, const noise_curve& noise, std::size_t i,
+                                         bool is_seen) {
     const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
     const bool is_known = is_finite(v);
     const double rounding =
@@ -12059,23 +12469,22 @@ class label_competition {
 
 /// The square of the deviation of a point from the plane of a region, in variances of the region;
 /// negative if it is too far. A region that is not planar is as near as a plane at one standard
-/// deviation.
-[[nodiscard]] inline double misfit_of(const Eigen::Vector3d& offset, const point_noise& noise,
-                                      const planar_region& to) {
+/// deviation. (Templates, so that only their users compile them.)
+[[nodiscard]] double misfit_of(const Eigen::Vector3d& offset, const point_noise& noise,
+                               const auto& to) {
     if (!to.is_planar) return 1.0;
     const plane& p = to.fit.plane;
     const double deviations = p.signed_distance(offset) / noise.across(p.normal);
     const double squared = deviations * deviations / to.fit.excess();
     return squared <= most_deviations * most_deviations ? squared : -1.0;
 }
-[[nodiscard]] inline double misfit_of(const planar_cloud& cloud, std::size_t i,
-                                      const planar_region& to) {
+[[nodiscard]] double misfit_of(const planar_cloud& cloud, std::size_t i, const auto& to) {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
 /// Whether a point is a certain outlier of a region's plane.
-[[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
-                                           const planar_region& region) {
+[[nodiscard]] bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
+                                    const auto& region) {
     const plane& p = region.fit.plane;
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }
@@ -12599,22 +13008,6 @@ template <class R, execution X = sequential, class Proj = std::identity>
 }
 
 }  // namespace gnomon
-
-// -------- gnomon/segmentation/detail/require_hesse.hpp -------------------------------------------
-
-/// @file
-/// The check of planes and directions that are given.
-
-namespace gnomon::detail {
-
-/// @throws std::invalid_argument  unless the plane is in Hesse normal form
-inline void require_hesse(const plane& p) {
-    constexpr double rounding = 1e-6;  // numerical
-    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
-            "the normal of a plane, or the direction upwards, must be of unit length");
-}
-
-}  // namespace gnomon::detail
 
 // -------- gnomon/segmentation/leveling.hpp -------------------------------------------------------
 
@@ -14097,13 +14490,15 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 
 namespace gnomon::detail {
 
-/// Each flat one of `parts` segments with those `wanted` flat ones whose centroids are nearest, by
-/// their numbers, ascending and each pair once. O(m log m) for m segments, or O(m^2) where all are
-/// wanted. (A template, so that only its users compile a search.)
+/// Each flat one of `parts` segments with those `wanted` possible ones whose centroids are nearest,
+/// by their numbers, ascending and each pair once. The 300 nearest ones are looked at. O(m log m)
+/// for m segments. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
+/// @param is_possible  is_possible(s, t): whether two flat ones may be a pair
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
-                                                    auto&& is_flat, auto&& centroid_of) {
+                                                    auto&& is_flat, auto&& centroid_of,
+                                                    auto&& is_possible) {
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {
@@ -14111,30 +14506,38 @@ namespace gnomon::detail {
         flat.push_back(static_cast<point_index>(s));
         centroids.push_back(centroid_of(s));
     }
+    constexpr std::size_t most = 300;  // performance only: almost all that a scan has
     scratch<region_pair> pairs;
-    if (flat.size() <= wanted) {
-        for (std::size_t f = 0; f < flat.size(); ++f)
-            for (std::size_t g = f + 1; g < flat.size(); ++g) pairs.emplace_back(flat[f], flat[g]);
-        return pairs;
-    }
-    constexpr std::size_t few = 300;  // performance only: for more a tree is faster than sorting
-    if (flat.size() > few) {
-        const spatial_index index(centroids);
-        scratch<neighbor> nearest;
-        for (std::size_t f = 0; f < flat.size(); ++f) {
-            knn{.k = wanted}.find(index, f, nearest);
-            for (const neighbor& n : nearest) pairs.push_back(std::minmax(flat[f], flat[n.index]));
+    scratch<neighbor> nearest;  // by their numbers among the flat ones
+    const auto add_nearest = [&](std::size_t f) {
+        std::size_t found = 0;
+        for (auto n = nearest.begin(); n != nearest.end() && found < wanted; ++n) {
+            const region_pair pair = std::minmax(flat[f], flat[n->index]);
+            if (!is_possible(pair.first, pair.second)) continue;
+            pairs.push_back(pair);
+            ++found;
         }
-    } else {
-        scratch<std::pair<double, point_index>> others;
+        return found;
+    };
+    if (flat.size() <= most) {
         for (std::size_t f = 0; f < flat.size(); ++f) {
-            others.clear();
+            nearest.clear();
             for (std::size_t g = 0; g < flat.size(); ++g)
                 if (g != f)
-                    others.emplace_back(squared_distance(centroids[f], centroids[g]), flat[g]);
-            std::sort(others.begin(), others.end());
-            for (std::size_t o = 0; o < wanted; ++o)
-                pairs.push_back(std::minmax(flat[f], others[o].second));
+                    nearest.push_back({squared_distance(centroids[f], centroids[g]),
+                                       static_cast<point_index>(g)});
+            std::sort(nearest.begin(), nearest.end());
+            add_nearest(f);
+        }
+    } else {
+        const spatial_index index(centroids);
+        for (std::size_t f = 0; f < flat.size(); ++f) {
+            const std::size_t before = pairs.size();
+            knn{.k = wanted}.find(index, f, nearest);
+            if (add_nearest(f) >= std::min(wanted, flat.size() - 1)) continue;
+            pairs.resize(before);
+            knn{.k = std::max(wanted, most)}.find(index, f, nearest);
+            add_nearest(f);
         }
     }
     make_unique(pairs);
@@ -14156,7 +14559,8 @@ namespace gnomon::detail {
 /// @file
 /// Policies of merging: whether the observations in the gap between two coplanar segments are
 /// evidence for one occluded surface. A sensor may have seen something nearer there, which occludes
-/// what is behind it; something farther, which shows free space; or nothing at all.
+/// what is behind it; something farther, which shows free space; or nothing at all. Or the place may
+/// be where it cannot see, as the road below a spinning lidar.
 ///
 /// Klasing 2010, Sec. 4.3.2, Fig. 4.4. Models: `conservative`, `liberal`, and any function of an
 /// `observation`.
@@ -14168,12 +14572,13 @@ enum class observation : char {
     unobserved,  ///< no return: black, transparent or distant things, or no ray
     occluded,    ///< something in front of it
     on_surface,  ///< something at its distance
-    free_space   ///< something behind it: the place is empty
+    free_space,  ///< something behind it: the place is empty
+    out_of_view  ///< nothing, as the place is above or below all that was seen
 };
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
-    std::array<std::size_t, 4> of{};
+    std::array<std::size_t, 5> of{};
 
     [[nodiscard]] std::size_t operator[](observation s) const {
         return of[static_cast<std::size_t>(s)];
@@ -14183,7 +14588,11 @@ struct observation_count {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
-    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3]; }
+    [[nodiscard]] std::size_t total() const {
+        std::size_t all = 0;
+        for (const std::size_t n : of) all += n;
+        return all;
+    }
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
@@ -14194,9 +14603,11 @@ concept merge_policy = requires(const M& policy, observation seen) {
     { policy(seen) } -> std::convertible_to<bool>;
 };
 
-/// Merges where something closer was seen in the gap (Sec. 4.3.2).
+/// Merges where something closer was seen in the gap (Sec. 4.3.2), or the sensor cannot see it.
 struct conservative {
-    [[nodiscard]] bool operator()(observation seen) const { return seen == observation::occluded; }
+    [[nodiscard]] bool operator()(observation seen) const {
+        return seen == observation::occluded || seen == observation::out_of_view;
+    }
 };
 
 /// Merges unless something farther was seen in the gap.
@@ -14217,7 +14628,8 @@ template <merge_policy M>
     std::size_t against = 0;
     std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
     for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space})
+         {observation::unobserved, observation::occluded, observation::free_space,
+          observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }
@@ -14297,8 +14709,9 @@ struct image_axes {
 
     /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
     /// pole, from the y-axis.
+    /// (A template, so that only its users compile it.)
     /// @throws std::invalid_argument  if the pole is not finite or has no length
-    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+    [[nodiscard]] static image_axes with_pole(const auto& pole) {
         require(is_direction(pole), "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;
@@ -14808,14 +15221,17 @@ class visibility {
     [[nodiscard]] angle pixel() const { return radians(pixel_); }
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
-    /// equally many free space, then on surface, then occluded. O(view points).
+    /// equally many free space, then on surface, then occluded. Where there were none, it is out
+    /// of view if it is so from all of them. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
         auto most = observation::free_space;
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
-        return count[most] > 0 ? most : observation::unobserved;
+        if (count[most] > 0) return most;
+        return count[observation::unobserved] > 0 ? observation::unobserved
+                                                  : observation::out_of_view;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -14858,7 +15274,8 @@ class visibility {
     [[nodiscard]] observation towards(const Eigen::Vector3d& place,
                                       const range_image& image) const {
         const double expected = image.distance_to(place);
-        if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
+        if (!std::isfinite(expected)) return observation::unobserved;
+        if (!image.may_show(place)) return observation::out_of_view;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
@@ -14953,10 +15370,7 @@ class occlusion_merger {
     [[nodiscard]] union_find operator()() {
         union_find sets = agglomeration(regions_)(
             pairs(),
-            [this](const planar_region& a, const planar_region& b) {
-                return is_near(a, b) ? dissimilarity_of_apart(a, b)
-                                     : std::numeric_limits<double>::infinity();
-            },
+            [this](const planar_region& a, const planar_region& b) { return dissimilarity(a, b); },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
                 unite_labels(labels_, merged);
@@ -14976,7 +15390,16 @@ class occlusion_merger {
         return pairs_to_compare(
             regions_.size(), options_.candidates,
             [this](std::size_t r) { return regions_[r].is_planar; },
-            [this](std::size_t r) { return regions_[r].fit.centroid; });
+            [this](std::size_t r) { return regions_[r].fit.centroid; },
+            [this](point_index a, point_index b) {
+                return dissimilarity(regions_[a], regions_[b]) <= 1.0;
+            });
+    }
+
+    /// As dissimilarity_of_apart; infinite if the planes are too far from each other.
+    [[nodiscard]] double dissimilarity(const planar_region& a, const planar_region& b) const {
+        return is_near(a, b) ? dissimilarity_of_apart(a, b)
+                             : std::numeric_limits<double>::infinity();
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
@@ -15053,8 +15476,8 @@ struct merge_occluded_options {
     /// them.
     double max_gap = 0.20;
     std::size_t boundary_pairs = 6;  ///< n_b, an even number
-    /// k_c, the segments with nearest centroids that each is compared with; chosen on furnished
-    /// rooms 20,001 to 20,024, where all as candidates give the same result.
+    /// k_c, the coplanar segments with nearest centroids that each is compared with; chosen on
+    /// furnished rooms 20,001 to 20,024, where all as candidates give the same result.
     std::size_t candidates = 20;
 };
 
@@ -15280,7 +15703,8 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     };
     const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of,
+                                  [](point_index, point_index) { return true; })) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
@@ -17610,21 +18034,21 @@ class cell_surfaces {
     template <class N, class E, execution X>
     void estimate(const N& neighborhood, const E& estimator, const X& run) {
         scratch_graph::arrays graph;
-        knn nearest{.k = noise_knn{}.k};
-        if constexpr (std::same_as<N, noise_knn>) nearest.k = neighborhood.k;
-        const auto record = [&](auto&& sweep) {
-            const auto k = nearest.neighbors_of_each(index_.tree().size());
-            sweep_equal_sizes(*k, index_, run, graph, sweep);
-        };
         if constexpr (std::same_as<N, noise_knn>) {
-            record([&](auto&& make_recorder) {  // one search for both
+            noise_knn along_rays = neighborhood;
+            if (noise_.is_across_surface) along_rays.sees_across_lines = false;
+            sweep_any_sizes(index_.size(), run, graph, [&](auto&& make_recorder) {
                 estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
-                    neighborhood.sweep(index_, run, make_visitor, make_recorder);
+                    along_rays.sweep(index_, run, make_visitor, make_recorder);  // for both
                 });
             });
         } else {
             estimate_normals_into(surface_, index_, neighborhood, estimator, run);
-            record([&](auto&& make_recorder) { nearest.sweep(index_, run, make_recorder); });
+            const knn nearest{.k = noise_knn{}.k};
+            const auto k = nearest.neighbors_of_each(index_.tree().size());
+            sweep_equal_sizes(*k, index_, run, graph, [&](auto&& make_recorder) {
+                nearest.sweep(index_, run, make_recorder);
+            });
         }
         graph_.emplace(std::move(graph));
         orient_normals(index_, surface_, run);

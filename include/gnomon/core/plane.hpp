@@ -5,7 +5,9 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 
 namespace gnomon {
 
@@ -21,4 +23,14 @@ struct plane {
     }
 };
 
+namespace detail {
+
+/// @throws std::invalid_argument  unless the plane is in Hesse normal form
+inline void require_hesse(const plane& p) {
+    constexpr double rounding = 1e-6;  // numerical
+    require(std::abs(dot(p.normal, p.normal) - 1.0) < rounding && std::isfinite(p.offset),
+            "the normal of a plane, or the direction upwards, must be of unit length");
+}
+
+}  // namespace detail
 }  // namespace gnomon

@@ -28,6 +28,7 @@
 #include <gnomon/core/detail/refused_points.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -39,7 +40,6 @@
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/perception_run.hpp>
 #include <gnomon/perception/perception_result.hpp>
-#include <gnomon/segmentation/detail/require_hesse.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/segmentation/segment_planes.hpp>
 #include <gnomon/segmentation/segment_surfaces.hpp>

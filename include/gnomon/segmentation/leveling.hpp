@@ -7,7 +7,6 @@
 
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/plane.hpp>
-#include <gnomon/segmentation/detail/require_hesse.hpp>
 
 namespace gnomon {
 

@@ -22,7 +22,6 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/segmentation/detail/floor_search.hpp>
 #include <gnomon/segmentation/detail/height_histogram.hpp>
-#include <gnomon/segmentation/detail/require_hesse.hpp>
 
 namespace gnomon {
 

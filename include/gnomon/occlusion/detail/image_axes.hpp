@@ -38,8 +38,9 @@ struct image_axes {
 
     /// Those with a given pole of any length. Azimuth counts from the x-axis; where that is the
     /// pole, from the y-axis.
+    /// (A template, so that only its users compile it.)
     /// @throws std::invalid_argument  if the pole is not finite or has no length
-    [[nodiscard]] static image_axes with_pole(const Eigen::Vector3d& pole) {
+    [[nodiscard]] static image_axes with_pole(const auto& pole) {
         require(is_direction(pole), "range_image: the pole must be a finite direction");
         constexpr double nearly = 0.9;  // a cosine; numerical: the cross product has a length
         image_axes axes;

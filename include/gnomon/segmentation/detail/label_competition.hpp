@@ -86,23 +86,22 @@ class label_competition {
 
 /// The square of the deviation of a point from the plane of a region, in variances of the region;
 /// negative if it is too far. A region that is not planar is as near as a plane at one standard
-/// deviation.
-[[nodiscard]] inline double misfit_of(const Eigen::Vector3d& offset, const point_noise& noise,
-                                      const planar_region& to) {
+/// deviation. (Templates, so that only their users compile them.)
+[[nodiscard]] double misfit_of(const Eigen::Vector3d& offset, const point_noise& noise,
+                               const auto& to) {
     if (!to.is_planar) return 1.0;
     const plane& p = to.fit.plane;
     const double deviations = p.signed_distance(offset) / noise.across(p.normal);
     const double squared = deviations * deviations / to.fit.excess();
     return squared <= most_deviations * most_deviations ? squared : -1.0;
 }
-[[nodiscard]] inline double misfit_of(const planar_cloud& cloud, std::size_t i,
-                                      const planar_region& to) {
+[[nodiscard]] double misfit_of(const planar_cloud& cloud, std::size_t i, const auto& to) {
     return misfit_of(cloud.offsets[i], cloud.noise[i], to);
 }
 
 /// Whether a point is a certain outlier of a region's plane.
-[[nodiscard]] inline bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
-                                           const planar_region& region) {
+[[nodiscard]] bool is_certainly_off(const Eigen::Vector3d& offset, const point_noise& noise,
+                                    const auto& region) {
     const plane& p = region.fit.plane;
     return region.is_planar && std::abs(p.signed_distance(offset)) > noise.certain_reach(p.normal);
 }

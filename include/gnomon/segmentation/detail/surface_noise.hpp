@@ -73,10 +73,10 @@ struct point_noise {
 };
 
 /// The noise of a point of an index. The origin stands for an unknown view point.
+/// (A template, so that only its users compile it.)
 /// @param is_seen  whether the view points are known
-[[nodiscard]] inline point_noise noise_of_point(const spatial_index& index,
-                                                const noise_curve& noise, std::size_t i,
-                                                bool is_seen) {
+[[nodiscard]] point_noise noise_of_point(const auto& index, const noise_curve& noise, std::size_t i,
+                                         bool is_seen) {
     const Eigen::Vector3d p = index[i], v = index.viewpoints[i];
     const bool is_known = is_finite(v);
     const double rounding =
