@@ -52,11 +52,13 @@ inline void require_valid(const segment_planes_options& options) {
 }
 
 /// The regions of the planes of a cloud.
-template <neighborhood_graph G, normal_range S, execution X>
-[[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
-                                                 const S& surface, std::size_t min_points,
-                                                 angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points);
+/// @param graph, near  as of `plane_regions`
+template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
+[[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
+                                                       const Near& near, const S& surface,
+                                                       std::size_t min_points, angle max_angle,
+                                                       const X& run) {
+    plane_regions regions(cloud, graph, near, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.cut(run);
@@ -93,7 +95,7 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, graph, surface,
                                                                   options.min_points,
                                                                   options.max_angle, team)
                                             .labels());

@@ -43,7 +43,7 @@ class across_lines {
           reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
-    /// line, if none of its neighbors is across the line.
+    /// line, if fewer than three of its neighbors are across the line.
     /// @param neighbors  their indices
     /// @return indices, some of which may be among the neighbors; valid until the next call
     [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
@@ -56,15 +56,18 @@ class across_lines {
         for (const point_index j : neighbors)
             line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
         line.fit();
-        if (std::ranges::all_of(offsets_, [&](const auto& o) { return line.is_along(o); }))
-            find(i, u, plane, line);
+        const auto across =
+            std::ranges::count_if(offsets_, [&](const auto& o) { return !line.is_along(o); });
+        if (across < enough) find(i, u, plane, line);
         return found_;
     }
 
   private:
-    static constexpr std::size_t wanted = 4;  // in each quadrant: chosen on streets 20,001 to 20,005
-    /// Rays farther than that are not next to each other, but at the end of what is seen.
-    static constexpr double most_spacings = 3.5;  // chosen likewise
+    // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where fewer
+    // neighbors count as enough, roads are torn; where more are wanted, or farther ones, edges blur.
+    static constexpr std::ptrdiff_t enough = 3;     // neighbors across the line
+    static constexpr std::size_t wanted = 4;        // in each quadrant
+    static constexpr double most_spacings = 2.0;    // between rays next to each other
 
     void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
               const scan_line& line) {

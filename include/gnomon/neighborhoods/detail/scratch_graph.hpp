@@ -3,6 +3,7 @@
 /// A neighbor graph in scratch memory, for algorithms that need it only while they run.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -32,6 +33,23 @@ class scratch_graph {
 
   private:
     arrays arrays_;
+};
+
+/// The first neighbors of each point in a graph, at most k. Models `neighborhood_graph`; refers to
+/// the graph.
+class first_neighbors {
+  public:
+    first_neighbors(const scratch_graph& graph, std::size_t k) : graph_(graph), k_(k) {}
+
+    [[nodiscard]] std::size_t size() const { return graph_.size(); }
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
+        const auto all = graph_[i];
+        return all.first(std::min(k_, all.size()));
+    }
+
+  private:
+    const scratch_graph& graph_;
+    std::size_t k_;
 };
 
 }  // namespace gnomon::detail

@@ -118,6 +118,9 @@ class cell_surfaces {
             });
         }
         graph_.emplace(std::move(graph));
+        std::size_t k = noise_knn{}.k;
+        if constexpr (std::same_as<N, noise_knn>) k = neighborhood.k;
+        near_.emplace(*graph_, k);
         orient_normals(index_, surface_, run);
     }
 
@@ -126,14 +129,14 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
+        regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, run));
     }
 
     /// For each point the number of its region, or `unlabeled`.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
+        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_, labels(),
                                         regions_->regions(), run);
     }
 
@@ -158,9 +161,10 @@ class cell_surfaces {
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;
-    std::optional<scratch_graph> graph_;
+    std::optional<scratch_graph> graph_;     // the nearest neighbors first, then others
+    std::optional<first_neighbors> near_;    // the nearest of these
     std::optional<planar_cloud> cloud_;
-    std::optional<plane_regions<scratch_graph>> regions_;
+    std::optional<plane_regions<scratch_graph, first_neighbors>> regions_;
 };
 
 }  // namespace gnomon::detail

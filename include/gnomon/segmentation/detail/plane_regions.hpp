@@ -29,11 +29,18 @@
 namespace gnomon::detail {
 
 /// The regions of a cloud.
-template <neighborhood_graph G>
+template <neighborhood_graph G, neighborhood_graph Near>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
+    /// @param graph  the neighbors of each point that a region may grow to
+    /// @param near   the neighbors whose labels compete for it; another graph, or the same
+    plane_regions(const planar_cloud& cloud, const G& graph, const Near& near,
+                  std::size_t min_points)
+        : cloud_(cloud),
+          graph_(graph),
+          near_(near),
+          min_points_(min_points),
+          labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
@@ -74,10 +81,10 @@ class plane_regions {
     /// explains it best, or to none if all are too far, and regions are merged again.
     template <execution X>
     void settle(const X& run) {
-        scratch<char> is_border = borders_of(graph_, labels_, run);
-        merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
+        scratch<char> is_border = borders_of(near_, labels_, run);
+        merge(compete(cloud_, near_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
-            auto after = compete(cloud_, graph_, regions_, labels_, is_border, run);
+            auto after = compete(cloud_, near_, regions_, labels_, is_border, run);
             const bool rests = labels_ == after.labels;
             labels_.swap(after.labels);
             refit();
@@ -149,6 +156,7 @@ class plane_regions {
 
     const planar_cloud& cloud_;
     const G& graph_;
+    const Near& near_;
     std::size_t min_points_;
     scratch<std::int32_t> labels_;
     scratch<planar_region> regions_;
