@@ -27,7 +27,6 @@
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
 #include <gnomon/neighborhoods/detail/graph_of.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
-#include <gnomon/neighborhoods/detail/ray_directions.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
@@ -65,11 +64,12 @@ struct noise_knn {
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
         if (!looks_across(index)) return;
-        detail::scratch<point_index> near;
-        for (const neighbor& q : found) near.push_back(q.index);
-        detail::across_lines across(index, detail::directions_of(index, sequential{}));
-        for (const point_index j : across(static_cast<point_index>(i), near))
-            if (!contains(near, j)) found.push_back({squared_distance(index[i], index[j]), j});
+        detail::across_lines across(index);
+        for (const point_index j : across(static_cast<point_index>(i), found.size(),
+                                          [&](std::size_t n) { return found[n].index; })) {
+            const neighbor q{squared_distance(index[i], index[j]), j};
+            if (!contains(found, q)) found.push_back(q);
+        }
         std::sort(found.begin(), found.end());
     }
 
@@ -81,11 +81,10 @@ struct noise_knn {
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
                auto&& make_visitor_of_all) const {
         require_valid();
-        const auto* rays = looks_across(index) ? &detail::directions_of(index, run) : nullptr;
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, rays, make_visitor(), make_visitor_of_all()); });
+            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
@@ -118,13 +117,12 @@ struct noise_knn {
     template <class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index,
-             const detail::ray_directions<>* rays, Visit visit, VisitAll visit_all)
+        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
             : policy_(policy),
               index_(index),
               visit_(std::move(visit)),
               visit_all_(std::move(visit_all)) {
-            if (rays != nullptr) across_.emplace(index, *rays);
+            if (policy.looks_across(index)) across_.emplace(index);
         }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
@@ -147,9 +145,10 @@ struct noise_knn {
             near_.erase(end, near_.end());
             all_.assign(places.begin(), places.end());
             if (across_) {
-                indices_.clear();
-                for (const std::uint32_t at : near_) indices_.push_back(tree.index()[at]);
-                for (const point_index j : (*across_)(i, indices_)) {
+                const auto indices = (*across_)(i, near_.size(), [&](std::size_t n) {
+                    return tree.index()[near_[n]];
+                });
+                for (const point_index j : indices) {
                     const std::uint32_t at = tree.place_of(j);
                     for (auto* some : {&near_, &all_})
                         if (!contains(*some, at)) some->push_back(at);
@@ -171,7 +170,6 @@ struct noise_knn {
         VisitAll visit_all_;
         std::optional<detail::across_lines<>> across_;
         detail::scratch<std::uint32_t> near_, all_;  // places
-        detail::scratch<point_index> indices_;       // of the near ones
     };
 };
 

@@ -106,6 +106,12 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
+    /// The sines of the lowest and the highest elevation in which something is seen, with two pixels
+    /// around; the first is the larger one if nothing is.
+    [[nodiscard]] std::pair<double, double> seen_sines() const {
+        return {lowest_sine_, highest_sine_};
+    }
+
     /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);

@@ -86,7 +86,10 @@ class visibility {
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
-            const range_image_options format{2 * rows, rows, options.pole};
+            pole_ = detail::image_axes::with_pole(
+                        options.pole ? *options.pole : common_pole(p, viewpoints))
+                        .z;
+            const range_image_options format{2 * rows, rows, pole_};
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
@@ -95,7 +98,12 @@ class visibility {
                                   projection);
             });
             images_.reserve(images.size());
-            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
+            for (std::optional<range_image>& image : images) {
+                const auto [low, high] = image->seen_sines();
+                lowest_sine_ = std::min(lowest_sine_, low);
+                highest_sine_ = std::max(highest_sine_, high);
+                images_.push_back(*std::move(image));
+            }
         });
     }
 
@@ -106,7 +114,7 @@ class visibility {
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
     /// equally many free space, then on surface, then occluded. Where there were none, it is out
-    /// of view if it is so from all of them. O(view points).
+    /// of view if it is so from most of them. O(view points).
     [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
@@ -114,8 +122,9 @@ class visibility {
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        return count[observation::unobserved] > 0 ? observation::unobserved
-                                                  : observation::out_of_view;
+        return count[observation::out_of_view] > count[observation::unobserved]
+                   ? observation::out_of_view
+                   : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -141,6 +150,25 @@ class visibility {
     }
 
   private:
+    /// The direction in which the rays of all view points see least.
+    [[nodiscard]] static Eigen::Vector3d common_pole(const auto& p,
+                                                     const viewpoint_table& viewpoints) {
+        detail::scratch<Eigen::Vector3d> ways;
+        for (std::size_t i = 0; i < p.size(); ++i)
+            if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+                detail::has_length(way))
+                ways.push_back(way);
+        return detail::least_observed_axis(ways, std::identity());
+    }
+
+    /// Whether a place is below or above all that was seen from anywhere.
+    [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
+                                      const range_image& image) const {
+        const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
+        const double up = detail::dot(pole_, way), distance = detail::length(way);
+        return up < lowest_sine_ * distance || up > highest_sine_ * distance;
+    }
+
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
@@ -159,7 +187,9 @@ class visibility {
                                       const range_image& image) const {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected)) return observation::unobserved;
-        if (!image.may_show(place)) return observation::out_of_view;
+        if (!image.may_show(place))
+            return is_out_of_view(place, image) ? observation::out_of_view
+                                                : observation::unobserved;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
@@ -206,6 +236,8 @@ class visibility {
 
     noise_curve noise_;
     double pixel_ = 0.0;  // [rad]
+    Eigen::Vector3d pole_{0.0, 0.0, 1.0};             // of all images
+    double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };
 

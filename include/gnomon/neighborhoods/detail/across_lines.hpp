@@ -33,28 +33,27 @@ template <execution X>
         [&](ray_directions<>& rays) { rays.rebuild(index, run); });
 }
 
-/// Searches for them; each thread has its own object.
-template <class Rays = ray_directions<>>
+/// Searches for them; each thread has its own object. (A template for compile time only.)
+template <class Index = spatial_index>
 class across_lines {
   public:
-    across_lines(const spatial_index& index, const Rays& rays)
-        : index_(index),
-          rays_(rays),
-          reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
+    explicit across_lines(const Index& index) : index_(index) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
     /// line, if fewer than three of its neighbors are across the line.
-    /// @param neighbors  their indices
+    /// @param count      of the neighbors
+    /// @param neighbor   neighbor(n): the index of neighbor n
     /// @return indices, some of which may be among the neighbors; valid until the next call
-    [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
+    [[nodiscard]] std::span<const point_index> operator()(point_index i, std::size_t count,
+                                                          auto&& neighbor) {
         found_.clear();
         const Eigen::Vector3d u = ray_direction(index_, i);
         if (!all_finite(u)) return {};
         const ray_plane plane(u);
         scan_line line;
         offsets_.clear();
-        for (const point_index j : neighbors)
-            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
+        for (std::size_t n = 0; n < count; ++n)
+            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, neighbor(n)))));
         line.fit();
         const auto across =
             std::ranges::count_if(offsets_, [&](const auto& o) { return !line.is_along(o); });
@@ -71,9 +70,14 @@ class across_lines {
 
     void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
               const scan_line& line) {
+        if (rays_ == nullptr) {
+            rays_ = &directions_of(index_, sequential{});  // only where they are needed
+            const auto& [along, across] = rays_->spacing();
+            reach_ = most_spacings * std::max(along, across).radians();
+        }
         constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
         for (std::size_t count = few; count <= many; count *= 4) {
-            search_tree(rays_.tree(), u, {.k = count, .except = i}, near_);
+            search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
             counts_ = {};
             found_.clear();
             for (const neighbor& q : near_) {
@@ -105,9 +109,9 @@ class across_lines {
         return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
     }
 
-    const spatial_index& index_;
-    const Rays& rays_;
-    double reach_;  // [rad]
+    const Index& index_;
+    const ray_directions<>* rays_ = nullptr;
+    double reach_ = 0.0;  // [rad]
     std::array<std::size_t, 4> counts_{};
     scratch<std::array<double, 2>> offsets_;
     scratch<neighbor> near_;

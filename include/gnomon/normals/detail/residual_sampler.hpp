@@ -15,6 +15,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/neighborhoods/detail/across_lines.hpp>
 #include <gnomon/neighborhoods/detail/ray_metric.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -42,15 +43,17 @@ class residual_sampler {
     }
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
-    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
+    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side; where
+    /// these lie on one scan line, with four in each quadrant around the ray.
     [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
                                                     auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
         scratch<sampled_plane> planes(n);
         for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
             scratch<neighbor> found;
+            across_lines across(index_);
             for (std::size_t s = first; s < last; ++s)
-                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
+                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found, across);
         });
         return planes;
     }
@@ -59,7 +62,7 @@ class residual_sampler {
 
   private:
     [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
-                                         scratch<neighbor>& found) const {
+                                         scratch<neighbor>& found, auto& across_line) const {
         const Eigen::Vector3d p = index_[i];
         const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
@@ -68,6 +71,11 @@ class residual_sampler {
         search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
+        if (index_.viewpoints.positions().size() > 0) {
+            const auto around = across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
+            if (around.size() == neighbors)
+                for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
+        }
         ray_regression regression(plane.ray);
         for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();

@@ -19,6 +19,14 @@
 
 namespace gnomon::detail {
 
+/// Whether all rays are within 45 degrees of one axis. (A template for compile time only.)
+[[nodiscard]] bool are_of_camera(const auto& index, const scratch<point_index>& some) {
+    scratch<sampled_plane> rays;
+    for (const point_index i : some)
+        rays.push_back({difference(index[i], index.viewpoints[i]), {0.0, 0.0, 0.0}});
+    return has_length(axis_of_cone(rays));
+}
+
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
 /// measured, and is more.
 /// @param noise   that of small neighborhoods
@@ -35,6 +43,7 @@ template <class X>
         some.push_back(static_cast<point_index>(i));
         range += length(difference(index[i], index.viewpoints[i]));
     }
+    if (!are_of_camera(index, some)) return noise;
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
     const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
