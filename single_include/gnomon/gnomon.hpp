@@ -2556,10 +2556,12 @@ class made_when_asked {
         return *this;
     }
     made_when_asked& operator=(made_when_asked&& other) noexcept {
+        if (this == &other) return *this;
+        destroy();
         take(other);
         return *this;
     }
-    ~made_when_asked() = default;
+    ~made_when_asked() { destroy(); }
 
     /// Whatever was made is no longer current.
     void forget() { is_made_ = false; }
@@ -2569,8 +2571,11 @@ class made_when_asked {
     template <class What>
     [[nodiscard]] const What& get(auto&& is_current, auto&& make) const {
         const guard_of locked(guard_);
-        if (!what_) what_ = std::make_shared<What>();
-        auto& what = *static_cast<What*>(what_.get());
+        if (what_ == nullptr) {
+            what_ = new What();
+            destroy_ = [](void* what) { delete static_cast<What*>(what); };
+        }
+        auto& what = *static_cast<What*>(what_);
         if (!is_made_ || !is_current(std::as_const(what))) {
             is_made_ = false;
             make(what);
@@ -2580,13 +2585,20 @@ class made_when_asked {
     }
 
   private:
+    void destroy() {
+        if (what_ != nullptr) destroy_(what_);
+    }
     void take(made_when_asked& other) {
-        what_ = std::move(other.what_);
-        is_made_ = std::exchange(other.is_made_, false);
+        what_ = other.what_;
+        destroy_ = other.destroy_;
+        is_made_ = other.is_made_;
+        other.what_ = nullptr;
+        other.is_made_ = false;
     }
 
     mutable mutex guard_;
-    mutable std::shared_ptr<void> what_;  // always of one type
+    mutable void* what_ = nullptr;  // always of one type
+    mutable void (*destroy_)(void*) = nullptr;
     mutable bool is_made_ = false;
 };
 
@@ -5162,6 +5174,24 @@ class scratch_graph {
     arrays arrays_;
 };
 
+/// The first neighbors of each point in a graph, at most k. Models `neighborhood_graph`; refers to
+/// the graph.
+template <class Graph>
+class first_neighbors {
+  public:
+    first_neighbors(const Graph& graph, std::size_t k) : graph_(graph), k_(k) {}
+
+    [[nodiscard]] std::size_t size() const { return graph_.size(); }
+    [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
+        const auto all = graph_[i];
+        return all.first(std::min(k_, all.size()));
+    }
+
+  private:
+    const Graph& graph_;
+    std::size_t k_;
+};
+
 }  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/detail/swept_graph.hpp --------------------------------------------
@@ -6190,32 +6220,35 @@ void neighborhoods_into(adjacency& graph, const R& points, const N& policy, cons
 // -------- gnomon/neighborhoods/detail/scan_line.hpp ----------------------------------------------
 
 /// @file
-/// The direction of the scan line through a ray, from the rays around it: nothing need be known of
-/// the sensor, neither the number of a beam nor an axis.
+/// The direction of the scan line through a ray, from the rays around it: neither the number of a
+/// beam nor the axis of the sensor is required.
 
 namespace gnomon::detail {
 
-/// Where other rays are around one ray, in the plane across it.
+/// Where other rays are around one ray, in the plane across it. (A template, as the next, for
+/// compile time only.)
+template <class Vector = Eigen::Vector3d>
 class ray_plane {
   public:
     /// @param u  the direction of the ray, of unit length
-    explicit ray_plane(const Eigen::Vector3d& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
+    explicit ray_plane(const Vector& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
 
     /// The two coordinates of a direction [rad], for directions near the ray.
-    [[nodiscard]] std::array<double, 2> offset(const Eigen::Vector3d& direction) const {
+    [[nodiscard]] std::array<double, 2> offset(const Vector& direction) const {
         return {dot(direction, right_), dot(direction, up_)};
     }
 
   private:
-    Eigen::Vector3d right_, up_;
+    Vector right_, up_;
 };
 
 /// The axis through a ray that most of the rays around it are near. Angles are doubled, so that
 /// both ends of the axis are one.
+template <class Number = double>
 class scan_line {
   public:
     /// Adds another ray.
-    void add(const std::array<double, 2>& offset, double weight = 1.0) {
+    void add(const std::array<Number, 2>& offset, double weight = 1.0) {
         const auto [x, y] = offset;
         const double squared = x * x + y * y;
         if (!(squared > 0.0)) return;
@@ -6235,22 +6268,22 @@ class scan_line {
 
     /// Whether a ray is within 45 degrees of the axis. After fit(). The cosine of the doubled angle
     /// decides.
-    [[nodiscard]] bool is_along(const std::array<double, 2>& offset) const {
+    [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
         return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= 0.0;
     }
 
     /// Which of the four quadrants a ray is in: 0 and 1 along the axis, 2 and 3 across it. After
     /// fit().
-    [[nodiscard]] std::size_t quadrant(const std::array<double, 2>& offset) const {
+    [[nodiscard]] std::size_t quadrant(const std::array<Number, 2>& offset) const {
         const double along = turn_[0] * offset[0] + turn_[1] * offset[1];
         const double across = turn_[0] * offset[1] - turn_[1] * offset[0];
         return is_along(offset) ? (along < 0.0 ? 1 : 0) : (across < 0.0 ? 3 : 2);
     }
 
   private:
-    double cosines_ = 0.0, sines_ = 0.0;  // of twice the angle
-    std::array<double, 2> turn_{1.0, 0.0};  // the axis
+    double cosines_ = 0.0, sines_ = 0.0;    // of twice the angle
+    std::array<Number, 2> turn_{1.0, 0.0};  // the axis
 };
 
 }  // namespace gnomon::detail
@@ -6284,7 +6317,7 @@ namespace detail {
 inline constexpr double same_ray = 1e-12;
 
 /// The directions, and their spacing. (A template for compile time only.)
-template <class Tree = leaf_tree>
+template <class Tree>
 class ray_directions {
   public:
     /// Replaces the directions by those of the points of an index, in the same memory. O(n log n).
@@ -6313,7 +6346,7 @@ class ray_directions {
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
     /// across it.
     void measure_spacing() {
-        constexpr std::size_t seeds = 128;  // performance only
+        constexpr std::size_t seeds = 128;            // performance only
         constexpr std::size_t few = 64, many = 1024;  // rays; performance only, 30 : 1 and more
         scratch<double> along, across;
         scratch<neighbor> near;
@@ -6351,11 +6384,11 @@ class ray_directions {
     /// The squared distances to the nearest ray along the scan line of a ray and across it [rad^2];
     /// infinite where there is none.
     /// @param near  the nearest rays, nearest first
-    [[nodiscard]] std::pair<double, double> nearest_around(const Eigen::Vector3d& u,
-                                                           const scratch<neighbor>& near) const {
+    [[nodiscard]] std::array<double, 2> nearest_around(const Eigen::Vector3d& u,
+                                                       const auto& near) const {
         constexpr std::size_t nearest = 4;  // two to either side, or one in each direction
-        const ray_plane plane(u);
-        scan_line line;
+        const ray_plane<> plane(u);
+        scan_line<> line;
         std::size_t count = 0;
         for (const neighbor& q : near) {
             if (q.squared_distance < same_ray) continue;
@@ -6364,10 +6397,10 @@ class ray_directions {
         }
         line.fit();
         constexpr double none = std::numeric_limits<double>::infinity();
-        std::pair found(none, none);
+        std::array<double, 2> found{none, none};
         for (const neighbor& q : near) {
             if (q.squared_distance < same_ray) continue;
-            double& to = line.is_along(plane.offset(direction(q))) ? found.first : found.second;
+            double& to = found[line.is_along(plane.offset(direction(q))) ? 0 : 1];
             to = std::min(to, q.squared_distance);
         }
         return found;
@@ -6395,73 +6428,87 @@ class ray_directions {
 
 namespace gnomon::detail {
 
+/// The directions of the points of an index.
+template <class Index>
+using directions_of_index =
+    ray_directions<std::remove_cvref_t<decltype(std::declval<const Index&>().tree())>>;
+
 /// The directions of an index, which keeps them.
-template <execution X>
-[[nodiscard]] const ray_directions<>& directions_of(const spatial_index& index, const X& run) {
-    return index.kept.get<ray_directions<>>(
-        [&](const ray_directions<>& rays) { return rays.are_from(index.viewpoints.number()); },
-        [&](ray_directions<>& rays) { rays.rebuild(index, run); });
+template <class Index, execution X>
+[[nodiscard]] const auto& directions_of(const Index& index, const X& run) {
+    return index.kept.template get<directions_of_index<Index>>(
+        [&](const auto& rays) { return rays.are_from(index.viewpoints.number()); },
+        [&](auto& rays) { rays.rebuild(index, run); });
 }
 
-/// Searches for them; each thread has its own object.
-template <class Rays = ray_directions<>>
+/// Searches for them; each thread has its own object. (A template for compile time only.)
+template <class Index>
 class across_lines {
   public:
-    across_lines(const spatial_index& index, const Rays& rays)
-        : index_(index),
-          rays_(rays),
-          reach_(most_spacings * std::max(rays.spacing().along, rays.spacing().across).radians()) {}
+    explicit across_lines(const Index& index) : index_(index) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
-    /// line, if none of its neighbors is across the line.
-    /// @param neighbors  their indices
+    /// line, if fewer than three of its neighbors are across the line.
+    /// @param count      of the neighbors
+    /// @param neighbor   neighbor(n): the index of neighbor n
     /// @return indices, some of which may be among the neighbors; valid until the next call
-    [[nodiscard]] std::span<const point_index> operator()(point_index i, const auto& neighbors) {
+    [[nodiscard]] std::span<const point_index> operator()(point_index i, std::size_t count,
+                                                          auto&& neighbor) {
         found_.clear();
         const Eigen::Vector3d u = ray_direction(index_, i);
         if (!all_finite(u)) return {};
-        const ray_plane plane(u);
-        scan_line line;
-        offsets_.clear();
-        for (const point_index j : neighbors)
-            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, j))));
+        const ray_plane<> plane(u);
+        scan_line<> line;
+        const auto offset = [&](std::size_t n) {
+            return plane.offset(ray_direction(index_, neighbor(n)));
+        };
+        for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
         line.fit();
-        if (std::ranges::all_of(offsets_, [&](const auto& o) { return line.is_along(o); }))
-            find(i, u, plane, line);
+        std::size_t across = 0;
+        for (std::size_t n = 0; n < count && across < enough; ++n)
+            across += line.is_along(offset(n)) ? 0 : 1;
+        if (across < enough) find(i, u, plane, line);
         return found_;
     }
 
   private:
-    static constexpr std::size_t wanted = 4;  // in each quadrant: chosen on streets 20,001 to 20,005
-    /// Rays farther than that are not next to each other, but at the end of what is seen.
-    static constexpr double most_spacings = 3.5;  // chosen likewise
+    // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where
+    // fewer neighbors count as enough, roads are interrupted; where more are wanted, or farther
+    // ones, edges blur.
+    static constexpr std::size_t enough = 3;      // neighbors across the line
+    static constexpr std::size_t wanted = 4;      // in each quadrant
+    static constexpr double most_spacings = 2.0;  // between rays next to each other
 
-    void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
-              const scan_line& line) {
+    void find(point_index i, const Eigen::Vector3d& u, const auto& plane, const auto& line) {
+        if (rays_ == nullptr) {
+            rays_ = &directions_of(index_, sequential{});  // only where they are needed
+            const auto& [along, across] = rays_->spacing();
+            reach_ = most_spacings * std::max(along, across).radians();
+        }
         constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
         for (std::size_t count = few; count <= many; count *= 4) {
-            search_tree(rays_.tree(), u, {.k = count, .except = i}, near_);
+            search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
             counts_ = {};
+            std::size_t full = 0;  // quadrants
             found_.clear();
             for (const neighbor& q : near_) {
                 if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
                 std::size_t& in_quadrant =
                     counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
                 if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
-                ++in_quadrant;
+                full += ++in_quadrant == wanted ? 1 : 0;
                 found_.push_back(q.index);
             }
-            const bool is_whole =
-                near_.size() < count || near_.back().squared_distance > reach_ * reach_ ||
-                std::ranges::all_of(counts_, [](std::size_t n) { return n == wanted; });
-            if (is_whole) return;
+            if (full == counts_.size() || near_.size() < count ||
+                near_.back().squared_distance > reach_ * reach_)
+                return;
         }
     }
 
     /// Whether two points may be on one surface that is seen from about one place: the straight
     /// line between them is at an angle to the farther ray, other than across a step of the depth.
     [[nodiscard]] bool is_beside(point_index i, point_index j) const {
-        constexpr double least_sine = 0.026;  // of 1.5 degrees: chosen likewise
+        constexpr double least_sine = 0.026;    // of 1.5 degrees: chosen likewise
         constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
         const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
@@ -6472,11 +6519,10 @@ class across_lines {
         return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
     }
 
-    const spatial_index& index_;
-    const Rays& rays_;
-    double reach_;  // [rad]
+    const Index& index_;
+    const directions_of_index<Index>* rays_ = nullptr;
+    double reach_ = 0.0;  // [rad]
     std::array<std::size_t, 4> counts_{};
-    scratch<std::array<double, 2>> offsets_;
     scratch<neighbor> near_;
     scratch<point_index> found_;
 };
@@ -6522,13 +6568,7 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
-        if (!looks_across(index)) return;
-        detail::scratch<point_index> near;
-        for (const neighbor& q : found) near.push_back(q.index);
-        detail::across_lines across(index, detail::directions_of(index, sequential{}));
-        for (const point_index j : across(static_cast<point_index>(i), near))
-            if (!contains(near, j)) found.push_back({squared_distance(index[i], index[j]), j});
-        std::sort(found.begin(), found.end());
+        if (looks_across(index)) add_across(index, i, found);
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
@@ -6539,11 +6579,10 @@ struct noise_knn {
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor,
                auto&& make_visitor_of_all) const {
         require_valid();
-        const auto* rays = looks_across(index) ? &detail::directions_of(index, run) : nullptr;
         detail::search_all_groups(
             index.tree(), run,
             [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
-            [&] { return gate(*this, index, rays, make_visitor(), make_visitor_of_all()); });
+            [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
@@ -6561,8 +6600,19 @@ struct noise_knn {
         return sees_across_lines && !index.viewpoints.empty();
     }
 
-    [[nodiscard]] static bool contains(const auto& all, const auto& one) {
-        return std::find(all.begin(), all.end(), one) != all.end();
+    /// Adds the neighbors across scan lines. (A template, so that only its users compile it.)
+    static void add_across(const auto& index, std::size_t i, auto& found) {
+        detail::across_lines across(index);
+        for (const point_index j : across(static_cast<point_index>(i), found.size(),
+                                          [&](std::size_t n) { return found[n].index; })) {
+            const neighbor q{squared_distance(index[i], index[j]), j};
+            add_once(q, found);
+        }
+        std::sort(found.begin(), found.end());
+    }
+
+    static void add_once(const auto& one, auto& all) {
+        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
     }
 
     /// The square of the distance [m^2] within which point i has its neighbors.
@@ -6573,16 +6623,15 @@ struct noise_knn {
 
     /// Shows a visitor those of the k nearest that are near enough, and another one all; both also
     /// those across scan lines.
-    template <class Visit, class VisitAll>
+    template <class Index, class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index,
-             const detail::ray_directions<>* rays, Visit visit, VisitAll visit_all)
+        gate(const noise_knn& policy, const Index& index, Visit visit, VisitAll visit_all)
             : policy_(policy),
               index_(index),
               visit_(std::move(visit)),
               visit_all_(std::move(visit_all)) {
-            if (rays != nullptr) across_.emplace(index, *rays);
+            if (policy.looks_across(index)) across_.emplace(index);
         }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
@@ -6602,15 +6651,14 @@ struct noise_knn {
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
-            near_.erase(end, near_.end());
+            near_.resize(static_cast<std::size_t>(end - near_.begin()));
             all_.assign(places.begin(), places.end());
             if (across_) {
-                indices_.clear();
-                for (const std::uint32_t at : near_) indices_.push_back(tree.index()[at]);
-                for (const point_index j : (*across_)(i, indices_)) {
-                    const std::uint32_t at = tree.place_of(j);
-                    for (auto* some : {&near_, &all_})
-                        if (!contains(*some, at)) some->push_back(at);
+                const auto indices = (*across_)(
+                    i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
+                for (const point_index j : indices) {
+                    add_once(tree.place_of(j), near_);
+                    add_once(tree.place_of(j), all_);
                 }
             }
             visit_all_(i, detail::found_neighbors(tree, place, all_));
@@ -6624,12 +6672,11 @@ struct noise_knn {
 
       private:
         const noise_knn& policy_;
-        const spatial_index& index_;
+        const Index& index_;
         Visit visit_;
         VisitAll visit_all_;
-        std::optional<detail::across_lines<>> across_;
+        std::optional<detail::across_lines<Index>> across_;
         detail::scratch<std::uint32_t> near_, all_;  // places
-        detail::scratch<point_index> indices_;       // of the near ones
     };
 };
 
@@ -8958,15 +9005,17 @@ class residual_sampler {
     }
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
-    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side.
+    /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side; where
+    /// these lie on one scan line, with four in each quadrant around the ray.
     [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
                                                     auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
         scratch<sampled_plane> planes(n);
         for_each_chunk(run, n, [&](std::size_t first, std::size_t last) {
             scratch<neighbor> found;
+            across_lines across(index_);
             for (std::size_t s = first; s < last; ++s)
-                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found);
+                planes[s] = plane_at(finite_[s * finite_.size() / n], half_length, found, across);
         });
         return planes;
     }
@@ -8974,8 +9023,8 @@ class residual_sampler {
     static constexpr std::size_t neighbors = 16;
 
   private:
-    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
-                                         scratch<neighbor>& found) const {
+    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length, scratch<neighbor>& found,
+                                         auto& across_line) const {
         const Eigen::Vector3d p = index_[i];
         const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
@@ -8984,6 +9033,12 @@ class residual_sampler {
         search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
+        if (!index_.viewpoints.empty()) {
+            const auto around =
+                across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
+            if (around.size() == neighbors)
+                for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
+        }
         ray_regression regression(plane.ray);
         for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();
@@ -12097,7 +12152,7 @@ class planar_cloud {
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
         if (index.finite() == 0) return;
-        for (int a = 0; a < 3; ++a) origin[a] = median_of(a);
+        for (int a = 0; a < 3; ++a) origin[a] = median_of(a, index.tree());
         for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
     }
 
@@ -12124,10 +12179,10 @@ class planar_cloud {
     }
 
   private:
-    /// The median of one coordinate, of some of the points.
-    [[nodiscard]] double median_of(int axis) const {
+    /// The median of one coordinate, of some of the points. (A template, so that only its users
+    /// compile it.)
+    [[nodiscard]] static double median_of(int axis, const auto& tree) {
         constexpr std::size_t enough = 1000;  // performance only
-        const leaf_tree& tree = index_.tree();
         scratch<double> values;
         for (std::size_t place = 0; place < tree.size(); place += 1 + tree.size() / enough)
             values.push_back(tree.at(static_cast<std::size_t>(axis))[place]);
@@ -14033,11 +14088,18 @@ namespace gnomon::detail {
 namespace gnomon::detail {
 
 /// The regions of a cloud.
-template <neighborhood_graph G>
+template <neighborhood_graph G, neighborhood_graph Near>
 class plane_regions {
   public:
-    plane_regions(const planar_cloud& cloud, const G& graph, std::size_t min_points)
-        : cloud_(cloud), graph_(graph), min_points_(min_points), labels_(cloud.size(), unlabeled) {}
+    /// @param graph  the neighbors of each point that a region may grow to
+    /// @param near   the neighbors whose labels compete for it; another graph, or the same
+    plane_regions(const planar_cloud& cloud, const G& graph, const Near& near,
+                  std::size_t min_points)
+        : cloud_(cloud),
+          graph_(graph),
+          near_(near),
+          min_points_(min_points),
+          labels_(cloud.size(), unlabeled) {}
 
     [[nodiscard]] const scratch<std::int32_t>& labels() const { return labels_; }
     [[nodiscard]] const scratch<planar_region>& regions() const { return regions_; }
@@ -14078,10 +14140,10 @@ class plane_regions {
     /// explains it best, or to none if all are too far, and regions are merged again.
     template <execution X>
     void settle(const X& run) {
-        scratch<char> is_border = borders_of(graph_, labels_, run);
-        merge(compete(cloud_, graph_, regions_, labels_, is_border, run).touching);
+        scratch<char> is_border = borders_of(near_, labels_, run);
+        merge(compete(cloud_, near_, regions_, labels_, is_border, run).touching);
         for (int round = 0; round < most_rounds; ++round) {
-            auto after = compete(cloud_, graph_, regions_, labels_, is_border, run);
+            auto after = compete(cloud_, near_, regions_, labels_, is_border, run);
             const bool rests = labels_ == after.labels;
             labels_.swap(after.labels);
             refit();
@@ -14153,6 +14215,7 @@ class plane_regions {
 
     const planar_cloud& cloud_;
     const G& graph_;
+    const Near& near_;
     std::size_t min_points_;
     scratch<std::int32_t> labels_;
     scratch<planar_region> regions_;
@@ -14195,11 +14258,13 @@ inline void require_valid(const segment_planes_options& options) {
 }
 
 /// The regions of the planes of a cloud.
-template <neighborhood_graph G, normal_range S, execution X>
-[[nodiscard]] plane_regions<G> regions_of_planes(const planar_cloud& cloud, const G& graph,
-                                                 const S& surface, std::size_t min_points,
-                                                 angle max_angle, const X& run) {
-    plane_regions regions(cloud, graph, min_points);
+/// @param graph, near  those of `plane_regions`
+template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
+[[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
+                                                       const Near& near, const S& surface,
+                                                       std::size_t min_points, angle max_angle,
+                                                       const X& run) {
+    plane_regions regions(cloud, graph, near, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.cut(run);
@@ -14236,7 +14301,7 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, surface,
+    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, graph, surface,
                                                                   options.min_points,
                                                                   options.max_angle, team)
                                             .labels());
@@ -14490,15 +14555,20 @@ void append_boundary_pairs(auto& found, const Points& points, std::span<const po
 
 namespace gnomon::detail {
 
+struct any_pair {
+    bool operator()(point_index, point_index) const { return true; }
+};
+
 /// Each flat one of `parts` segments with those `wanted` possible ones whose centroids are nearest,
 /// by their numbers, ascending and each pair once. The 300 nearest ones are looked at. O(m log m)
 /// for m segments. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
 /// @param is_possible  is_possible(s, t): whether two flat ones may be a pair
+template <class Possible = any_pair>
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of,
-                                                    auto&& is_possible) {
+                                                    const Possible& is_possible = {}) {
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {
@@ -14559,8 +14629,8 @@ namespace gnomon::detail {
 /// @file
 /// Policies of merging: whether the observations in the gap between two coplanar segments are
 /// evidence for one occluded surface. A sensor may have seen something nearer there, which occludes
-/// what is behind it; something farther, which shows free space; or nothing at all. Or the place may
-/// be where it cannot see, as the road below a spinning lidar.
+/// what is behind it; something farther, which shows free space; or nothing at all. Or the place
+/// may be where it cannot see, as the road below a spinning lidar.
 ///
 /// Klasing 2010, Sec. 4.3.2, Fig. 4.4. Models: `conservative`, `liberal`, and any function of an
 /// `observation`.
@@ -14588,11 +14658,7 @@ struct observation_count {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
-    [[nodiscard]] std::size_t total() const {
-        std::size_t all = 0;
-        for (const std::size_t n : of) all += n;
-        return all;
-    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3] + of[4]; }
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
@@ -14627,9 +14693,8 @@ template <merge_policy M>
     if (seen.total() == 0) return policy(observation::unobserved);
     std::size_t against = 0;
     std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
-    for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space,
-          observation::out_of_view})
+    for (const observation s : {observation::unobserved, observation::occluded,
+                                observation::free_space, observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }
@@ -14900,8 +14965,10 @@ class range_image {
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
-    /// the last row. Precondition: its distance, squared, is finite.
-    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
+    /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
+    /// users compile it.)
+    template <class Point = Eigen::Vector3d>
+    [[nodiscard]] pixel pixel_of(const Point& p) const {
         std::array<Eigen::Vector3d, detail::slim_pack::size> to;
         to.fill(detail::difference(p, viewpoint_));
         return axes_.cells_towards(to, width_, height_)[0];
@@ -14920,6 +14987,12 @@ class range_image {
     [[nodiscard]] double distance_to(const Eigen::Vector3d& p) const {
         return detail::length(detail::difference(p, viewpoint_));
     }
+
+    /// The sine of the lowest elevation in which something is seen, less two pixels; more than that
+    /// of the highest one if nothing is.
+    [[nodiscard]] double lowest_sine() const { return lowest_sine_; }
+    /// The sine of the highest elevation in which something is seen, and two pixels more.
+    [[nodiscard]] double highest_sine() const { return highest_sine_; }
 
     /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
@@ -15202,7 +15275,10 @@ class visibility {
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
-            const range_image_options format{2 * rows, rows, options.pole};
+            pole_ = detail::image_axes::with_pole(options.pole ? *options.pole
+                                                               : common_pole(p, viewpoints))
+                        .z;
+            const range_image_options format{2 * rows, rows, pole_};
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
@@ -15211,7 +15287,11 @@ class visibility {
                                   projection);
             });
             images_.reserve(images.size());
-            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
+            for (std::optional<range_image>& image : images) {
+                lowest_sine_ = std::min(lowest_sine_, image->lowest_sine());
+                highest_sine_ = std::max(highest_sine_, image->highest_sine());
+                images_.push_back(*std::move(image));
+            }
         });
     }
 
@@ -15222,22 +15302,25 @@ class visibility {
 
     /// What was observed towards a place [m], by most view points that observed anything there; of
     /// equally many free space, then on surface, then occluded. Where there were none, it is out
-    /// of view if it is so from all of them. O(view points).
-    [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
+    /// of view if it is so from most of them. O(view points).
+    template <class Place = Eigen::Vector3d>  // so that only its users compile it
+    [[nodiscard]] observation towards(const Place& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
         auto most = observation::free_space;
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        return count[observation::unobserved] > 0 ? observation::unobserved
-                                                  : observation::out_of_view;
+        return count[observation::out_of_view] > count[observation::unobserved]
+                   ? observation::out_of_view
+                   : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
     /// at steps of a pixel, the ends left out; nothing if one of them is not finite. O(steps * view
     /// points).
-    [[nodiscard]] observation_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+    template <class Place = Eigen::Vector3d>  // so that only its users compile it
+    [[nodiscard]] observation_count between(const Place& p, const Place& q,
                                             const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
@@ -15257,6 +15340,25 @@ class visibility {
     }
 
   private:
+    /// The direction in which the rays of all view points see least.
+    [[nodiscard]] static Eigen::Vector3d common_pole(const auto& p,
+                                                     const viewpoint_table& viewpoints) {
+        detail::scratch<Eigen::Vector3d> ways;
+        for (std::size_t i = 0; i < p.size(); ++i)
+            if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
+                detail::has_length(way))
+                ways.push_back(way);
+        return detail::least_observed_axis(ways, std::identity());
+    }
+
+    /// Whether a place is below or above all that was seen from anywhere.
+    [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
+                                      const range_image& image) const {
+        const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
+        const double up = detail::dot(pole_, way), distance = detail::length(way);
+        return up < lowest_sine_ * distance || up > highest_sine_ * distance;
+    }
+
     /// The root mean square of the standard deviations of the ranges [m].
     [[nodiscard]] double typical_noise(const auto& p, const viewpoint_table& viewpoints) const {
         constexpr std::size_t enough = 1000;  // a sample (performance only)
@@ -15271,11 +15373,12 @@ class visibility {
     }
 
     /// What one view point has seen there.
-    [[nodiscard]] observation towards(const Eigen::Vector3d& place,
-                                      const range_image& image) const {
+    [[nodiscard]] observation towards(const auto& place, const range_image& image) const {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected)) return observation::unobserved;
-        if (!image.may_show(place)) return observation::out_of_view;
+        if (!image.may_show(place))
+            return is_out_of_view(place, image) ? observation::out_of_view
+                                                : observation::unobserved;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
@@ -15321,7 +15424,9 @@ class visibility {
     }
 
     noise_curve noise_;
-    double pixel_ = 0.0;  // [rad]
+    double pixel_ = 0.0;                              // [rad]
+    Eigen::Vector3d pole_;  // of all images
+    double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };
 
@@ -15703,8 +15808,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     };
     const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of,
-                                  [](point_index, point_index) { return true; })) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;
@@ -18051,6 +18155,9 @@ class cell_surfaces {
             });
         }
         graph_.emplace(std::move(graph));
+        std::size_t k = noise_knn{}.k;
+        if constexpr (std::same_as<N, noise_knn>) k = neighborhood.k;
+        near_.emplace(*graph_, k);
         orient_normals(index_, surface_, run);
     }
 
@@ -18059,14 +18166,14 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        regions_.emplace(regions_of_planes(*cloud_, *graph_, surface_, planes.min_points,
+        regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, run));
     }
 
     /// For each point the number of its region, or `unlabeled`.
     template <execution X>
     [[nodiscard]] scratch<std::int32_t> labels_of_points(const X& run) const {
-        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *graph_, labels(),
+        return detail::labels_of_points(points_, noise_, cells_, *cloud_, *near_, labels(),
                                         regions_->regions(), run);
     }
 
@@ -18091,9 +18198,10 @@ class cell_surfaces {
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;
-    std::optional<scratch_graph> graph_;
+    std::optional<scratch_graph> graph_;  // the nearest neighbors first, then others
+    std::optional<first_neighbors<scratch_graph>> near_;  // the nearest of these
     std::optional<planar_cloud> cloud_;
-    std::optional<plane_regions<scratch_graph>> regions_;
+    std::optional<plane_regions<scratch_graph, first_neighbors<scratch_graph>>> regions_;
 };
 
 }  // namespace gnomon::detail
@@ -18106,6 +18214,14 @@ class cell_surfaces {
 /// measured as the noise is, on a few of the points, whose neighborhoods are wide.
 
 namespace gnomon::detail {
+
+/// Whether all rays are within 45 degrees of one axis. (A template for compile time only.)
+[[nodiscard]] bool are_of_camera(const auto& index, const scratch<point_index>& some) {
+    scratch<sampled_plane> rays;
+    for (const point_index i : some)
+        rays.push_back({difference(index[i], index.viewpoints[i]), {0.0, 0.0, 0.0}});
+    return has_length(axis_of_cone(rays));
+}
 
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
 /// measured, and is more.
@@ -18123,6 +18239,7 @@ template <class X>
         some.push_back(static_cast<point_index>(i));
         range += length(difference(index[i], index.viewpoints[i]));
     }
+    if (!are_of_camera(index, some)) return noise;
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
     const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));

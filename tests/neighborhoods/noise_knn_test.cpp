@@ -67,7 +67,8 @@ std::vector<point_index> by_brute_force(const noise_knn& policy, const clouds::c
 TEST(noise_knn, agrees_with_brute_force) {
     const Eigen::Vector3d eye(-1.0, 0.5, 2.0);
     std::size_t limited_by_noise = 0, by_number = 0, few = 0;
-    for (const noise_knn& policy : policies()) {
+    for (noise_knn policy : policies()) {
+        policy.sees_across_lines = false;
         for (const auto& points :
              {clouds::in_cube(300, 1), clouds::sheet(300, 2), clouds::on_grid(300, 3)}) {
             const auto graph = policy(gnomon::with_viewpoint(points, eye));
@@ -91,8 +92,11 @@ TEST(noise_knn, reaches_farther_where_noise_is_greater) {
         line.emplace_back(0.001 * i, 0.0, 0.0);
         eyes.emplace_back(0.001 * i, 0.0, i < 200 ? 1.0 : 4.0);
     }
-    const noise_knn policy{
-        .noise = quadratic_noise{0.0, 0.001, 0.0}, .k = 300, .fewest = 0, .deviations = 5.4};
+    const noise_knn policy{.noise = quadratic_noise{0.0, 0.001, 0.0},
+                           .k = 300,
+                           .fewest = 0,
+                           .deviations = 5.4,
+                           .sees_across_lines = false};
     const auto graph = policy(gnomon::with_viewpoints(line, gnomon::viewpoint_table(eyes)));
     EXPECT_EQ(graph[100].size(), 10u);  // 5.4 mm to either side
     EXPECT_EQ(graph[300].size(), 42u);  // 21.6 mm

@@ -149,6 +149,30 @@ TEST(merge_occluded, sees_past_a_column_that_hides_most_of_a_gap) {
 
 /// How small depends on the noise: the slope of a tile of 450 points that is 30 cm wide has a
 /// standard deviation of half a degree at 15 mm of noise, and of two at 60 mm.
+/// The road before and behind a car, and more posts next to it than there are candidates.
+TEST(merge_occluded, passes_over_what_is_not_coplanar_in_search_of_candidates) {
+    clouds::cloud points;
+    std::vector<std::int32_t> labels;
+    const auto add = [&](double x, double y, double z, std::int32_t label) {
+        points.emplace_back(x, y, z);
+        labels.push_back(label);
+    };
+    for (int i = 0; i < 60; ++i) {
+        for (int j = 0; j < 40; ++j) {
+            for (const int side : {-1, 1})
+                add(side * (4.0 + 0.1 * i), 0.1 * j - 2.0, -2.0, side < 0 ? 0 : 1);
+        }
+    }
+    for (std::int32_t post = 0; post < 30; ++post) {
+        for (int i = 0; i < 36; ++i)
+            add(0.2 * post - 3.0, 4.0 + 0.05 * (i % 6), -1.0 + 0.05 * (i / 6), 2 + post);
+    }
+    const auto viewed = gnomon::with_viewpoint(points, Eigen::Vector3d(0.0, 0.0, 0.0));
+    const gnomon::visibility visible(viewed, {.pixel = gnomon::degrees(1.0)});
+    const auto merged = gnomon::merge_occluded(viewed, gnomon::segments(labels), visible);
+    EXPECT_EQ(merged.segments.labels()[0], merged.segments.labels()[1]) << "nothing is seen below";
+}
+
 TEST(merge_occluded, requires_planes_at_a_small_angle) {
     struct expected {
         double turned;

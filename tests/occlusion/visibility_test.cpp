@@ -234,6 +234,30 @@ TEST(visibility, let_view_points_vote) {
     EXPECT_EQ(told(3), observation::free_space);
 }
 
+/// A lidar that spins sees neither what is below it nor the sky; whether it stands or moves.
+TEST(visibility, end_below_and_above_all_that_was_seen) {
+    for (const double step : {0.0, 0.001}) {
+        clouds::cloud points, from;
+        for (int column = 0; column < 360; ++column) {
+            const gnomon::angle turned = gnomon::degrees(column);
+            for (double elevation = -20.0; elevation <= 10.0; elevation += 1.0) {
+                if (column > 100 && column < 140) continue;  // no returns
+                const gnomon::angle e = gnomon::degrees(elevation);
+                from.emplace_back(step * column, 0.0, 2.0);
+                points.push_back(from.back() + 5.0 * Eigen::Vector3d(cos(e) * cos(turned),
+                                                                     cos(e) * sin(turned), sin(e)));
+            }
+        }
+        const visibility visible(gnomon::with_viewpoints(points, gnomon::viewpoint_table(from)),
+                                 {.noise = constant_noise{0.01}});
+        EXPECT_EQ(visible.towards({1.0, 0.5, 0.0}), observation::out_of_view);
+        EXPECT_EQ(visible.towards({-0.5, 0.0, 0.5}), observation::out_of_view);
+        EXPECT_EQ(visible.towards({1.0, 0.0, 5.0}), observation::out_of_view);
+        EXPECT_EQ(visible.towards({-2.5, 4.3, 2.0}), observation::unobserved);
+        EXPECT_EQ(visible.towards({4.0, 0.0, 2.0}), observation::free_space);
+    }
+}
+
 TEST(visibility, survive_any_cloud) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -16,7 +17,10 @@
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation/simulate.hpp>
+#include <gnomon/simulation/spinning_lidar.hpp>
+#include <gnomon/simulation/street.hpp>
 #include <gnomon/simulation/thesis_scenes.hpp>
+#include <gnomon/simulation/trajectory.hpp>
 
 namespace {
 
@@ -198,6 +202,28 @@ TEST(perception, normals_face_the_view_point_without_noise_along_the_rays) {
         ASSERT_TRUE(result.noise.is_across_surface);
         EXPECT_EQ(result.surface[0].normal.z(), z > 0.0 ? 1.0 : -1.0);
         EXPECT_EQ(result.surface.back().trust, gnomon::trust::not_finite);
+    }
+}
+
+/// The lines of a spinning lidar are far apart, and the road is not seen below it.
+TEST(perception, finds_one_road_by_a_spinning_lidar) {
+    namespace sim = gnomon::simulation;
+    const sim::scene street = sim::scenes::street({.seed = 20'001});
+    const std::int32_t road = street.find_surface("road/body/plane");
+    for (const auto& lidar :
+         {sim::scanners::velodyne_hdl_32e(), sim::scanners::velodyne_vlp_16()}) {
+        const sim::driving car{.mount = street.sensor, .duration = lidar.revolution()};
+        const auto seen = sim::simulate(street, car, lidar, {.sigma = 0.02, .seed = 1});
+        const auto result = perception<>{}(seen.scan, gnomon::threads{2});
+        std::vector<std::size_t> count(result.surfaces.size(), 0);
+        std::size_t points = 0;
+        for (std::size_t i = 0; i < seen.scan.size(); ++i) {
+            if (seen.surfaces[i] != road) continue;
+            ++points;
+            const std::int32_t label = result.surfaces.labels()[i];
+            if (label != gnomon::unlabeled) ++count[static_cast<std::size_t>(label)];
+        }
+        EXPECT_GT(*std::max_element(count.begin(), count.end()), points * 98 / 100);
     }
 }
 

@@ -20,8 +20,8 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
-#include <gnomon/core/point_range.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/across_lines.hpp>
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
@@ -63,14 +63,7 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
-        if (!looks_across(index)) return;
-        detail::across_lines across(index);
-        for (const point_index j : across(static_cast<point_index>(i), found.size(),
-                                          [&](std::size_t n) { return found[n].index; })) {
-            const neighbor q{squared_distance(index[i], index[j]), j};
-            if (!contains(found, q)) found.push_back(q);
-        }
-        std::sort(found.begin(), found.end());
+        if (looks_across(index)) add_across(index, i, found);
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
@@ -102,8 +95,19 @@ struct noise_knn {
         return sees_across_lines && !index.viewpoints.empty();
     }
 
-    [[nodiscard]] static bool contains(const auto& all, const auto& one) {
-        return std::find(all.begin(), all.end(), one) != all.end();
+    /// Adds the neighbors across scan lines. (A template, so that only its users compile it.)
+    static void add_across(const auto& index, std::size_t i, auto& found) {
+        detail::across_lines across(index);
+        for (const point_index j : across(static_cast<point_index>(i), found.size(),
+                                          [&](std::size_t n) { return found[n].index; })) {
+            const neighbor q{squared_distance(index[i], index[j]), j};
+            add_once(q, found);
+        }
+        std::sort(found.begin(), found.end());
+    }
+
+    static void add_once(const auto& one, auto& all) {
+        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
     }
 
     /// The square of the distance [m^2] within which point i has its neighbors.
@@ -114,10 +118,10 @@ struct noise_knn {
 
     /// Shows a visitor those of the k nearest that are near enough, and another one all; both also
     /// those across scan lines.
-    template <class Visit, class VisitAll>
+    template <class Index, class Visit, class VisitAll>
     class gate {
       public:
-        gate(const noise_knn& policy, const spatial_index& index, Visit visit, VisitAll visit_all)
+        gate(const noise_knn& policy, const Index& index, Visit visit, VisitAll visit_all)
             : policy_(policy),
               index_(index),
               visit_(std::move(visit)),
@@ -142,16 +146,14 @@ struct noise_knn {
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
-            near_.erase(end, near_.end());
+            near_.resize(static_cast<std::size_t>(end - near_.begin()));
             all_.assign(places.begin(), places.end());
             if (across_) {
-                const auto indices = (*across_)(i, near_.size(), [&](std::size_t n) {
-                    return tree.index()[near_[n]];
-                });
+                const auto indices = (*across_)(
+                    i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
                 for (const point_index j : indices) {
-                    const std::uint32_t at = tree.place_of(j);
-                    for (auto* some : {&near_, &all_})
-                        if (!contains(*some, at)) some->push_back(at);
+                    add_once(tree.place_of(j), near_);
+                    add_once(tree.place_of(j), all_);
                 }
             }
             visit_all_(i, detail::found_neighbors(tree, place, all_));
@@ -165,10 +167,10 @@ struct noise_knn {
 
       private:
         const noise_knn& policy_;
-        const spatial_index& index_;
+        const Index& index_;
         Visit visit_;
         VisitAll visit_all_;
-        std::optional<detail::across_lines<>> across_;
+        std::optional<detail::across_lines<Index>> across_;
         detail::scratch<std::uint32_t> near_, all_;  // places
     };
 };

@@ -156,8 +156,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
     };
     const auto centroid_of = [&](std::size_t s) { return frames[s].centroid; };
     for (const auto& [i, j] :
-         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of,
-                                  [](point_index, point_index) { return true; })) {
+         detail::pairs_to_compare(frames.size(), options.candidates, is_flat, centroid_of)) {
         if (detail::angular_distance(frames[i], frames[j]) > options.max_angle.radians() ||
             detail::orthogonal_distance(frames[i], frames[j]) >= options.max_offset)
             continue;

@@ -2,8 +2,8 @@
 /// @file
 /// Policies of merging: whether the observations in the gap between two coplanar segments are
 /// evidence for one occluded surface. A sensor may have seen something nearer there, which occludes
-/// what is behind it; something farther, which shows free space; or nothing at all. Or the place may
-/// be where it cannot see, as the road below a spinning lidar.
+/// what is behind it; something farther, which shows free space; or nothing at all. Or the place
+/// may be where it cannot see, as the road below a spinning lidar.
 ///
 /// Klasing 2010, Sec. 4.3.2, Fig. 4.4. Models: `conservative`, `liberal`, and any function of an
 /// `observation`.
@@ -36,11 +36,7 @@ struct observation_count {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
-    [[nodiscard]] std::size_t total() const {
-        std::size_t all = 0;
-        for (const std::size_t n : of) all += n;
-        return all;
-    }
+    [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3] + of[4]; }
 };
 
 /// Whether an observation is evidence for merging. Most observations along most of the lines across
@@ -75,9 +71,8 @@ template <merge_policy M>
     if (seen.total() == 0) return policy(observation::unobserved);
     std::size_t against = 0;
     std::size_t in_favor = policy(observation::on_surface) ? seen[observation::on_surface] : 0;
-    for (const observation s :
-         {observation::unobserved, observation::occluded, observation::free_space,
-          observation::out_of_view})
+    for (const observation s : {observation::unobserved, observation::occluded,
+                                observation::free_space, observation::out_of_view})
         (policy(s) ? in_favor : against) += seen[s];
     return in_favor > against;
 }

@@ -85,8 +85,10 @@ class range_image {
     [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
-    /// the last row. Precondition: its distance, squared, is finite.
-    [[nodiscard]] pixel pixel_of(const Eigen::Vector3d& p) const {
+    /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
+    /// users compile it.)
+    template <class Point = Eigen::Vector3d>
+    [[nodiscard]] pixel pixel_of(const Point& p) const {
         std::array<Eigen::Vector3d, detail::slim_pack::size> to;
         to.fill(detail::difference(p, viewpoint_));
         return axes_.cells_towards(to, width_, height_)[0];
@@ -106,11 +108,11 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
-    /// The sines of the lowest and the highest elevation in which something is seen, with two pixels
-    /// around; the first is the larger one if nothing is.
-    [[nodiscard]] std::pair<double, double> seen_sines() const {
-        return {lowest_sine_, highest_sine_};
-    }
+    /// The sine of the lowest elevation in which something is seen, less two pixels; more than that
+    /// of the highest one if nothing is.
+    [[nodiscard]] double lowest_sine() const { return lowest_sine_; }
+    /// The sine of the highest elevation in which something is seen, and two pixels more.
+    [[nodiscard]] double highest_sine() const { return highest_sine_; }
 
     /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {

@@ -86,8 +86,8 @@ class visibility {
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
-            pole_ = detail::image_axes::with_pole(
-                        options.pole ? *options.pole : common_pole(p, viewpoints))
+            pole_ = detail::image_axes::with_pole(options.pole ? *options.pole
+                                                               : common_pole(p, viewpoints))
                         .z;
             const range_image_options format{2 * rows, rows, pole_};
             const auto places =
@@ -99,9 +99,8 @@ class visibility {
             });
             images_.reserve(images.size());
             for (std::optional<range_image>& image : images) {
-                const auto [low, high] = image->seen_sines();
-                lowest_sine_ = std::min(lowest_sine_, low);
-                highest_sine_ = std::max(highest_sine_, high);
+                lowest_sine_ = std::min(lowest_sine_, image->lowest_sine());
+                highest_sine_ = std::max(highest_sine_, image->highest_sine());
                 images_.push_back(*std::move(image));
             }
         });
@@ -115,7 +114,8 @@ class visibility {
     /// What was observed towards a place [m], by most view points that observed anything there; of
     /// equally many free space, then on surface, then occluded. Where there were none, it is out
     /// of view if it is so from most of them. O(view points).
-    [[nodiscard]] observation towards(const Eigen::Vector3d& place) const {
+    template <class Place = Eigen::Vector3d>  // so that only its users compile it
+    [[nodiscard]] observation towards(const Place& place) const {
         observation_count count;
         for (const range_image& image : images_) count.add(towards(place, image));
         auto most = observation::free_space;
@@ -130,7 +130,8 @@ class visibility {
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
     /// at steps of a pixel, the ends left out; nothing if one of them is not finite. O(steps * view
     /// points).
-    [[nodiscard]] observation_count between(const Eigen::Vector3d& p, const Eigen::Vector3d& q,
+    template <class Place = Eigen::Vector3d>  // so that only its users compile it
+    [[nodiscard]] observation_count between(const Place& p, const Place& q,
                                             const Eigen::Vector3d& viewpoint) const {
         const Eigen::Vector3d to_p = detail::difference(p, viewpoint);
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
@@ -183,8 +184,7 @@ class visibility {
     }
 
     /// What one view point has seen there.
-    [[nodiscard]] observation towards(const Eigen::Vector3d& place,
-                                      const range_image& image) const {
+    [[nodiscard]] observation towards(const auto& place, const range_image& image) const {
         const double expected = image.distance_to(place);
         if (!std::isfinite(expected)) return observation::unobserved;
         if (!image.may_show(place))
@@ -235,8 +235,8 @@ class visibility {
     }
 
     noise_curve noise_;
-    double pixel_ = 0.0;  // [rad]
-    Eigen::Vector3d pole_{0.0, 0.0, 1.0};             // of all images
+    double pixel_ = 0.0;                              // [rad]
+    Eigen::Vector3d pole_;  // of all images
     double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };

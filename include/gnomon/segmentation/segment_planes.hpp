@@ -52,7 +52,7 @@ inline void require_valid(const segment_planes_options& options) {
 }
 
 /// The regions of the planes of a cloud.
-/// @param graph, near  as of `plane_regions`
+/// @param graph, near  those of `plane_regions`
 template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
 [[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                        const Near& near, const S& surface,

@@ -3,7 +3,6 @@
 /// Something that follows from a value and is made when it is first asked for.
 #pragma once
 
-#include <memory>
 #include <utility>
 
 #include <gnomon/core/detail/thread_team.hpp>
@@ -22,10 +21,12 @@ class made_when_asked {
         return *this;
     }
     made_when_asked& operator=(made_when_asked&& other) noexcept {
+        if (this == &other) return *this;
+        destroy();
         take(other);
         return *this;
     }
-    ~made_when_asked() = default;
+    ~made_when_asked() { destroy(); }
 
     /// Whatever was made is no longer current.
     void forget() { is_made_ = false; }
@@ -35,8 +36,11 @@ class made_when_asked {
     template <class What>
     [[nodiscard]] const What& get(auto&& is_current, auto&& make) const {
         const guard_of locked(guard_);
-        if (!what_) what_ = std::make_shared<What>();
-        auto& what = *static_cast<What*>(what_.get());
+        if (what_ == nullptr) {
+            what_ = new What();
+            destroy_ = [](void* what) { delete static_cast<What*>(what); };
+        }
+        auto& what = *static_cast<What*>(what_);
         if (!is_made_ || !is_current(std::as_const(what))) {
             is_made_ = false;
             make(what);
@@ -46,13 +50,20 @@ class made_when_asked {
     }
 
   private:
+    void destroy() {
+        if (what_ != nullptr) destroy_(what_);
+    }
     void take(made_when_asked& other) {
-        what_ = std::move(other.what_);
-        is_made_ = std::exchange(other.is_made_, false);
+        what_ = other.what_;
+        destroy_ = other.destroy_;
+        is_made_ = other.is_made_;
+        other.what_ = nullptr;
+        other.is_made_ = false;
     }
 
     mutable mutex guard_;
-    mutable std::shared_ptr<void> what_;  // always of one type
+    mutable void* what_ = nullptr;  // always of one type
+    mutable void (*destroy_)(void*) = nullptr;
     mutable bool is_made_ = false;
 };
 

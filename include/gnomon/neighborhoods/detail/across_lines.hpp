@@ -9,6 +9,8 @@
 #include <array>
 #include <cstddef>
 #include <span>
+#include <type_traits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -21,20 +23,24 @@
 #include <gnomon/neighborhoods/detail/scan_line.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
-#include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
 
+/// The directions of the points of an index.
+template <class Index>
+using directions_of_index =
+    ray_directions<std::remove_cvref_t<decltype(std::declval<const Index&>().tree())>>;
+
 /// The directions of an index, which keeps them.
-template <execution X>
-[[nodiscard]] const ray_directions<>& directions_of(const spatial_index& index, const X& run) {
-    return index.kept.get<ray_directions<>>(
-        [&](const ray_directions<>& rays) { return rays.are_from(index.viewpoints.number()); },
-        [&](ray_directions<>& rays) { rays.rebuild(index, run); });
+template <class Index, execution X>
+[[nodiscard]] const auto& directions_of(const Index& index, const X& run) {
+    return index.kept.template get<directions_of_index<Index>>(
+        [&](const auto& rays) { return rays.are_from(index.viewpoints.number()); },
+        [&](auto& rays) { rays.rebuild(index, run); });
 }
 
 /// Searches for them; each thread has its own object. (A template for compile time only.)
-template <class Index = spatial_index>
+template <class Index>
 class across_lines {
   public:
     explicit across_lines(const Index& index) : index_(index) {}
@@ -49,27 +55,29 @@ class across_lines {
         found_.clear();
         const Eigen::Vector3d u = ray_direction(index_, i);
         if (!all_finite(u)) return {};
-        const ray_plane plane(u);
-        scan_line line;
-        offsets_.clear();
-        for (std::size_t n = 0; n < count; ++n)
-            line.add(offsets_.emplace_back(plane.offset(ray_direction(index_, neighbor(n)))));
+        const ray_plane<> plane(u);
+        scan_line<> line;
+        const auto offset = [&](std::size_t n) {
+            return plane.offset(ray_direction(index_, neighbor(n)));
+        };
+        for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
         line.fit();
-        const auto across =
-            std::ranges::count_if(offsets_, [&](const auto& o) { return !line.is_along(o); });
+        std::size_t across = 0;
+        for (std::size_t n = 0; n < count && across < enough; ++n)
+            across += line.is_along(offset(n)) ? 0 : 1;
         if (across < enough) find(i, u, plane, line);
         return found_;
     }
 
   private:
-    // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where fewer
-    // neighbors count as enough, roads are torn; where more are wanted, or farther ones, edges blur.
-    static constexpr std::ptrdiff_t enough = 3;     // neighbors across the line
-    static constexpr std::size_t wanted = 4;        // in each quadrant
-    static constexpr double most_spacings = 2.0;    // between rays next to each other
+    // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where
+    // fewer neighbors count as enough, roads are interrupted; where more are wanted, or farther
+    // ones, edges blur.
+    static constexpr std::size_t enough = 3;      // neighbors across the line
+    static constexpr std::size_t wanted = 4;      // in each quadrant
+    static constexpr double most_spacings = 2.0;  // between rays next to each other
 
-    void find(point_index i, const Eigen::Vector3d& u, const ray_plane& plane,
-              const scan_line& line) {
+    void find(point_index i, const Eigen::Vector3d& u, const auto& plane, const auto& line) {
         if (rays_ == nullptr) {
             rays_ = &directions_of(index_, sequential{});  // only where they are needed
             const auto& [along, across] = rays_->spacing();
@@ -79,26 +87,26 @@ class across_lines {
         for (std::size_t count = few; count <= many; count *= 4) {
             search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
             counts_ = {};
+            std::size_t full = 0;  // quadrants
             found_.clear();
             for (const neighbor& q : near_) {
                 if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
                 std::size_t& in_quadrant =
                     counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
                 if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
-                ++in_quadrant;
+                full += ++in_quadrant == wanted ? 1 : 0;
                 found_.push_back(q.index);
             }
-            const bool is_whole =
-                near_.size() < count || near_.back().squared_distance > reach_ * reach_ ||
-                std::ranges::all_of(counts_, [](std::size_t n) { return n == wanted; });
-            if (is_whole) return;
+            if (full == counts_.size() || near_.size() < count ||
+                near_.back().squared_distance > reach_ * reach_)
+                return;
         }
     }
 
     /// Whether two points may be on one surface that is seen from about one place: the straight
     /// line between them is at an angle to the farther ray, other than across a step of the depth.
     [[nodiscard]] bool is_beside(point_index i, point_index j) const {
-        constexpr double least_sine = 0.026;  // of 1.5 degrees: chosen likewise
+        constexpr double least_sine = 0.026;    // of 1.5 degrees: chosen likewise
         constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
         const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
@@ -110,10 +118,9 @@ class across_lines {
     }
 
     const Index& index_;
-    const ray_directions<>* rays_ = nullptr;
+    const directions_of_index<Index>* rays_ = nullptr;
     double reach_ = 0.0;  // [rad]
     std::array<std::size_t, 4> counts_{};
-    scratch<std::array<double, 2>> offsets_;
     scratch<neighbor> near_;
     scratch<point_index> found_;
 };

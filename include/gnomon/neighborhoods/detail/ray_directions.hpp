@@ -9,10 +9,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numbers>
-#include <tuple>
-#include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -22,7 +18,6 @@
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/scan_line.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -50,7 +45,7 @@ namespace detail {
 inline constexpr double same_ray = 1e-12;
 
 /// The directions, and their spacing. (A template for compile time only.)
-template <class Tree = leaf_tree>
+template <class Tree>
 class ray_directions {
   public:
     /// Replaces the directions by those of the points of an index, in the same memory. O(n log n).
@@ -79,7 +74,7 @@ class ray_directions {
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
     /// across it.
     void measure_spacing() {
-        constexpr std::size_t seeds = 128;  // performance only
+        constexpr std::size_t seeds = 128;            // performance only
         constexpr std::size_t few = 64, many = 1024;  // rays; performance only, 30 : 1 and more
         scratch<double> along, across;
         scratch<neighbor> near;
@@ -117,11 +112,11 @@ class ray_directions {
     /// The squared distances to the nearest ray along the scan line of a ray and across it [rad^2];
     /// infinite where there is none.
     /// @param near  the nearest rays, nearest first
-    [[nodiscard]] std::pair<double, double> nearest_around(const Eigen::Vector3d& u,
-                                                           const scratch<neighbor>& near) const {
+    [[nodiscard]] std::array<double, 2> nearest_around(const Eigen::Vector3d& u,
+                                                       const auto& near) const {
         constexpr std::size_t nearest = 4;  // two to either side, or one in each direction
-        const ray_plane plane(u);
-        scan_line line;
+        const ray_plane<> plane(u);
+        scan_line<> line;
         std::size_t count = 0;
         for (const neighbor& q : near) {
             if (q.squared_distance < same_ray) continue;
@@ -130,10 +125,10 @@ class ray_directions {
         }
         line.fit();
         constexpr double none = std::numeric_limits<double>::infinity();
-        std::pair found(none, none);
+        std::array<double, 2> found{none, none};
         for (const neighbor& q : near) {
             if (q.squared_distance < same_ray) continue;
-            double& to = line.is_along(plane.offset(direction(q))) ? found.first : found.second;
+            double& to = found[line.is_along(plane.offset(direction(q))) ? 0 : 1];
             to = std::min(to, q.squared_distance);
         }
         return found;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The direction of the scan line through a ray, from the rays around it: nothing need be known of
-/// the sensor, neither the number of a beam nor an axis.
+/// The direction of the scan line through a ray, from the rays around it: neither the number of a
+/// beam nor the axis of the sensor is required.
 #pragma once
 
 #include <array>
@@ -14,27 +14,30 @@
 
 namespace gnomon::detail {
 
-/// Where other rays are around one ray, in the plane across it.
+/// Where other rays are around one ray, in the plane across it. (A template, as the next, for
+/// compile time only.)
+template <class Vector = Eigen::Vector3d>
 class ray_plane {
   public:
     /// @param u  the direction of the ray, of unit length
-    explicit ray_plane(const Eigen::Vector3d& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
+    explicit ray_plane(const Vector& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
 
     /// The two coordinates of a direction [rad], for directions near the ray.
-    [[nodiscard]] std::array<double, 2> offset(const Eigen::Vector3d& direction) const {
+    [[nodiscard]] std::array<double, 2> offset(const Vector& direction) const {
         return {dot(direction, right_), dot(direction, up_)};
     }
 
   private:
-    Eigen::Vector3d right_, up_;
+    Vector right_, up_;
 };
 
 /// The axis through a ray that most of the rays around it are near. Angles are doubled, so that
 /// both ends of the axis are one.
+template <class Number = double>
 class scan_line {
   public:
     /// Adds another ray.
-    void add(const std::array<double, 2>& offset, double weight = 1.0) {
+    void add(const std::array<Number, 2>& offset, double weight = 1.0) {
         const auto [x, y] = offset;
         const double squared = x * x + y * y;
         if (!(squared > 0.0)) return;
@@ -54,22 +57,22 @@ class scan_line {
 
     /// Whether a ray is within 45 degrees of the axis. After fit(). The cosine of the doubled angle
     /// decides.
-    [[nodiscard]] bool is_along(const std::array<double, 2>& offset) const {
+    [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
         return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= 0.0;
     }
 
     /// Which of the four quadrants a ray is in: 0 and 1 along the axis, 2 and 3 across it. After
     /// fit().
-    [[nodiscard]] std::size_t quadrant(const std::array<double, 2>& offset) const {
+    [[nodiscard]] std::size_t quadrant(const std::array<Number, 2>& offset) const {
         const double along = turn_[0] * offset[0] + turn_[1] * offset[1];
         const double across = turn_[0] * offset[1] - turn_[1] * offset[0];
         return is_along(offset) ? (along < 0.0 ? 1 : 0) : (across < 0.0 ? 3 : 2);
     }
 
   private:
-    double cosines_ = 0.0, sines_ = 0.0;  // of twice the angle
-    std::array<double, 2> turn_{1.0, 0.0};  // the axis
+    double cosines_ = 0.0, sines_ = 0.0;    // of twice the angle
+    std::array<Number, 2> turn_{1.0, 0.0};  // the axis
 };
 
 }  // namespace gnomon::detail

@@ -37,9 +37,10 @@ class scratch_graph {
 
 /// The first neighbors of each point in a graph, at most k. Models `neighborhood_graph`; refers to
 /// the graph.
+template <class Graph>
 class first_neighbors {
   public:
-    first_neighbors(const scratch_graph& graph, std::size_t k) : graph_(graph), k_(k) {}
+    first_neighbors(const Graph& graph, std::size_t k) : graph_(graph), k_(k) {}
 
     [[nodiscard]] std::size_t size() const { return graph_.size(); }
     [[nodiscard]] std::span<const point_index> operator[](std::size_t i) const {
@@ -48,7 +49,7 @@ class first_neighbors {
     }
 
   private:
-    const scratch_graph& graph_;
+    const Graph& graph_;
     std::size_t k_;
 };
 

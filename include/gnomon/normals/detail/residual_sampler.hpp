@@ -61,8 +61,8 @@ class residual_sampler {
     static constexpr std::size_t neighbors = 16;
 
   private:
-    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length,
-                                         scratch<neighbor>& found, auto& across_line) const {
+    [[nodiscard]] sampled_plane plane_at(point_index i, auto& half_length, scratch<neighbor>& found,
+                                         auto& across_line) const {
         const Eigen::Vector3d p = index_[i];
         const Eigen::Vector3d viewpoint = index_.viewpoints[i];
         sampled_plane plane{difference(p, viewpoint), {0.0, 0.0, 0.0}};
@@ -71,8 +71,9 @@ class residual_sampler {
         search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
-        if (index_.viewpoints.positions().size() > 0) {
-            const auto around = across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
+        if (!index_.viewpoints.empty()) {
+            const auto around =
+                across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
             if (around.size() == neighbors)
                 for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
         }

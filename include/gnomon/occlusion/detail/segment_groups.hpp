@@ -21,15 +21,20 @@
 
 namespace gnomon::detail {
 
+struct any_pair {
+    bool operator()(point_index, point_index) const { return true; }
+};
+
 /// Each flat one of `parts` segments with those `wanted` possible ones whose centroids are nearest,
 /// by their numbers, ascending and each pair once. The 300 nearest ones are looked at. O(m log m)
 /// for m segments. (A template, so that only its users compile a search.)
 /// @param is_flat      is_flat(s): whether segment s is
 /// @param centroid_of  centroid_of(s) [m]
 /// @param is_possible  is_possible(s, t): whether two flat ones may be a pair
+template <class Possible = any_pair>
 [[nodiscard]] scratch<region_pair> pairs_to_compare(std::size_t parts, std::size_t wanted,
                                                     auto&& is_flat, auto&& centroid_of,
-                                                    auto&& is_possible) {
+                                                    const Possible& is_possible = {}) {
     scratch<point_index> flat;
     scratch<Eigen::Vector3d> centroids;
     for (std::size_t s = 0; s < parts; ++s) {

@@ -161,10 +161,10 @@ class cell_surfaces {
     spatial_index& index_;
     surface_type& surface_;
     cells cells_;
-    std::optional<scratch_graph> graph_;     // the nearest neighbors first, then others
-    std::optional<first_neighbors> near_;    // the nearest of these
+    std::optional<scratch_graph> graph_;  // the nearest neighbors first, then others
+    std::optional<first_neighbors<scratch_graph>> near_;  // the nearest of these
     std::optional<planar_cloud> cloud_;
-    std::optional<plane_regions<scratch_graph, first_neighbors>> regions_;
+    std::optional<plane_regions<scratch_graph, first_neighbors<scratch_graph>>> regions_;
 };
 
 }  // namespace gnomon::detail

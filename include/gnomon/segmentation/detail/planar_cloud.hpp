@@ -13,7 +13,6 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/detail/quantile.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
@@ -36,7 +35,7 @@ class planar_cloud {
           offsets(index.size(), Eigen::Vector3d(0.0, 0.0, 0.0)),
           index_(index) {
         if (index.finite() == 0) return;
-        for (int a = 0; a < 3; ++a) origin[a] = median_of(a);
+        for (int a = 0; a < 3; ++a) origin[a] = median_of(a, index.tree());
         for (std::size_t i = 0; i < index.size(); ++i) offsets[i] = difference(index[i], origin);
     }
 
@@ -63,10 +62,10 @@ class planar_cloud {
     }
 
   private:
-    /// The median of one coordinate, of some of the points.
-    [[nodiscard]] double median_of(int axis) const {
+    /// The median of one coordinate, of some of the points. (A template, so that only its users
+    /// compile it.)
+    [[nodiscard]] static double median_of(int axis, const auto& tree) {
         constexpr std::size_t enough = 1000;  // performance only
-        const leaf_tree& tree = index_.tree();
         scratch<double> values;
         for (std::size_t place = 0; place < tree.size(); place += 1 + tree.size() / enough)
             values.push_back(tree.at(static_cast<std::size_t>(axis))[place]);
