@@ -236,7 +236,7 @@ class visibility {
 
     noise_curve noise_;
     double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;  // of all images
+    Eigen::Vector3d pole_;                            // of all images
     double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };

@@ -163,8 +163,8 @@ void unite_labels(auto& labels, union_find& sets) {
     return labels;
 }
 
-/// The segments of these labels.
-[[nodiscard]] inline segments segments_of(std::span<const std::int32_t> labels) {
+/// The segments of these labels. (A template, so that only its users compile a grouping.)
+[[nodiscard]] segments segments_of(const auto& labels) {
     segments result;
     result.assign(labels);
     return result;
