@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "../chapter4/record.hpp"
 #include "furnished.hpp"
 #include "perceived.hpp"

@@ -1224,7 +1224,8 @@ class reset_on_move {
     reset_on_move(reset_on_move&& other) noexcept : value_(std::exchange(other.value_, T{})) {}
     reset_on_move& operator=(const reset_on_move&) = default;
     reset_on_move& operator=(reset_on_move&& other) noexcept {
-        value_ = std::exchange(other.value_, T{});
+        value_ = other.value_;
+        other.value_ = T{};  // also of itself, as a vector
         return *this;
     }
 
@@ -6267,10 +6268,11 @@ class scan_line {
     }
 
     /// Whether a ray is within 45 degrees of the axis. After fit(). The cosine of the doubled angle
-    /// decides.
+    /// decides; at 45 degrees, where rays on a grid often are, rounding does not.
     [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
-        return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= 0.0;
+        constexpr double rounding = 1e-6;
+        return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= -rounding * (x * x + y * y);
     }
 
     /// Which of the four quadrants a ray is in: 0 and 1 along the axis, 2 and 3 across it. After
@@ -6459,8 +6461,11 @@ class across_lines {
         if (!all_finite(u)) return {};
         const ray_plane<> plane(u);
         scan_line<> line;
+        around_.clear();  // by their indices: sums are the same in whatever order they come
+        for (std::size_t n = 0; n < count; ++n) around_.push_back(neighbor(n));
+        std::sort(around_.begin(), around_.end());
         const auto offset = [&](std::size_t n) {
-            return plane.offset(ray_direction(index_, neighbor(n)));
+            return plane.offset(ray_direction(index_, around_[n]));
         };
         for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
         line.fit();
@@ -6524,7 +6529,7 @@ class across_lines {
     double reach_ = 0.0;  // [rad]
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<point_index> found_;
+    scratch<point_index> around_, found_;
 };
 
 }  // namespace gnomon::detail
@@ -6542,10 +6547,10 @@ namespace gnomon {
 /// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest first.
 struct noise_knn {
     noise_curve noise = constant_noise{};  ///< along the rays
-    std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
+    std::size_t k = 30;                    ///< of the nearest neighbors, at least 1
     std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
     double deviations = 6.0;               ///< within this number of standard deviations
-    bool sees_across_lines = true;         ///< if view points are known
+    bool sees_across_lines = true;         ///< if view points are known; up to 16 neighbors more
 
     /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -6565,7 +6570,7 @@ struct noise_knn {
         detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
                             found);
         const double within = squared_reach(index, i);
-        const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
+        const auto is_far = [within](const neighbor& q) { return !(q.squared_distance <= within); };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
         if (looks_across(index)) add_across(index, i, found);
@@ -12440,8 +12445,8 @@ void unite_labels(auto& labels, union_find& sets) {
     return labels;
 }
 
-/// The segments of these labels.
-[[nodiscard]] inline segments segments_of(std::span<const std::int32_t> labels) {
+/// The segments of these labels. (A template, so that only its users compile a grouping.)
+[[nodiscard]] segments segments_of(const auto& labels) {
     segments result;
     result.assign(labels);
     return result;
@@ -15354,6 +15359,7 @@ class visibility {
     /// Whether a place is below or above all that was seen from anywhere.
     [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
                                       const range_image& image) const {
+        if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
         const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
         const double up = detail::dot(pole_, way), distance = detail::length(way);
         return up < lowest_sine_ * distance || up > highest_sine_ * distance;
@@ -15425,7 +15431,7 @@ class visibility {
 
     noise_curve noise_;
     double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;  // of all images
+    Eigen::Vector3d pole_;                            // of all images
     double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };
@@ -21565,8 +21571,8 @@ struct spinning_lidar {
                 "spinning_lidar: elevations must be between -90 and 90 degrees");
         require(columns >= 1 && columns <= 10'000'000,
                 "spinning_lidar: needs 1 to 10,000,000 columns");
-        require(frequency > 0.0 && std::isfinite(frequency),
-                "spinning_lidar: the frequency must be positive and finite");
+        require(frequency > 0.0 && std::isfinite(line_rate()),
+                "spinning_lidar: the frequency must be positive, and that of columns finite");
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
                 "spinning_lidar: needs 0 <= min_range < max_range, finite");
     }

@@ -42,6 +42,9 @@ TEST(noise_knn, models_obey_the_laws) {
         }
         laws::neighborhood_laws(policy, clouds::in_cube(500, 2));
     }
+    // Infinity times no noise is no distance.
+    laws::neighborhood_laws(noise_knn{.noise = constant_noise{0.0}, .deviations = clouds::infinity},
+                            clouds::in_cube(100, 3));
 }
 
 /// All points by their distance, ties by index: those within the reach of the noise, at most k, and

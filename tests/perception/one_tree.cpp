@@ -31,13 +31,15 @@ std::size_t trees_built_by(auto&& work) {
 
 const gnomon::noise_curve noise = gnomon::constant_noise{0.015};
 
+const gnomon::noise_knn along_lines{.sees_across_lines = false};
+
 /// One of the points, and one of their cells.
 TEST(one_tree, serves_all_steps_of_perception) {
-    const gnomon::perception<> chain{.noise = noise};
+    const gnomon::perception<> chain{.neighborhood = along_lines, .noise = noise};
     EXPECT_EQ(trees_built_by([&] { EXPECT_GT(chain(kitchen()).surfaces.size(), 5u); }), 2u);
     EXPECT_EQ(trees_built_by([&] { (void)chain(kitchen(), gnomon::threads{2}); }), 2u);
-    const gnomon::perception<> above_floor{.noise = noise,
-                                           .leave_out = gnomon::floor_and_ceiling{}};
+    const gnomon::perception<> above_floor{
+        .neighborhood = along_lines, .noise = noise, .leave_out = gnomon::floor_and_ceiling{}};
     EXPECT_EQ(
         trees_built_by([&] { EXPECT_LT(above_floor(kitchen()).kept.size(), kitchen().size()); }),
         2u);
@@ -47,14 +49,19 @@ TEST(one_tree, serves_all_steps_of_perception) {
     EXPECT_EQ(trees_built_by([&] { (void)on_points(kitchen()); }), 1u);
 }
 
-/// One more, of some thousand points, on which the noise of wide planes is measured.
-TEST(one_tree, is_joined_by_a_small_one_if_the_noise_is_measured) {
-    EXPECT_EQ(trees_built_by([&] { (void)gnomon::perception<>{}(kitchen()); }), 3u);
+/// One more of the directions of the cells, and of those of the points if the noise is measured,
+/// as some of them have all neighbors on one scan line.
+TEST(one_tree, is_joined_by_one_of_directions_where_lines_are_far_apart) {
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::perception<>{.noise = noise}(kitchen()); }), 3u);
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::perception<>{}(kitchen()); }), 4u);
+    const gnomon::spatial_index index(kitchen());
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::noise_knn{}(index, gnomon::threads{4}); }), 1u);
+    EXPECT_EQ(trees_built_by([&] { (void)gnomon::noise_knn{}(index); }), 0u);
 }
 
 TEST(one_tree, is_not_built_where_an_index_is_given) {
     const gnomon::spatial_index index(kitchen());
-    const gnomon::perception<> chain{.noise = noise};
+    const gnomon::perception<> chain{.neighborhood = along_lines, .noise = noise};
     EXPECT_EQ(trees_built_by([&] { (void)chain(index); }), 1u) << "of the cells";
     EXPECT_EQ(trees_built_by([&] {
                   auto surface = gnomon::estimate_normals(index);
@@ -62,7 +69,7 @@ TEST(one_tree, is_not_built_where_an_index_is_given) {
                                              gnomon::plane_pca{});
                   const auto parts = gnomon::segment_surfaces(index, surface);
                   (void)gnomon::euclidean_clusters(index);
-                  const auto graph = gnomon::noise_knn{}(index);
+                  const auto graph = along_lines(index);
                   (void)gnomon::segment_planes(index, graph, surface);
                   (void)gnomon::split_outliers(index, parts, noise);
                   (void)gnomon::assign_unlabeled(index, graph, parts, noise);

@@ -210,9 +210,12 @@ TEST(perception, finds_one_road_by_a_spinning_lidar) {
     namespace sim = gnomon::simulation;
     const sim::scene street = sim::scenes::street({.seed = 20'001});
     const std::int32_t road = street.find_surface("road/body/plane");
-    for (const auto& lidar :
-         {sim::scanners::velodyne_hdl_32e(), sim::scanners::velodyne_vlp_16()}) {
-        const sim::driving car{.mount = street.sensor, .duration = lidar.revolution()};
+    for (const double speed : {0.0, 15.0}) {
+        const sim::spinning_lidar lidar =
+            speed > 0.0 ? sim::scanners::velodyne_hdl_32e() : sim::scanners::velodyne_vlp_16();
+        const sim::driving car{.mount = street.sensor,
+                               .duration = lidar.revolution(),
+                               .velocity = Eigen::Vector3d(speed, 0.0, 0.0)};
         const auto seen = sim::simulate(street, car, lidar, {.sigma = 0.02, .seed = 1});
         const auto result = perception<>{}(seen.scan, gnomon::threads{2});
         std::vector<std::size_t> count(result.surfaces.size(), 0);

@@ -37,10 +37,10 @@ namespace gnomon {
 /// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest first.
 struct noise_knn {
     noise_curve noise = constant_noise{};  ///< along the rays
-    std::size_t k = 30;                    ///< the largest number of neighbors, at least 1
+    std::size_t k = 30;                    ///< of the nearest neighbors, at least 1
     std::size_t fewest = 12;               ///< neighbors, where as many as that are not so near
     double deviations = 6.0;               ///< within this number of standard deviations
-    bool sees_across_lines = true;         ///< if view points are known
+    bool sees_across_lines = true;         ///< if view points are known; up to 16 neighbors more
 
     /// The stored graph of points, or of an index of them. O(n (log n + k log k)).
     /// @throws std::invalid_argument  if k is 0, or deviations are negative or NaN
@@ -60,7 +60,7 @@ struct noise_knn {
         detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
                             found);
         const double within = squared_reach(index, i);
-        const auto is_far = [within](const neighbor& q) { return q.squared_distance > within; };
+        const auto is_far = [within](const neighbor& q) { return !(q.squared_distance <= within); };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
         if (looks_across(index)) add_across(index, i, found);

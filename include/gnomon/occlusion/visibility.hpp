@@ -165,6 +165,7 @@ class visibility {
     /// Whether a place is below or above all that was seen from anywhere.
     [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
                                       const range_image& image) const {
+        if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
         const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
         const double up = detail::dot(pole_, way), distance = detail::length(way);
         return up < lowest_sine_ * distance || up > highest_sine_ * distance;

@@ -91,8 +91,8 @@ struct spinning_lidar {
                 "spinning_lidar: elevations must be between -90 and 90 degrees");
         require(columns >= 1 && columns <= 10'000'000,
                 "spinning_lidar: needs 1 to 10,000,000 columns");
-        require(frequency > 0.0 && std::isfinite(frequency),
-                "spinning_lidar: the frequency must be positive and finite");
+        require(frequency > 0.0 && std::isfinite(line_rate()),
+                "spinning_lidar: the frequency must be positive, and that of columns finite");
         require(min_range >= 0.0 && min_range < max_range && std::isfinite(max_range),
                 "spinning_lidar: needs 0 <= min_range < max_range, finite");
     }

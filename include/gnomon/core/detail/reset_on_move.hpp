@@ -17,7 +17,8 @@ class reset_on_move {
     reset_on_move(reset_on_move&& other) noexcept : value_(std::exchange(other.value_, T{})) {}
     reset_on_move& operator=(const reset_on_move&) = default;
     reset_on_move& operator=(reset_on_move&& other) noexcept {
-        value_ = std::exchange(other.value_, T{});
+        value_ = other.value_;
+        other.value_ = T{};  // also of itself, as a vector
         return *this;
     }
 

@@ -57,8 +57,11 @@ class across_lines {
         if (!all_finite(u)) return {};
         const ray_plane<> plane(u);
         scan_line<> line;
+        around_.clear();  // by their indices: sums are the same in whatever order they come
+        for (std::size_t n = 0; n < count; ++n) around_.push_back(neighbor(n));
+        std::sort(around_.begin(), around_.end());
         const auto offset = [&](std::size_t n) {
-            return plane.offset(ray_direction(index_, neighbor(n)));
+            return plane.offset(ray_direction(index_, around_[n]));
         };
         for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
         line.fit();
@@ -122,7 +125,7 @@ class across_lines {
     double reach_ = 0.0;  // [rad]
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<point_index> found_;
+    scratch<point_index> around_, found_;
 };
 
 }  // namespace gnomon::detail

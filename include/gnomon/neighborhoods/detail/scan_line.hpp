@@ -56,10 +56,11 @@ class scan_line {
     }
 
     /// Whether a ray is within 45 degrees of the axis. After fit(). The cosine of the doubled angle
-    /// decides.
+    /// decides; at 45 degrees, where rays on a grid often are, rounding does not.
     [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
-        return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= 0.0;
+        constexpr double rounding = 1e-6;
+        return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= -rounding * (x * x + y * y);
     }
 
     /// Which of the four quadrants a ray is in: 0 and 1 along the axis, 2 and 3 across it. After
