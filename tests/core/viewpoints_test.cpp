@@ -59,16 +59,16 @@ TEST(viewpoint_table, is_empty_when_moved_from) {
 
 /// A table, and one that was moved into itself, is of its number.
 TEST(viewpoint_table, has_the_number_of_its_copies) {
-    const viewpoint_table one(Eigen::Vector3d(1.0, 2.0, 3.0)),
+    const gnomon::viewpoint_table one(Eigen::Vector3d(1.0, 2.0, 3.0)),
         other(Eigen::Vector3d(1.0, 2.0, 3.0));
     EXPECT_NE(one.number(), other.number());
-    viewpoint_table copy = one;
+    gnomon::viewpoint_table copy = one;
     EXPECT_EQ(copy.number(), one.number());
-    viewpoint_table& same = copy;
+    gnomon::viewpoint_table& same = copy;
     copy = std::move(same);
     EXPECT_EQ(copy[0], copy.empty() ? Eigen::Vector3d(0.0, 0.0, 0.0) : one[0]);
-    const viewpoint_table moved = std::move(copy);
-    EXPECT_EQ(copy.number(), viewpoint_table().number());  // NOLINT: it is empty
+    const gnomon::viewpoint_table moved = std::move(copy);
+    EXPECT_EQ(copy.number(), gnomon::viewpoint_table().number());  // NOLINT: it is empty
     EXPECT_EQ(moved[0].size(), 3);
 }
 
