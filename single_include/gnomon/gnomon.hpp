@@ -9038,12 +9038,10 @@ class residual_sampler {
         search_tree(index_.tree(), p, {.k = neighbors, .except = i}, found,
                     ray_metric(scaled(1.0 / range, plane.ray), half_length(plane.ray)));
         if (found.size() < neighbors) return plane;
-        if (!index_.viewpoints.empty()) {
-            const auto around =
-                across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
-            if (around.size() == neighbors)
-                for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
-        }
+        const auto around =
+            across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
+        if (around.size() == neighbors)
+            for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
         ray_regression regression(plane.ray);
         for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();
@@ -18138,6 +18136,8 @@ class cell_surfaces {
           }) {
         index.rebuild(cells_.means, run);
         index.viewpoints = cells_.viewpoints;
+        if (index.viewpoints.empty() && !noise.is_across_surface)  // along rays from the origin
+            index.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.

@@ -95,6 +95,8 @@ class cell_surfaces {
           }) {
         index.rebuild(cells_.means, run);
         index.viewpoints = cells_.viewpoints;
+        if (index.viewpoints.empty() && !noise.is_across_surface)  // along rays from the origin
+            index.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
     }
 
     /// The normals of the cells, and the graph of their nearest neighbors.
