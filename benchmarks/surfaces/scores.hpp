@@ -13,8 +13,9 @@
 
 /// A true surface, and the segment that it has most in common with.
 struct recovered_surface {
-    std::size_t points = 0;  ///< of the surface, with a label or without
-    double iou = 0.0;        ///< intersection over union with the best segment
+    std::size_t points = 0;               ///< of the surface, with a label or without
+    double iou = 0.0;                     ///< intersection over union with the best segment
+    std::int32_t surface = sim::nothing;  ///< its number in joined_surfaces
 };
 
 /// The true surfaces that have at least `fewest` points.
@@ -36,7 +37,7 @@ inline std::vector<recovered_surface> recovered(const joined_surfaces& surfaces,
         for (const auto& [label, both] : common[surface])
             best = std::max(
                 best, static_cast<double>(both) / static_cast<double>(points + size[label] - both));
-        result.push_back({points, best});
+        result.push_back({points, best, surface});
     }
     return result;
 }

@@ -10,7 +10,9 @@
 #include <filesystem>
 #include <map>
 #include <numbers>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -91,25 +93,17 @@ std::map<std::string, std::vector<std::size_t>> points_by_name(const sim::scene&
     return points;
 }
 
-/// The mean IoU by points of the surfaces that count: of 100 points and more, but no leaves.
-/// @param counts  counts(name)
-double iou_by_points(const std::map<std::string, std::vector<std::size_t>>& points,
-                     const joined_surfaces& surfaces, const sim::true_scan& truth,
-                     const gnomon::segments& found, auto&& counts) {
-    std::vector<gnomon::point_index> all;
-    for (std::size_t i = 0; i < truth.scan.size(); ++i)
-        all.push_back(static_cast<gnomon::point_index>(i));
-    std::map<std::int32_t, bool> is_counted;
-    for (const auto& [name, of] : points) is_counted[surfaces.of(of.front())] |= counts(name);
-    auto result = recovered(surfaces, all, found, 100);
-    std::vector<recovered_surface> counted;
-    std::size_t next = 0;
-    for (const auto& [surface, size] : surfaces.points()) {
-        if (size < 100) continue;
-        if (is_counted[surface]) counted.push_back(result[next]);
-        ++next;
-    }
-    return mean_iou(counted, true);
+/// The mean IoU by points of the recovered surfaces that count.
+/// @param counts  counts(name): whether a surface of the scene does
+double iou_by_points(const std::vector<recovered_surface>& all, const joined_surfaces& surfaces,
+                     const std::map<std::string, std::vector<std::size_t>>& points, auto&& counts) {
+    std::set<std::int32_t> counted;
+    for (const auto& [name, of] : points)
+        if (counts(name)) counted.insert(surfaces.of(of.front()));
+    std::vector<recovered_surface> some;
+    for (const recovered_surface& s : all)
+        if (counted.contains(s.surface)) some.push_back(s);
+    return mean_iou(some, true);
 }
 
 json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
@@ -139,11 +133,12 @@ json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
             ++sides;
             apart += majority(found->second, seen.surfaces).label != of_road.label ? 1 : 0;
         }
-        iou += iou_by_points(points, surfaces, truth, seen.surfaces,
+        const auto all = recovered(surfaces, seen.kept, seen.surfaces, 100);
+        iou += iou_by_points(all, surfaces, points,
                              [](const std::string& name) { return !name.ends_with("leaves"); });
-        facades +=
-            iou_by_points(points, surfaces, truth, seen.surfaces,
-                          [](const std::string& name) { return name.ends_with("facade/wall"); });
+        facades += iou_by_points(all, surfaces, points, [](const std::string& name) {
+            return name.ends_with("facade/wall");
+        });
         ground += road.size();
         for (const std::size_t i : road) {
             const Eigen::Vector3d& n = seen.surface[i].normal;

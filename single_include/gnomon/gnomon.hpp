@@ -6271,7 +6271,7 @@ class scan_line {
     /// decides; at 45 degrees, where rays on a grid often are, rounding does not.
     [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
-        constexpr double rounding = 1e-6;
+        constexpr double rounding = 1e-6;  // of 1, the cosine; numerical
         return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= -rounding * (x * x + y * y);
     }
 
@@ -6296,15 +6296,13 @@ class scan_line {
 /// The directions in which the points of an index are seen: a tree of unit vectors, in which rays
 /// next to each other are found whatever the ranges of their points, and how far apart they are.
 
-namespace gnomon {
+namespace gnomon::detail {
 
-/// How far apart the rays of a scan are.
-struct ray_spacing {
+/// How far apart the rays of a scan are; 0 where that is not known.
+struct line_spacing {
     angle along = radians(0);   ///< from a ray to the next one of its scan line
     angle across = radians(0);  ///< to the next scan line
 };
-
-namespace detail {
 
 /// The direction in which a point of an index is seen, of unit length; NaN if the point is not
 /// finite, or at its view point.
@@ -6315,7 +6313,8 @@ namespace detail {
     return {nan, nan, nan};
 }
 
-/// Rays with directions closer than this are one ray with several returns [rad^2]; numerical.
+/// The square of the angle [rad^2] below which two rays are one with several returns: a
+/// microradian, finer than any sensor is (numerical).
 inline constexpr double same_ray = 1e-12;
 
 /// The directions, and their spacing. (A template for compile time only.)
@@ -6342,7 +6341,7 @@ class ray_directions {
         return viewpoints_ == viewpoints;
     }
     [[nodiscard]] const Tree& tree() const { return tree_; }
-    [[nodiscard]] const ray_spacing& spacing() const { return spacing_; }
+    [[nodiscard]] const line_spacing& spacing() const { return spacing_; }
 
   private:
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
@@ -6415,11 +6414,10 @@ class ray_directions {
 
     Tree tree_;
     std::uint64_t viewpoints_ = 0;
-    ray_spacing spacing_;
+    line_spacing spacing_;
 };
 
-}  // namespace detail
-}  // namespace gnomon
+}  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/detail/across_lines.hpp -------------------------------------------
 
@@ -6490,7 +6488,7 @@ class across_lines {
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
         }
-        constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
+        constexpr std::size_t few = 32, many = 256;  // rays to look at; chosen likewise
         for (std::size_t count = few; count <= many; count *= 4) {
             search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
             counts_ = {};
@@ -6511,10 +6509,10 @@ class across_lines {
     }
 
     /// Whether two points may be on one surface that is seen from about one place: the straight
-    /// line between them is at an angle to the farther ray, other than across a step of the depth.
+    /// line between them is not almost along the farther ray, as it is across a step of the depth.
     [[nodiscard]] bool is_beside(point_index i, point_index j) const {
         constexpr double least_sine = 0.026;    // of 1.5 degrees: chosen likewise
-        constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
+        constexpr double most_parallax = 0.05;  // of the range, 3 degrees: chosen likewise
         const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
         if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;
@@ -6657,8 +6655,8 @@ struct noise_knn {
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
             near_.resize(static_cast<std::size_t>(end - near_.begin()));
-            all_.assign(places.begin(), places.end());
             if (across_) {
+                all_.assign(places.begin(), places.end());
                 const auto indices = (*across_)(
                     i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
                 for (const point_index j : indices) {
@@ -6666,7 +6664,9 @@ struct noise_knn {
                     add_once(tree.place_of(j), all_);
                 }
             }
-            visit_all_(i, detail::found_neighbors(tree, place, all_));
+            visit_all_(i,
+                       detail::found_neighbors(
+                           tree, place, across_ ? std::span<const std::uint32_t>(all_) : places));
             visit_(i, detail::found_neighbors(tree, place, near_));
         }
 
@@ -22218,7 +22218,8 @@ class street_builder {
 
     /// The pavement reaches below the houses and to the gaps between them.
     void add_ground(const std::string& name) {
-        constexpr double behind = 16.0;
+        constexpr double behind =
+            16.0;  // fronts [m]: more than setback and depth of a house; chosen
         const double width = front_ + behind - road_;
         world_.add_object("kerb " + name, plane_patch{2.0 * end_, kerb_},
                           side_ * at(0.0, road_, 0.5 * kerb_) * roll(degrees(90)));
@@ -22315,7 +22316,7 @@ class street_builder {
 
     /// In the middle of the lane, not where the sensor's own car is.
     void add_traffic() {
-        constexpr double free = 9.0;
+        constexpr double free = 9.0;  // to either side of the sensor [m]: about two cars; chosen
         for (double x = -end_ + random_.uniform(3.0, 25.0); x < end_ - 3.0;
              x += random_.uniform(15.0, 45.0)) {
             const auto [v, kind] = any_vehicle();

@@ -147,8 +147,8 @@ struct noise_knn {
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
             near_.resize(static_cast<std::size_t>(end - near_.begin()));
-            all_.assign(places.begin(), places.end());
             if (across_) {
+                all_.assign(places.begin(), places.end());
                 const auto indices = (*across_)(
                     i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
                 for (const point_index j : indices) {
@@ -156,7 +156,9 @@ struct noise_knn {
                     add_once(tree.place_of(j), all_);
                 }
             }
-            visit_all_(i, detail::found_neighbors(tree, place, all_));
+            visit_all_(i,
+                       detail::found_neighbors(
+                           tree, place, across_ ? std::span<const std::uint32_t>(all_) : places));
             visit_(i, detail::found_neighbors(tree, place, near_));
         }
 

@@ -86,7 +86,7 @@ class across_lines {
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
         }
-        constexpr std::size_t few = 32, many = 256;  // rays, of which some are in each quadrant
+        constexpr std::size_t few = 32, many = 256;  // rays to look at; chosen likewise
         for (std::size_t count = few; count <= many; count *= 4) {
             search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
             counts_ = {};
@@ -107,10 +107,10 @@ class across_lines {
     }
 
     /// Whether two points may be on one surface that is seen from about one place: the straight
-    /// line between them is at an angle to the farther ray, other than across a step of the depth.
+    /// line between them is not almost along the farther ray, as it is across a step of the depth.
     [[nodiscard]] bool is_beside(point_index i, point_index j) const {
         constexpr double least_sine = 0.026;    // of 1.5 degrees: chosen likewise
-        constexpr double most_parallax = 0.05;  // view points, of the range: 3 degrees
+        constexpr double most_parallax = 0.05;  // of the range, 3 degrees: chosen likewise
         const Eigen::Vector3d v = index_.viewpoints[i], w = index_.viewpoints[j];
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
         if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;

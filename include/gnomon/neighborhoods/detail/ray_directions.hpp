@@ -22,15 +22,13 @@
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 
-namespace gnomon {
+namespace gnomon::detail {
 
-/// How far apart the rays of a scan are.
-struct ray_spacing {
+/// How far apart the rays of a scan are; 0 where that is not known.
+struct line_spacing {
     angle along = radians(0);   ///< from a ray to the next one of its scan line
     angle across = radians(0);  ///< to the next scan line
 };
-
-namespace detail {
 
 /// The direction in which a point of an index is seen, of unit length; NaN if the point is not
 /// finite, or at its view point.
@@ -41,7 +39,8 @@ namespace detail {
     return {nan, nan, nan};
 }
 
-/// Rays with directions closer than this are one ray with several returns [rad^2]; numerical.
+/// The square of the angle [rad^2] below which two rays are one with several returns: a
+/// microradian, finer than any sensor is (numerical).
 inline constexpr double same_ray = 1e-12;
 
 /// The directions, and their spacing. (A template for compile time only.)
@@ -68,7 +67,7 @@ class ray_directions {
         return viewpoints_ == viewpoints;
     }
     [[nodiscard]] const Tree& tree() const { return tree_; }
-    [[nodiscard]] const ray_spacing& spacing() const { return spacing_; }
+    [[nodiscard]] const line_spacing& spacing() const { return spacing_; }
 
   private:
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
@@ -141,8 +140,7 @@ class ray_directions {
 
     Tree tree_;
     std::uint64_t viewpoints_ = 0;
-    ray_spacing spacing_;
+    line_spacing spacing_;
 };
 
-}  // namespace detail
-}  // namespace gnomon
+}  // namespace gnomon::detail

@@ -59,7 +59,7 @@ class scan_line {
     /// decides; at 45 degrees, where rays on a grid often are, rounding does not.
     [[nodiscard]] bool is_along(const std::array<Number, 2>& offset) const {
         const auto [x, y] = offset;
-        constexpr double rounding = 1e-6;
+        constexpr double rounding = 1e-6;  // of 1, the cosine; numerical
         return cosines_ * (x * x - y * y) + sines_ * 2.0 * x * y >= -rounding * (x * x + y * y);
     }
 

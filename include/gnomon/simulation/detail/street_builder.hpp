@@ -63,7 +63,8 @@ class street_builder {
 
     /// The pavement reaches below the houses and to the gaps between them.
     void add_ground(const std::string& name) {
-        constexpr double behind = 16.0;
+        constexpr double behind =
+            16.0;  // fronts [m]: more than setback and depth of a house; chosen
         const double width = front_ + behind - road_;
         world_.add_object("kerb " + name, plane_patch{2.0 * end_, kerb_},
                           side_ * at(0.0, road_, 0.5 * kerb_) * roll(degrees(90)));
@@ -160,7 +161,7 @@ class street_builder {
 
     /// In the middle of the lane, not where the sensor's own car is.
     void add_traffic() {
-        constexpr double free = 9.0;
+        constexpr double free = 9.0;  // to either side of the sensor [m]: about two cars; chosen
         for (double x = -end_ + random_.uniform(3.0, 25.0); x < end_ - 3.0;
              x += random_.uniform(15.0, 45.0)) {
             const auto [v, kind] = any_vehicle();
