@@ -94,10 +94,11 @@ void normal_uncertainty(const options& o) {
     const gnomon::scan& scan = known.scan;
     const output_directory out(o.out, {"normals.ply", "uncertainty.png"});
     const stopwatch watch;
-    const gnomon::adjacency graph = gnomon::knn{.k = o.k}(scan, o.threads);
     // [normal_uncertainty]
-    auto surface = gnomon::estimate_normals(
-        scan, graph, gnomon::plane_eif{.noise = gnomon::constant_noise{o.sigma}}, o.threads);
+    const gnomon::noise_curve noise = gnomon::constant_noise{o.sigma};
+    const gnomon::adjacency graph = gnomon::ray_knn{.k = o.k, .noise = noise}(scan, o.threads);
+    auto surface =
+        gnomon::estimate_normals(scan, graph, gnomon::plane_eif{.noise = noise}, o.threads);
     std::vector<double> deviations;  // of each normal, in one direction [degrees]; NaN for none
     for (const auto& s : surface) {
         deviations.push_back(gnomon::usable(s.trust)

@@ -9,7 +9,6 @@
 #include <cstdio>
 #include <filesystem>
 #include <map>
-#include <numbers>
 #include <set>
 #include <string>
 #include <utility>
@@ -140,10 +139,12 @@ json row_of(const setting& s, std::uint64_t first, std::uint64_t count) {
             return name.ends_with("facade/wall");
         });
         ground += road.size();
+        const gnomon::noise_curve& noise = seen.noise.curve;
+        const auto normals = gnomon::estimate_normals(truth.scan, gnomon::ray_knn{.noise = noise},
+                                                      gnomon::robust_ray_ls{.noise = noise});
         for (const std::size_t i : road) {
-            const Eigen::Vector3d& n = seen.surface[i].normal;
-            const double cosine = std::min(1.0, std::abs(n.dot(truth.normals[i])));
-            errors.push_back(std::acos(cosine) * 180.0 / std::numbers::pi);
+            errors.push_back(
+                gnomon::unoriented_angle(normals[i].normal, truth.normals[i]).degrees());
             squares += errors.back() * errors.back();
         }
     }

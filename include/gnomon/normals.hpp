@@ -27,9 +27,11 @@
 #include <gnomon/normals/ray_ls.hpp>
 #include <gnomon/normals/repair_anisotropic.hpp>
 #include <gnomon/normals/robust_pca.hpp>
+#include <gnomon/normals/robust_ray_ls.hpp>
 #include <gnomon/normals/sample_consensus.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/normals/vector_pca.hpp>
 #include <gnomon/normals/vector_svd.hpp>
+#include <gnomon/normals/wanted_precision.hpp>
 #include <gnomon/normals/weighted_pca.hpp>
 #include <gnomon/normals/with_covariance.hpp>

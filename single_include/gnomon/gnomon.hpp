@@ -2800,13 +2800,14 @@ struct lane_points {
     }
 };
 
-/// Thirty-two boxes, as their centers and half their side lengths.
+/// Thirty-two boxes, as their centers, half their side lengths and half their diagonals.
 struct lane_boxes {
-    lanes x, y, z, half_x, half_y, half_z;
+    lanes x, y, z, half_x, half_y, half_z, half_diagonal;
 
     void set(std::size_t l, const std::array<float, 3>& middle, const std::array<float, 3>& half) {
         x[l] = middle[0], y[l] = middle[1], z[l] = middle[2];
         half_x[l] = half[0], half_y[l] = half[1], half_z[l] = half[2];
+        half_diagonal[l] = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     }
 
     /// Four times the squared distances from (px, py, pz); 0 inside.
@@ -2820,6 +2821,58 @@ struct lane_boxes {
             // d + |d| is twice the larger of d and 0, which compilers would not vectorise.
             const float gx = dx + std::abs(dx), gy = dy + std::abs(dy), gz = dz + std::abs(dz);
             d2.at[l] = gx * gx + gy * gy + gz * gz;
+        }
+        return d2;
+    }
+};
+
+/// Distances of 32 points from a point.
+struct lane_point {
+    float x, y, z;
+
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+        return points.squared_distances(x, y, z);
+    }
+    /// Which of 32 boxes may have points within a limit, a squared distance.
+    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
+                                                         float limit) const {
+        return instructions.at_most(boxes.squared_distances_times_4(x, y, z), 4.00004f * limit);
+    }
+};
+
+/// Distances of 32 points from a segment.
+struct lane_segment {
+    float x, y, z;     // of its middle
+    float ux, uy, uz;  // its direction, of length 1, or 0 for a segment of length 0
+    float half_length;
+
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+        return squared_distances(points.x, points.y, points.z);
+    }
+    /// Which of 32 boxes may have points within a limit, a squared distance: the balls around them.
+    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
+                                                         float limit) const {
+        constexpr float margin = 1e-5f;  // floats are off by some 2^-24 of coordinates below 4
+        const float distance = std::sqrt(limit) + margin;
+        lanes excess = squared_distances(boxes.x, boxes.y, boxes.z);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float reach = distance + boxes.half_diagonal.at[l];
+            excess.at[l] -= reach * reach + margin;
+        }
+        return instructions.at_most(excess, 0.0f);
+    }
+
+  private:
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lanes& px, const lanes& py,
+                                                              const lanes& pz) const {
+        lanes d2;
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float dx = px.at[l] - x, dy = py.at[l] - y, dz = pz.at[l] - z;
+            const float along = dx * ux + dy * uy + dz * uz;
+            const float end = std::abs(along) - half_length;
+            const float beyond = end + std::abs(end);  // twice the larger of end and 0, see above
+            const float across = dx * dx + dy * dy + dz * dz - along * along;  // or just below 0
+            d2.at[l] = 0.5f * (across + std::abs(across)) + 0.25f * beyond * beyond;
         }
         return d2;
     }
@@ -3786,8 +3839,8 @@ template <class R, execution X, class Proj>
 /// any point; the graph is the same bytes for every execution; `find` and `sweep` agree with the
 /// graph.
 ///
-/// Models: `knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`, `delaunay` and
-/// `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
+/// Models: `knn`, `noise_knn`, `ray_knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`,
+/// `delaunay` and `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
 /// std::vector<std::vector<point_index>>.
 
 namespace gnomon {
@@ -4541,6 +4594,166 @@ class found_neighbors {
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
+// -------- gnomon/neighborhoods/detail/ray_metric.hpp ---------------------------------------------
+
+/// @file
+/// Distances that do not count the noise along a ray: of a position from the segment of a ray
+/// about a point, 4 standard deviations of the range to either side. Where noise is stronger than
+/// the spacing of points, the points nearest to a point in space are those whose noise is alike;
+/// those nearest to the segment are chosen by direction alone.
+
+namespace gnomon::detail {
+
+/// Half the length of the segment in standard deviations of the noise: 1 in 16,000 points is
+/// farther off (normal distribution).
+inline constexpr double ray_deviations = 4.0;
+
+/// The distance from a segment about the searched position.
+class ray_metric {
+  public:
+    /// Of a segment of no length.
+    ray_metric() = default;
+    /// @param direction    of the ray, of length 1
+    /// @param half_length  of the segment [m]
+    ray_metric(const Eigen::Vector3d& direction, double half_length)
+        : u_(direction), half_length_(half_length) {}
+
+    [[nodiscard]] const Eigen::Vector3d& direction() const { return u_; }
+    /// [m]
+    [[nodiscard]] double half_length() const { return half_length_; }
+
+    /// The squared distance of a position at this offset from the middle of the segment [m^2].
+    [[nodiscard]] double squared(double x, double y, double z) const {
+        const double along = x * u_[0] + y * u_[1] + z * u_[2];
+        const double beyond = std::max(0.0, std::abs(along) - half_length_);
+        const double across = std::max(0.0, x * x + y * y + z * z - along * along);
+        return across + beyond * beyond;
+    }
+
+    /// A lower bound of squared() of the positions in a box, relative to the middle `at`: the
+    /// distance between the boxes around both, and between the segment and the ball around the box.
+    [[nodiscard]] double lower_bound(const std::array<double, 3>& at, const leaf_box& box) const {
+        double gaps = 0.0, diagonal = 0.0;
+        std::array<double, 3> center;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double low = box.low[a] - at[a], high = box.high[a] - at[a];
+            const double reach = half_length_ * std::abs(u_[static_cast<int>(a)]);
+            const double gap = std::max({low - reach, -reach - high, 0.0});
+            gaps += gap * gap;
+            diagonal += (high - low) * (high - low);
+            center[a] = 0.5 * (low + high);
+        }
+        const double to_center = std::sqrt(squared(center[0], center[1], center[2]));
+        const double to_ball = std::max(0.0, to_center - 0.5 * std::sqrt(diagonal));
+        return std::max(gaps, to_ball * to_ball);
+    }
+
+  private:
+    Eigen::Vector3d u_{0.0, 0.0, 0.0};
+    double half_length_ = 0.0;
+};
+
+/// The metric about the finite point i of an index: that from the point itself where its view point
+/// is unknown, or at the point. (A template for compile time only.)
+template <class Index>
+[[nodiscard]] ray_metric ray_metric_of(const Index& index, std::size_t i,
+                                       const noise_curve& noise) {
+    if (index.viewpoints.empty()) return {};
+    const Eigen::Vector3d ray = difference(index[i], index.viewpoints[i]);
+    const double range = length(ray);
+    if (!(range > 0.0 && std::isfinite(range))) return {};
+    // A segment longer than the cloud measures as one of that length does.
+    const double most = std::sqrt(index.tree().box().squared_diagonal());
+    return {scaled(1.0 / range, ray), std::min(ray_deviations * noise.along(ray), most)};
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/leaf_distances.hpp -----------------------------------------
+
+/// @file
+/// From what a search over leaves measures distances: from points, or from segments of the rays
+/// about points (ray_metric.hpp).
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Euclidean distances from points.
+template <class Tree>
+class distances_from_points {
+  public:
+    explicit distances_from_points(const Tree& tree) : tree_(&tree) {}
+
+    /// Adds the query point at a place to a box.
+    void enclose(std::size_t place, leaf_box& box) { box.add(tree_->position(place)); }
+    /// The canonical squared distance of the points at two places [m^2].
+    [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
+        return tree_->squared_distance(place, other);
+    }
+    /// The metric of tree_query.hpp for the query point at a place.
+    [[nodiscard]] canonical_metric metric_at(std::size_t) const { return {}; }
+    /// The query point at a place, in units of a list, at these coordinates.
+    [[nodiscard]] lane_point in_list(std::size_t, const std::array<float, 3>& at, double) const {
+        return {at[0], at[1], at[2]};
+    }
+    /// The squared distances between which floats leave undecided whether a point is within a
+    /// limit, if each coordinate is off by a few times `error` times 2^-24 / 1e-6.
+    [[nodiscard]] static std::pair<float, float> doubt(float limit, float error) {
+        const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
+        return {below, (limit + error) * (limit + error)};
+    }
+
+  private:
+    const Tree* tree_;
+};
+
+/// Distances from the segments of rays, 4 standard deviations of the noise to either side.
+template <class Index>
+class distances_from_rays {
+  public:
+    distances_from_rays(const Index& index, const noise_curve& noise)
+        : index_(&index), noise_(&noise) {}
+
+    /// Adds the segment about the query point at a place to a box.
+    void enclose(std::size_t place, leaf_box& box) {
+        ray_metric& m = segments_[place % segments_.size()];
+        m = metric_at(place);
+        for (const double half : {-m.half_length(), m.half_length()}) {
+            auto end = index_->tree().position(place);
+            for (std::size_t a = 0; a < 3; ++a) end[a] += half * m.direction()[static_cast<int>(a)];
+            box.add(end);
+        }
+    }
+    [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
+        const auto p = index_->tree().position(place), q = index_->tree().position(other);
+        return segments_[place % segments_.size()].squared(p[0] - q[0], p[1] - q[1], p[2] - q[2]);
+    }
+    [[nodiscard]] ray_metric metric_at(std::size_t place) const {
+        return ray_metric_of(*index_, index_->tree().index()[place], *noise_);
+    }
+    [[nodiscard]] lane_segment in_list(std::size_t place, const std::array<float, 3>& at,
+                                       double scale) const {
+        const ray_metric& m = segments_[place % segments_.size()];
+        const Eigen::Vector3f u = m.direction().template cast<float>();
+        return {at[0], at[1], at[2], u[0], u[1], u[2], static_cast<float>(m.half_length() * scale)};
+    }
+    /// Squares are differences of squares of all coordinates, to which `error` is relative.
+    [[nodiscard]] static std::pair<float, float> doubt(float limit, float error) {
+        const float of_squares = 1e6f * error * error + 2.0f * limit * error;
+        return {std::max(limit * limit - of_squares, -1.0f), limit * limit + of_squares};
+    }
+
+  private:
+    const Index* index_;
+    const noise_curve* noise_;
+    std::array<ray_metric,
+               std::remove_cvref_t<decltype(std::declval<const Index&>().tree())>::points_per_group>
+        segments_;  // of the group
+};
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
 // -------- gnomon/neighborhoods/detail/leaf_list.hpp ----------------------------------------------
 
 /// @file
@@ -4551,9 +4764,9 @@ class found_neighbors {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Lengths are in units of the list, whose reach is at most 1, unless in metres. (A template for
-/// compile time only.)
-template <class Tree>
+/// Lengths are in units of the list, whose reach is at most 1, unless in metres. Distances are
+/// those of leaf_distances.hpp. (A template of trees for compile time only.)
+template <class Tree, class Distances = distances_from_points<Tree>>
 class leaf_list {
   public:
     /// Farther than every point within reach of a query point.
@@ -4562,8 +4775,11 @@ class leaf_list {
     static constexpr double widest = 256.0;
     /// Precondition: the tree is not empty.
     /// @param among  only these places are listed; all, if null
-    explicit leaf_list(const Tree& tree, const place_set* among = nullptr)
-        : tree_(tree), among_(among), diagonal_(std::sqrt(tree.box().squared_diagonal())) {
+    leaf_list(const Tree& tree, const Distances& distances, const place_set* among = nullptr)
+        : tree_(tree),
+          distances_(distances),
+          among_(among),
+          diagonal_(std::sqrt(tree.box().squared_diagonal())) {
         points_.reserve(std::min(tree.leaves() + lane_count, 4 * lane_count));  // performance only
     }
 
@@ -4571,11 +4787,10 @@ class leaf_list {
     void enclose(std::span<const std::uint32_t> places) {
         group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
-        for (const std::uint32_t p : places) box_.add(tree_.position(p));
+        for (const std::uint32_t p : places) distances_.enclose(p, box_);
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
         half_ = 0.5 * std::sqrt(box_.squared_diagonal());
     }
-
     /// Half the diagonal of the box of the query points [m].
     [[nodiscard]] double half_diagonal() const { return half_; }
     /// Lists the leaves within `reach` [m], greater than 0, of that box, and the query points' own.
@@ -4596,7 +4811,6 @@ class leaf_list {
             candidate_.resize(most);
         }
     }
-
     /// All points nearer than this are listed [m].
     [[nodiscard]] double reach() const { return reach_; }
     /// Whether all points are listed.
@@ -4612,8 +4826,7 @@ class leaf_list {
         // under the least normal double.
         const float error = 1e-6f * (static_cast<float>(half_ * scale_) + limit) + 1e-18f +
                             static_cast<float>(1e-161 * scale_);
-        const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
-        return {below, (limit + error) * (limit + error)};
+        return Distances::doubt(limit, error);
     }
 
     /// Makes the listed points within a limit, a squared distance, of the query point at place p
@@ -4623,17 +4836,17 @@ class leaf_list {
         const std::size_t own = own_[p % Tree::points_per_group / lane_count];
         const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
-        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
+        const auto from =
+            distances_.in_list(p, {queries.x[lane], queries.y[lane], queries.z[lane]}, scale_);
         candidates_ = with_widest([&](auto instructions) {
             float* const distance = distance_[0].at;
             std::size_t n = 0;
             for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-                const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
-                std::uint32_t near = instructions.at_most(gap2, 4.00004f * limit);
+                std::uint32_t near = from.near(instructions, boxes_[g], limit);
                 for (; near != 0; near &= near - 1) {
                     const std::size_t b =
                         g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
-                    const lanes d2 = points_[b].squared_distances(x, y, z);
+                    const lanes d2 = from.squared_distances(points_[b]);
                     std::uint32_t within = instructions.at_most(d2, limit);
                     if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
                     n += instructions.compress(d2, starts_[b], within, distance + n,
@@ -4645,7 +4858,6 @@ class leaf_list {
         });
         return candidates_;
     }
-
     /// The squared distances of the candidates.
     [[nodiscard]] std::span<const float> squared_distances() const {
         return {distance_[0].at, candidates_};
@@ -4685,6 +4897,7 @@ class leaf_list {
         }
     }
 
+    [[nodiscard]] const Distances& distances() const { return distances_; }
     /// The place of a candidate.
     [[nodiscard]] std::uint32_t place(std::size_t candidate) const { return candidate_[candidate]; }
     /// Puts a candidate beyond all limits.
@@ -4753,13 +4966,14 @@ class leaf_list {
     static constexpr double least_reach = 1e-150;  // the square of `scale_` must not overflow [m]
 
     const Tree& tree_;
+    Distances distances_;
     const place_set* among_;
     double diagonal_;                     // of all [m]
     std::size_t group_ = 0, listed_ = 0;  // number of the group; how many leaves are listed
-    leaf_box box_{};
-    std::array<double, 3> origin_{};                         // its middle
-    double half_ = 0.0, reach_ = 0.0;                        // of its diagonal; of the list [m]
-    double scale_ = 1.0;                                     // [1/m]
+    leaf_box box_{};                      // of the query points
+    std::array<double, 3> origin_{};      // its middle
+    double half_ = 0.0, reach_ = 0.0;     // of its diagonal; of the list [m]
+    double scale_ = 1.0;                  // [1/m]
     std::array<std::size_t, Tree::leaves_per_group> own_{};  // where the group's leaves are listed
     scratch<lane_boxes> boxes_;                              // of the leaves, 32 in each
     scratch<lane_points> points_;                            // of each leaf
@@ -4806,19 +5020,20 @@ struct nearest_wanted {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Searches group by group; each thread has its own object, which estimates distances in a group by
-/// those in the group before. (A template, so that only users of a search compile it.)
-template <class Tree>
+/// Searches group by group; each thread has its own object, which estimates distances, those of
+/// leaf_distances.hpp, in a group by those in the group before. (A template, so that only users of
+/// a search compile it.)
+template <class Tree, class Distances = distances_from_points<Tree>>
 class leaf_search {
   public:
     /// Precondition: the tree is not empty.
-    leaf_search(const Tree& tree, const nearest_wanted& wanted)
+    leaf_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
         : tree_(tree),
           k_(std::min(wanted.k, tree.size() - 1)),
           ties_(wanted.ties),
           radius_(wanted.radius),
           of_(wanted.of),
-          list_(tree) {}
+          list_(tree, distances) {}
 
     /// Calls visit(place, places of its k nearest neighbors) for each query point in a group.
     template <class Visit>
@@ -4916,12 +5131,11 @@ class leaf_search {
             limit = std::min(most, limit);
         }
     }
-
     /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
         std::uint32_t *const first = selected_.data(), *const last = first + selected_.size();
         selected_ = {first, std::remove_if(first, last, [&](std::uint32_t at) {
-                         return tree_.squared_distance(p, at) > radius_ * radius_;
+                         return list_.distances().squared(p, at) > radius_ * radius_;
                      })};
     }
 
@@ -4990,7 +5204,7 @@ class leaf_search {
         candidates_.clear();
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
-            doubtful_.push_back({tree_.squared_distance(from, at), tree_.index()[at]});
+            doubtful_.push_back({list_.distances().squared(from, at), tree_.index()[at]});
             candidates_.push_back(static_cast<std::uint32_t>(c));
         });
         // As in tree_query, whose sort this shares: for compile time only.
@@ -5009,7 +5223,7 @@ class leaf_search {
     tie_rule ties_;
     double radius_;
     const place_set* of_;
-    leaf_list<Tree> list_;
+    leaf_list<Tree, Distances> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
     double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
     scratch<double> reached_;           // the k-th distances in a group [m]
@@ -5031,10 +5245,12 @@ class leaf_search {
 namespace gnomon::detail {
 
 /// Searches as `leaf_search` does; each thread has its own object.
-template <class Tree>
+/// @tparam Distances  from what they are measured: see leaf_distances.hpp
+template <class Tree, class Distances = distances_from_points<Tree>>
 class place_search {
   public:
-    place_search(const Tree& tree, const nearest_wanted& wanted) : tree_(tree), wanted_(wanted) {}
+    place_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
+        : tree_(tree), wanted_(wanted), distances_(distances) {}
 
     /// Calls visit(place, places of its nearest neighbors) for each query point in a group.
     void operator()(std::size_t group, auto&& visit) {
@@ -5048,7 +5264,7 @@ class place_search {
                          .squared_radius = wanted_.radius * wanted_.radius,
                          .ties = wanted_.ties,
                          .except = tree_.index()[p]},
-                        found_);
+                        found_, distances_.metric_at(p));
             places_.resize(found_.size());
             for (std::size_t q = 0; q < found_.size(); ++q)
                 places_[q] = tree_.place_of(found_[q].index);
@@ -5059,6 +5275,7 @@ class place_search {
   private:
     const Tree& tree_;
     nearest_wanted wanted_;
+    Distances distances_;
     scratch<neighbor> found_;
     scratch<std::uint32_t> places_;
 };
@@ -5117,11 +5334,14 @@ void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&
 }
 
 /// `leaf_search`, or where many points coincide `place_search`.
-template <class Tree>
+/// @tparam Distances  from what they are measured: see leaf_distances.hpp
+template <class Tree, class Distances = distances_from_points<Tree>>
 class nearest_search {
   public:
     nearest_search(const Tree& tree, const nearest_wanted& wanted)
-        : tree_(tree), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+        : nearest_search(tree, wanted, Distances(tree)) {}
+    nearest_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
+        : tree_(tree), by_leaf_(tree, wanted, distances), by_place_(tree, wanted, distances) {}
 
     void operator()(std::size_t group, auto&& visit) {
         if (tree_.crowded())
@@ -5132,8 +5352,8 @@ class nearest_search {
 
   private:
     const Tree& tree_;
-    leaf_search<Tree> by_leaf_;
-    place_search<Tree> by_place_;
+    leaf_search<Tree, Distances> by_leaf_;
+    place_search<Tree, Distances> by_place_;
 };
 
 /// The sweep of a search for the k nearest.
@@ -6234,7 +6454,7 @@ class ray_plane {
     /// @param u  the direction of the ray, of unit length
     explicit ray_plane(const Vector& u) : right_(orthogonal(u)), up_(cross(u, right_)) {}
 
-    /// The two coordinates of a direction [rad], for directions near the ray.
+    /// The two coordinates of a direction [rad], for unit vectors near the ray.
     [[nodiscard]] std::array<double, 2> offset(const Vector& direction) const {
         return {dot(direction, right_), dot(direction, up_)};
     }
@@ -6253,8 +6473,9 @@ class scan_line {
         const auto [x, y] = offset;
         const double squared = x * x + y * y;
         if (!(squared > 0.0)) return;
-        cosines_ += weight * (x * x - y * y) / squared;
-        sines_ += weight * 2.0 * x * y / squared;
+        const double factor = weight / squared;
+        cosines_ += in_steps(factor * (x * x - y * y));
+        sines_ += in_steps(factor * 2.0 * x * y);
     }
 
     /// Fits the axis to the rays.
@@ -6284,6 +6505,12 @@ class scan_line {
     }
 
   private:
+    /// Rounded to multiples of 2^-40: sums of thousands of cosines are exact, in whatever order.
+    [[nodiscard]] static double in_steps(double x) {
+        constexpr double rounder = 1.5 * 4096.0;  // has a last place of 2^-40
+        return (x + rounder) - rounder;
+    }
+
     double cosines_ = 0.0, sines_ = 0.0;    // of twice the angle
     std::array<Number, 2> turn_{1.0, 0.0};  // the axis
 };
@@ -6342,6 +6569,11 @@ class ray_directions {
     }
     [[nodiscard]] const Tree& tree() const { return tree_; }
     [[nodiscard]] const line_spacing& spacing() const { return spacing_; }
+    /// That of a neighbor in the tree.
+    [[nodiscard]] Eigen::Vector3d direction(const neighbor& q) const {
+        const auto u = tree_.position(tree_.place_of(q.index));
+        return {u[0], u[1], u[2]};
+    }
 
   private:
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
@@ -6407,11 +6639,6 @@ class ray_directions {
         return found;
     }
 
-    [[nodiscard]] Eigen::Vector3d direction(const neighbor& q) const {
-        const auto u = tree_.position(tree_.place_of(q.index));
-        return {u[0], u[1], u[2]};
-    }
-
     Tree tree_;
     std::uint64_t viewpoints_ = 0;
     line_spacing spacing_;
@@ -6441,14 +6668,21 @@ template <class Index, execution X>
         [&](auto& rays) { rays.rebuild(index, run); });
 }
 
+/// Which neighborhoods get neighbors across scan lines.
+enum class lacking {
+    few_across,  ///< fewer than three neighbors are across the line; for fits to all neighbors
+    a_side       ///< there is none on one side of it; for fits to the inliers among them
+};
+
 /// Searches for them; each thread has its own object. (A template for compile time only.)
 template <class Index>
 class across_lines {
   public:
-    explicit across_lines(const Index& index) : index_(index) {}
+    explicit across_lines(const Index& index, lacking what = lacking::few_across)
+        : index_(index), what_(what) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
-    /// line, if fewer than three of its neighbors are across the line.
+    /// line, if its neighbors lack some.
     /// @param count      of the neighbors
     /// @param neighbor   neighbor(n): the index of neighbor n
     /// @return indices, some of which may be among the neighbors; valid until the next call
@@ -6459,22 +6693,54 @@ class across_lines {
         if (!all_finite(u)) return {};
         const ray_plane<> plane(u);
         scan_line<> line;
-        around_.clear();  // by their indices: sums are the same in whatever order they come
-        for (std::size_t n = 0; n < count; ++n) around_.push_back(neighbor(n));
-        std::sort(around_.begin(), around_.end());
-        const auto offset = [&](std::size_t n) {
-            return plane.offset(ray_direction(index_, around_[n]));
-        };
-        for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
+        around_.resize(count);
+        const bool is_fixed = index_.viewpoints.positions().size() == 1;  // performance only
+        const Eigen::Vector3d viewpoint = index_.viewpoints[i];
+        for (std::size_t n = 0; n < count; ++n) {
+            // Of any length: the axis depends on the angles about the ray only.
+            const point_index j = neighbor(n);
+            const auto [x, y, z] = index_.tree().position(index_.tree().place_of(j));
+            around_[n] =
+                plane.offset(difference({x, y, z}, is_fixed ? viewpoint : index_.viewpoints[j]));
+        }
+        for (const auto& offset : around_) line.add(offset);
         line.fit();
-        std::size_t across = 0;
-        for (std::size_t n = 0; n < count && across < enough; ++n)
-            across += line.is_along(offset(n)) ? 0 : 1;
-        if (across < enough) find(i, u, plane, line);
+        std::array<std::size_t, 2> sides{};
+        for (const auto& offset : around_)
+            if (!line.is_along(offset)) ++sides[line.quadrant(offset) - 2];
+        const bool lacks_some = sides[0] + sides[1] < enough ||
+                                (what_ == lacking::a_side && (sides[0] == 0 || sides[1] == 0));
+        if (lacks_some) find(i, u, plane, line);
         return found_;
     }
 
+    /// Adds them to neighbors, or to the places of neighbors in the tree, which are not repeated.
+    /// @return all of them, as above
+    std::span<const point_index> add_to(auto& neighbors, point_index i) {
+        const auto index = [&](std::size_t n) { return index_of(neighbors[n]); };
+        const auto found = (*this)(i, neighbors.size(), index);
+        for (const point_index j : found) add_once(j, i, neighbors);
+        return found;
+    }
+    /// Adds point j to the neighbors of point i, or to their places, unless it is among them.
+    template <class Neighbor, class Allocator>
+    void add_once(point_index j, point_index i, std::vector<Neighbor, Allocator>& neighbors) const {
+        Neighbor one;
+        if constexpr (std::same_as<Neighbor, neighbor>) {
+            one = {squared_distance(index_[i], index_[j]), j};
+        } else {
+            one = index_.tree().place_of(j);
+        }
+        if (std::find(neighbors.begin(), neighbors.end(), one) == neighbors.end())
+            neighbors.push_back(one);
+    }
+
   private:
+    [[nodiscard]] point_index index_of(const neighbor& q) const { return q.index; }
+    [[nodiscard]] point_index index_of(std::uint32_t place) const {
+        return index_.tree().index()[place];
+    }
+
     // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where
     // fewer neighbors count as enough, roads are interrupted; where more are wanted, or farther
     // ones, edges blur.
@@ -6487,24 +6753,26 @@ class across_lines {
             rays_ = &directions_of(index_, sequential{});  // only where they are needed
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
+            // As many as are on three lines, up to the distance of the next line.
+            const double ratio = across.radians() / along.radians();
+            first_ = static_cast<std::size_t>(8.0 * std::clamp(ratio, 4.0, 16.0));
         }
-        constexpr std::size_t few = 32, many = 256;  // rays to look at; chosen likewise
-        for (std::size_t count = few; count <= many; count *= 4) {
-            search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
+        constexpr std::size_t many = 256;  // rays to look at; chosen likewise
+        for (std::size_t count = first_; count <= many; count *= 4) {
+            search_tree(rays_->tree(), u,
+                        {.k = count, .squared_radius = reach_ * reach_, .except = i}, near_);
             counts_ = {};
             std::size_t full = 0;  // quadrants
             found_.clear();
             for (const neighbor& q : near_) {
-                if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
+                if (q.squared_distance < same_ray) continue;
                 std::size_t& in_quadrant =
-                    counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
+                    counts_[line.quadrant(plane.offset(rays_->direction(q)))];
                 if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
                 full += ++in_quadrant == wanted ? 1 : 0;
                 found_.push_back(q.index);
             }
-            if (full == counts_.size() || near_.size() < count ||
-                near_.back().squared_distance > reach_ * reach_)
-                return;
+            if (full == counts_.size() || near_.size() < count) return;
         }
     }
 
@@ -6523,11 +6791,14 @@ class across_lines {
     }
 
     const Index& index_;
+    lacking what_;
     const directions_of_index<Index>* rays_ = nullptr;
-    double reach_ = 0.0;  // [rad]
+    double reach_ = 0.0;     // [rad]
+    std::size_t first_ = 0;  // rays to look at
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<point_index> around_, found_;
+    scratch<std::array<double, 2>> around_;  // offsets of the neighbors' rays
+    scratch<point_index> found_;
 };
 
 }  // namespace gnomon::detail
@@ -6571,7 +6842,11 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return !(q.squared_distance <= within); };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
-        if (looks_across(index)) add_across(index, i, found);
+        if (looks_across(index)) {
+            detail::across_lines across(index);
+            across.add_to(found, static_cast<point_index>(i));
+            std::sort(found.begin(), found.end());
+        }
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
@@ -6601,21 +6876,6 @@ struct noise_knn {
   private:
     [[nodiscard]] bool looks_across(const spatial_index& index) const {
         return sees_across_lines && !index.viewpoints.empty();
-    }
-
-    /// Adds the neighbors across scan lines. (A template, so that only its users compile it.)
-    static void add_across(const auto& index, std::size_t i, auto& found) {
-        detail::across_lines across(index);
-        for (const point_index j : across(static_cast<point_index>(i), found.size(),
-                                          [&](std::size_t n) { return found[n].index; })) {
-            const neighbor q{squared_distance(index[i], index[j]), j};
-            add_once(q, found);
-        }
-        std::sort(found.begin(), found.end());
-    }
-
-    static void add_once(const auto& one, auto& all) {
-        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
     }
 
     /// The square of the distance [m^2] within which point i has its neighbors.
@@ -6657,12 +6917,7 @@ struct noise_knn {
             near_.resize(static_cast<std::size_t>(end - near_.begin()));
             if (across_) {
                 all_.assign(places.begin(), places.end());
-                const auto indices = (*across_)(
-                    i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
-                for (const point_index j : indices) {
-                    add_once(tree.place_of(j), near_);
-                    add_once(tree.place_of(j), all_);
-                }
+                for (const point_index j : across_->add_to(near_, i)) across_->add_once(j, i, all_);
             }
             visit_all_(i,
                        detail::found_neighbors(
@@ -6707,7 +6962,9 @@ class leaf_balls {
     /// @param among      only these places are found; all, if null
     /// Precondition: the tree is not empty, and places with a radius are among these.
     leaf_balls(const Tree& tree, Radius radius_of, const place_set* among = nullptr)
-        : tree_(tree), radius_of_(std::move(radius_of)), list_(tree, among) {}
+        : tree_(tree),
+          radius_of_(std::move(radius_of)),
+          list_(tree, distances_from_points(tree), among) {}
 
     /// Calls visit(place, places of all other points within its radius) for each point of the group
     /// number `group` whose radius is not negative. The ball is closed.
@@ -6824,6 +7081,114 @@ struct radius {
     void require_valid() const {
         detail::require(r >= 0.0 && std::isfinite(r), "radius: r must be finite and not negative");
     }
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/neighborhoods/ray_knn.hpp -------------------------------------------------------
+
+/// @file
+/// Neighbors for estimators along rays, such as `plane_eif`: the k points nearest to the piece of
+/// the ray on which a point may truly lie, 4 standard deviations of the noise to either side. The
+/// points nearest in space to a noisy point are those whose errors are alike: a plane along rays
+/// through them leans with the errors, whatever k, and is more certain than it should be. These are
+/// chosen by their directions instead, and by distances along the ray only beyond the noise. Where
+/// they lie on one scan line, or on one side of it, the points of the next rays around it are added
+/// (detail/across_lines.hpp), so that a surface is determined; some of these may be of another
+/// surface, which `robust_ray_ls` finds.
+///
+/// For estimators in space, such as `plane_pca`, take `knn`: to these, such neighbors are blurred
+/// by the noise. Without view points it is knn.
+
+namespace gnomon {
+
+/// Models `sweeping_neighborhood`. Neighbors come in canonical order, nearest in space first.
+struct ray_knn {
+    std::size_t k = 30;                    ///< number of neighbors, at least 1
+    noise_curve noise = constant_noise{};  ///< along the rays
+    bool sees_across_lines = true;         ///< up to 16 neighbors more
+
+    /// Whether it takes the rays into account: if view points are known. It is `knn` otherwise.
+    [[nodiscard]] static bool knows_rays(const auto& points) {
+        return detail::with_table_of(points, [](const auto& table) { return !table.empty(); });
+    }
+
+    /// The stored graph of points, or of an index of them. O(n (log n + k log k)) where the noise
+    /// is no wider than the neighborhood, and proportional to the ratio of both where it is.
+    /// @throws std::invalid_argument  if k is 0
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        return detail::graph_of(*this, points, run, projection);
+    }
+
+    /// Replaces the content of `found` by the neighbors of the finite point i. O(log n + k log k).
+    /// @throws std::invalid_argument  if k is 0
+    template <class Allocator>
+    void find(const spatial_index& index, std::size_t i,
+              std::vector<neighbor, Allocator>& found) const {
+        require_valid();
+        detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
+                            found, detail::ray_metric_of(index, i, noise));
+        for (neighbor& q : found) q.squared_distance = squared_distance(index[i], index[q.index]);
+        if (looks_across(index)) {
+            detail::across_lines across(index, detail::lacking::a_side);
+            across.add_to(found, static_cast<point_index>(i));
+        }
+        std::sort(found.begin(), found.end());
+    }
+
+    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// @throws std::invalid_argument  if k is 0
+    template <execution X>
+    void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
+        require_valid();
+        detail::search_all_groups(
+            index.tree(), run,
+            [&] {
+                return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k},
+                                              detail::distances_from_rays(index, noise));
+            },
+            [&] { return visitor_of_places(*this, index, make_visitor()); });
+    }
+
+    /// @throws std::invalid_argument  if k is 0
+    void require_valid() const { detail::require(k > 0, "ray_knn: k must be at least 1"); }
+
+  private:
+    [[nodiscard]] bool looks_across(const spatial_index& index) const {
+        return sees_across_lines && !index.viewpoints.empty();
+    }
+
+    /// Shows a visitor what was found of places, with the neighbors across scan lines.
+    template <class Index, class Visit>
+    class visitor_of_places {
+      public:
+        visitor_of_places(const ray_knn& policy, const Index& index, Visit visit)
+            : tree_(index.tree()), visit_(std::move(visit)) {
+            if (policy.looks_across(index)) across_.emplace(index, detail::lacking::a_side);
+        }
+
+        void operator()(std::size_t place, std::span<const std::uint32_t> places) {
+            if (across_) {
+                all_.assign(places.begin(), places.end());
+                across_->add_to(all_, tree_.index()[place]);
+                places = all_;
+            }
+            visit_(tree_.index()[place], detail::found_neighbors(tree_, place, places));
+        }
+
+        void finish() {
+            if constexpr (requires { visit_.finish(); }) visit_.finish();
+        }
+
+      private:
+        const detail::leaf_tree& tree_;
+        Visit visit_;
+        std::optional<detail::across_lines<Index>> across_;
+        detail::scratch<std::uint32_t> all_;  // places
+    };
 };
 
 }  // namespace gnomon
@@ -8512,6 +8877,11 @@ inline constexpr double vague_trace = 0.1;
 /// unit; chosen here, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
+/// The number of standard deviations by which the slope of a plane may be less than estimated; a
+/// normal distribution exceeds it to one side in 1 of 740 cases (chosen on furnished rooms 20,001
+/// to 20,010, where 2 and 3 give the same covariances).
+inline constexpr double vague_deviations = 3.0;
+
 /// The covariance of a normal about which nothing is known.
 inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_variance};
 
@@ -8538,6 +8908,30 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
     return {l1 * c * c + l2 * s * s, (l1 - l2) * c * s, l1 * s * s + l2 * c * c};
 }
 
+/// Whether a normal may be a vague one that noise makes look certain: where noise has tilted a
+/// small neighborhood along the ray, the plane looks steep, and an error of its slope is a small
+/// angle. The slope across the ray, the tangent of the angle between ray and normal, has nearly the
+/// same deviation whatever it is. If the trace is above `vague_trace` at the slope that is this
+/// number of deviations less, the normal is vague.
+/// @param u  the direction of the ray, of length 1
+[[nodiscard]] inline bool is_vague_within(double deviations, const tangent_basis& frame,
+                                          const tangent_matrix& p, const Eigen::Vector3d& u) {
+    const double cosine = std::abs(dot(u, frame.normal));
+    if (!(cosine > grazing_cosine)) return true;
+    const double x = dot(u, frame.b1), y = dot(u, frame.b2);  // the ray in the tangent plane
+    const double sine = std::hypot(x, y);
+    const auto [c, s] = sine > 0.0 ? std::array{x / sine, y / sine} : std::array{1.0, 0.0};
+    const double along = c * c * p.p11 + 2.0 * c * s * p.p12 + s * s * p.p22;
+    const double across = s * s * p.p11 - 2.0 * c * s * p.p12 + c * c * p.p22;
+    // Deviations of the slope, and of the turn about the ray.
+    const double of_slope = std::sqrt(std::max(0.0, along)) / (cosine * cosine);
+    const double of_turn = std::sqrt(std::max(0.0, across)) / cosine;
+    const double flatter = std::max(0.0, sine / cosine - deviations * of_slope);
+    const double secant = 1.0 + flatter * flatter;  // squared
+    const double trace = of_slope * of_slope / (secant * secant) + of_turn * of_turn / secant;
+    return !(trace <= vague_trace);
+}
+
 /// Gives a usable estimate the covariance `p` in the coordinates of the basis at its normal,
 /// limited to what is possible; a good estimate becomes weak if its trace is above `vague_trace`.
 /// All covariances of normals are set here.
@@ -8546,6 +8940,17 @@ void set_covariance(normal_belief<Estimate>& belief, const tangent_basis& frame,
                     const tangent_matrix& p) {
     belief.covariance = frame.in_space(limited_covariance(p));
     if (belief.trust == trust::good && !(belief.trace() <= vague_trace)) belief.trust = trust::weak;
+}
+
+/// The same; a good estimate also becomes weak where it is vague within `vague_deviations`.
+/// @param ray  from the view point to the point [m]; if it is zero, the estimate is weak
+template <class Estimate>
+void set_covariance(normal_belief<Estimate>& belief, const tangent_basis& frame,
+                    const tangent_matrix& p, const Eigen::Vector3d& ray) {
+    set_covariance(belief, frame, p);
+    if (belief.trust == trust::good &&
+        is_vague_within(vague_deviations, frame, p, scaled(1.0 / length(ray), ray)))
+        belief.trust = trust::weak;
 }
 
 }  // namespace detail
@@ -8811,57 +9216,6 @@ inline constexpr double chi2_of_5 = 6.5706 / 14.0, chi2_of_25 = 10.1653 / 14.0,
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/neighborhoods/detail/ray_metric.hpp ---------------------------------------------
-
-/// @file
-/// Distances that do not count the noise along a ray: of a position from the segment of a ray
-/// about a point, 4 standard deviations of the range to either side. Where noise is stronger than
-/// the spacing of points, the points nearest to a point in space are those whose noise is alike;
-/// those nearest to the segment are chosen by direction alone.
-
-namespace gnomon::detail {
-
-/// The distance from a segment about the searched position.
-class ray_metric {
-  public:
-    /// @param direction    of the ray, of length 1
-    /// @param half_length  of the segment [m]
-    ray_metric(const Eigen::Vector3d& direction, double half_length)
-        : u_(direction), half_length_(half_length) {}
-
-    /// The squared distance of a position at this offset from the middle of the segment [m^2].
-    [[nodiscard]] double squared(double x, double y, double z) const {
-        const double along = x * u_[0] + y * u_[1] + z * u_[2];
-        const double beyond = std::max(0.0, std::abs(along) - half_length_);
-        const double across = std::max(0.0, x * x + y * y + z * z - along * along);
-        return across + beyond * beyond;
-    }
-
-    /// A lower bound of squared() of the positions in a box, relative to the middle `at`: the
-    /// distance between the boxes around both, and between the segment and the ball around the box.
-    [[nodiscard]] double lower_bound(const std::array<double, 3>& at, const leaf_box& box) const {
-        double gaps = 0.0, diagonal = 0.0;
-        std::array<double, 3> center;
-        for (std::size_t a = 0; a < 3; ++a) {
-            const double low = box.low[a] - at[a], high = box.high[a] - at[a];
-            const double reach = half_length_ * std::abs(u_[static_cast<int>(a)]);
-            const double gap = std::max({low - reach, -reach - high, 0.0});
-            gaps += gap * gap;
-            diagonal += (high - low) * (high - low);
-            center[a] = 0.5 * (low + high);
-        }
-        const double to_center = std::sqrt(squared(center[0], center[1], center[2]));
-        const double to_ball = std::max(0.0, to_center - 0.5 * std::sqrt(diagonal));
-        return std::max(gaps, to_ball * to_ball);
-    }
-
-  private:
-    Eigen::Vector3d u_;
-    double half_length_;
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/normals/detail/ray_regression.hpp -----------------------------------------------
 
 /// @file
@@ -9011,7 +9365,8 @@ class residual_sampler {
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
     /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side; where
-    /// these lie on one scan line, with four in each quadrant around the ray.
+    /// these lie on one scan line, with four in each quadrant around the ray, or none if there are
+    /// too few.
     [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
                                                     auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
@@ -9042,6 +9397,8 @@ class residual_sampler {
             across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
         if (around.size() == neighbors)
             for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
+        else if (!around.empty())
+            return plane;  // along one line, to which errors between the lines do not show
         ray_regression regression(plane.ray);
         for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();
@@ -9490,8 +9847,7 @@ class noise_meter {
     }
 
     [[nodiscard]] static auto half_length(const noise_curve& noise) {
-        constexpr double all = 4.0;  // standard deviations: 99.99 % of the noise
-        return [noise](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
+        return [noise](const Eigen::Vector3d& ray) { return ray_deviations * noise.along(ray); };
     }
 
     const spatial_index& index_;
@@ -9765,9 +10121,33 @@ struct ray_ls {
 
 namespace gnomon {
 
+namespace detail {
+
+/// The normal of a regression, with its covariance.
+/// @param ray    from the view point to the point [m]
+/// @param sigma  of the noise along the rays [m]
+[[nodiscard]] inline normal_belief<ray_fit> belief_of(const ray_regression& regression,
+                                                      const Eigen::Vector3d& ray, double sigma,
+                                                      double min_aspect_ratio) {
+    normal_belief<ray_fit> belief;
+    static_cast<ray_fit&>(belief) = plane_seen(regression, min_aspect_ratio);
+    if (!usable(belief.trust)) return belief;
+    // n = M / |M|: only the part of the error of M across n rotates n.
+    const tangent_basis frame(belief.normal);
+    const double scaled_sigma = sigma / length(regression.solution());
+    set_covariance(belief, frame,
+                   {regression.covariance(scaled_sigma, frame.b1, frame.b1),
+                    regression.covariance(scaled_sigma, frame.b1, frame.b2),
+                    regression.covariance(scaled_sigma, frame.b2, frame.b2)},
+                   ray);
+    return belief;
+}
+
+}  // namespace detail
+
 /// Models `ray_estimator`. Needs three neighbors. O(k), hardly longer than `ray_ls`. Normal and
 /// trust are those of `ray_ls`; `weak` as well where the trace of the covariance is above
-/// 0.1 rad^2.
+/// 0.1 rad^2, or would be for a plane whose slope across the ray is 3 standard deviations less.
 struct plane_eif {
     noise_curve noise = constant_noise{};  ///< of the sensor
     ray_ls fit = {};
@@ -9778,20 +10158,10 @@ struct plane_eif {
                                                     const Eigen::Vector3d& viewpoint = {
                                                         0.0, 0.0, 0.0}) const {
         detail::require_noise(noise);
-        normal_belief<ray_fit> belief;
-        if (neighbors.size() < 3) return belief;
-        const detail::ray_regression regression = detail::regression_of(p, neighbors, viewpoint);
-        static_cast<ray_fit&>(belief) = detail::plane_seen(regression, fit.min_aspect_ratio);
-        if (!usable(belief.trust)) return belief;
-        // n = M / |M|: only the part of the error of M across n rotates n.
-        const detail::tangent_basis frame(belief.normal);
-        const double sigma = noise.along(detail::difference(p, viewpoint));
-        const double scaled_sigma = sigma / detail::length(regression.solution());
-        detail::set_covariance(belief, frame,
-                               {regression.covariance(scaled_sigma, frame.b1, frame.b1),
-                                regression.covariance(scaled_sigma, frame.b1, frame.b2),
-                                regression.covariance(scaled_sigma, frame.b2, frame.b2)});
-        return belief;
+        if (neighbors.size() < 3) return {};
+        const Eigen::Vector3d ray = detail::difference(p, viewpoint);
+        return detail::belief_of(detail::regression_of(p, neighbors, viewpoint), ray,
+                                 noise.along(ray), fit.min_aspect_ratio);
     }
 };
 
@@ -9956,9 +10326,9 @@ struct plane_filter {
         // The first linearization has no covariance: sigma points this close to each other give
         // the derivative.
         state.covariance = diagonal(1e-8, 1e-8, 1e-4 * noise.variance_along(x));
-        constexpr double converged_step = 1e-9;  // [rad]
-        bool converged = false;
-        for (int i = 0; i < max_iterations && !converged; ++i) {
+        constexpr double last_step = 1e-9;  // [rad], of rounding; numerical
+        double step = 1.0;
+        for (int i = 0; i < max_iterations && step > last_step; ++i) {
             information sum = information_of(prior, state);
             const Linearization linearize(state, anchor);
             add_measurement(state, linearize, x, sum);
@@ -9970,12 +10340,16 @@ struct plane_filter {
                 return without_normal(belief, trust::degenerate);
             state = state.moved(delta);
             state.covariance = covariance;
-            converged = std::abs(delta[0]) + std::abs(delta[1]) < converged_step;
+            step = std::abs(delta[0]) + std::abs(delta[1]);
         }
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
+        // Steps that are small in standard deviations do not matter (numerical).
+        constexpr double negligible = 0.01;
+        const bool converged =
+            step <= std::max(last_step, negligible * std::sqrt(c(0, 0) + c(1, 1)));
         if (!converged) belief.trust = trust::weak;
-        set_covariance(belief, state.frame, {c(0, 0), c(0, 1), c(1, 1)});
+        set_covariance(belief, state.frame, {c(0, 0), c(0, 1), c(1, 1)}, x);
         return belief;
     }
 
@@ -10037,8 +10411,9 @@ struct plane_filter {
 /// [rad] and `prior_distance` [m] of an uninformative prior.
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
-/// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of
-/// the prior. `not_finite` where the view point is not finite.
+/// trace of the covariance is above 0.1 rad^2, or would be for a plane whose slope across the ray
+/// is 3 standard deviations less; if all rays are grazing, the covariance is that of the prior.
+/// `not_finite` where the view point is not finite.
 using plane_ekf = detail::plane_filter<detail::by_derivative>;
 
 /// The iterated unscented Kalman filter, for strong noise and grazing rays; otherwise as
@@ -10832,6 +11207,173 @@ struct robust_pca {
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/robust_ray_ls.hpp -------------------------------------------------------
+
+/// @file
+/// The regression of `plane_eif` on the inliers among the neighbors. Near edges, and where scan
+/// lines are far apart, neighbors are on several surfaces. If the regression on all of them leaves
+/// outliers, planes through the point and pairs of neighbors are tried, and the plane of least cost
+/// is fitted again to its inliers (MSAC: Torr and Zisserman 2000). Each quadrant around the ray
+/// counts the same in this cost: otherwise a plane through the scan line of the point and a car
+/// next to it would be better than the road, of which few other points are near.
+
+namespace gnomon {
+
+namespace detail {
+
+/// Points relative to a view point, and their distances from planes. (A template for compile time
+/// only.)
+template <class Vector = Eigen::Vector3d>
+class seen_points {
+  public:
+    /// @param p      the point whose normal is estimated, and its neighbors [m]
+    /// @param sigma  of the noise along the rays [m]
+    seen_points(const Vector& p, neighborhood_view neighbors, const Vector& viewpoint, double sigma)
+        : x_(difference(p, viewpoint)), sigma_(sigma) {
+        for (const Vector& q : neighbors) neighbors_.push_back(difference(q, viewpoint));
+    }
+
+    [[nodiscard]] std::size_t size() const { return neighbors_.size(); }
+
+    /// The regression on the point and the neighbors for which is_in(neighbor).
+    [[nodiscard]] ray_regression regression(auto&& is_in) const {
+        ray_regression r(x_);
+        for (const Vector& q : neighbors_)
+            if (is_in(q)) r.add(difference(q, x_));
+        r.solve();
+        return r;
+    }
+    /// The regression on the point and the inliers of a plane.
+    [[nodiscard]] ray_regression regression_on(const plane& of) const {
+        return regression([&](const Vector& q) { return is_inlier(of, q); });
+    }
+
+    [[nodiscard]] bool has_point_on(const plane& one) const { return is_inlier(one, x_); }
+    /// The share of the neighbors that are inliers.
+    [[nodiscard]] double share_on(const plane& one) const {
+        const auto inliers = std::count_if(neighbors_.begin(), neighbors_.end(),
+                                           [&](const Vector& q) { return is_inlier(one, q); });
+        return static_cast<double>(inliers) / static_cast<double>(size());
+    }
+
+    /// The plane of least cost through the point and two of its neighbors; without a normal, if no
+    /// pair determines one.
+    [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
+        const scratch<double> weights = weights_by_quadrant();
+        random_stream random(seed);
+        plane best{{0.0, 0.0, 0.0}, 0.0};
+        double least = std::numeric_limits<double>::infinity();
+        for (int trial = 0; trial < trials; ++trial) {
+            const Vector a = difference(neighbors_[random.bits() % size()], x_);
+            const Vector b = difference(neighbors_[random.bits() % size()], x_);
+            const Vector n = cross(a, b);
+            const double area = length(n);
+            constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only
+            if (!(area > elongated * length(a) * length(b))) continue;
+            const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
+            if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
+            double cost = 0.0;
+            for (std::size_t j = 0; j < size() && cost < least; ++j)
+                cost += weights[j] * std::min(1.0, squared_deviation(candidate, neighbors_[j]));
+            if (cost < least) least = cost, best = candidate;
+        }
+        return best;
+    }
+
+  private:
+    /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
+    /// standard deviations, of the noise across the plane and of half of it in any direction, for
+    /// errors that are not along the ray (chosen on streets 20,001 to 20,003).
+    [[nodiscard]] double squared_deviation(const plane& from, const Vector& x) const {
+        constexpr double most = 3.0, elsewhere = 0.5;
+        const double along = dot(from.normal, x), off = along - from.offset;
+        const double r2 = dot(x, x);
+        return off * off * r2 /
+               (most * most * sigma_ * sigma_ * (along * along + elsewhere * elsewhere * r2));
+    }
+    [[nodiscard]] bool is_inlier(const plane& of, const Vector& x) const {
+        return squared_deviation(of, x) <= 1.0;
+    }
+
+    /// For each neighbor one over the number of neighbors in its quadrant.
+    [[nodiscard]] scratch<double> weights_by_quadrant() const {
+        const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
+        scan_line<> line;
+        for (const Vector& q : neighbors_) line.add(around.offset(q));
+        line.fit();
+        std::array<double, 4> counts{};
+        for (const Vector& q : neighbors_) counts[line.quadrant(around.offset(q))] += 1.0;
+        scratch<double> weights;
+        for (const Vector& q : neighbors_)
+            weights.push_back(1.0 / counts[line.quadrant(around.offset(q))]);
+        return weights;
+    }
+
+    Vector x_;
+    double sigma_;
+    scratch<Vector> neighbors_;
+};
+
+}  // namespace detail
+
+/// Models `ray_estimator`. Needs three neighbors. O(k) where they are inliers, and O(trials k)
+/// elsewhere.
+///
+/// Trust: that of `plane_eif` on the inliers; `weak` as well where the point is not one of them, or
+/// fewer than half of the neighbors are.
+struct robust_ray_ls {
+    static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
+
+    noise_curve noise = constant_noise{};  ///< along the rays
+    /// The number of pairs; with two thirds of the neighbors outliers, all of them contain one in
+    /// (1 - 1/9)^60, 1 of 1,000 cases.
+    int trials = 60;
+    std::uint64_t seed = 1;          ///< of the pairs; every point uses the same sequence
+    double min_aspect_ratio = 0.05;  ///< of the rays of the inliers, below which the normal is weak
+
+    /// @throws std::invalid_argument  if the noise is 0, or there is no trial
+    [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
+                                                    neighborhood_view neighbors,
+                                                    const Eigen::Vector3d& viewpoint = {
+                                                        0.0, 0.0, 0.0}) const {
+        detail::require_noise(noise);
+        detail::require(trials >= 1, "robust_ray_ls: needs a trial");
+        if (neighbors.size() < 3) return {};
+        const Eigen::Vector3d ray = detail::difference(p, viewpoint);
+        const double sigma = noise.along(ray);
+        const detail::seen_points<> points(p, neighbors, viewpoint, sigma);
+        auto regression = points.regression([](const auto&) { return true; });
+        constexpr double nearly_all = 0.95;  // chosen on streets 20,001 to 20,003
+        bool is_inlier = true;
+        if (usable(regression.status())) {
+            plane found = plane_of(regression);
+            if (!points.has_point_on(found) || points.share_on(found) < nearly_all) {
+                const plane best = points.consensus(trials, seed);
+                if (detail::has_length(best.normal)) found = best;
+                for (int refit = 0; refit < 2; ++refit) {
+                    regression = points.regression_on(found);
+                    if (!usable(regression.status())) break;
+                    found = plane_of(regression);
+                }
+                is_inlier = points.has_point_on(found) && points.share_on(found) >= 0.5;
+            }
+        }
+        auto belief = detail::belief_of(regression, ray, sigma, min_aspect_ratio);
+        if (belief.trust == trust::good && !is_inlier) belief.trust = trust::weak;
+        return belief;
+    }
+
+  private:
+    /// The plane relative to the view point.
+    [[nodiscard]] static plane plane_of(const detail::ray_regression& r) {
+        const Eigen::Vector3d m = r.solution();
+        const double size = detail::length(m);
+        return {detail::scaled(1.0 / size, m), r.range() / size};
+    }
+};
+
+}  // namespace gnomon
+
 // -------- gnomon/normals/sample_consensus.hpp ----------------------------------------------------
 
 /// @file
@@ -11029,6 +11571,102 @@ struct vector_svd {
 
 }  // namespace gnomon
 
+// -------- gnomon/normals/wanted_precision.hpp ----------------------------------------------------
+
+/// @file
+/// Normals of a wanted precision: neighborhoods grow where the covariance of a normal is too large,
+/// by doublings of k, and stay small where they suffice, so that edges stay sharp. The estimator
+/// must be consistent with its neighborhood, or growing stops too early: `robust_ray_ls` or
+/// `plane_eif` on `ray_knn`, `with_covariance<plane_pca>` on `knn`. With `robust_ray_ls` a
+/// neighborhood may grow across an edge.
+///
+///     auto surface = gnomon::estimate_normals(scan, gnomon::ray_knn{.k = 16, .noise = noise},
+///                                             gnomon::robust_ray_ls{.noise = noise},
+///                                             gnomon::wanted_precision{gnomon::degrees(1.5)});
+
+namespace gnomon {
+
+/// The precision that normals should have, and the effort to reach it.
+struct wanted_precision {
+    angle deviation = degrees(1.5);  ///< the root mean square angle to the true normal
+    std::size_t max_k = 256;         ///< k is not doubled beyond this
+};
+
+namespace detail {
+
+/// An indexed neighborhood of a number of neighbors that may be doubled.
+template <class N>
+concept neighborhood_of_k = indexed_neighborhood<N> && requires(N policy) { policy.k *= 2; };
+
+/// An estimate with the covariance of its normal.
+template <class T>
+concept has_covariance = requires(const T& estimate) {
+    { estimate.trace() } -> std::convertible_to<double>;
+};
+
+}  // namespace detail
+
+/// The surface elements of all points, in their order: each with the fewest neighbors, k times a
+/// power of two, for which the normal is good and as precise as wanted. Where more neighbors are no
+/// better, or k reaches its limit, it is the best normal until then.
+///
+/// @param points     any point range, or an index of it
+/// @param policy     a neighborhood with a number k to begin with
+/// @param estimate   an estimator whose estimates have covariances
+/// @return as estimate_normals(points, policy, estimate); surfel::neighbors is the number found
+/// @throws std::invalid_argument  as that, and unless the deviation is positive
+/// Complexity: that of estimate_normals, and for each doubling one search and one estimate of each
+/// point that needs it, O(max_k) at most.
+template <class R, detail::neighborhood_of_k N, estimator E, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj> && detail::has_covariance<estimate_t<E>>
+[[nodiscard]] auto estimate_normals(const R& points, const N& policy, const E& estimate,
+                                    const wanted_precision& wanted, const X& run = {},
+                                    Proj projection = {}) -> std::vector<surfel<estimate_t<E>>> {
+    detail::require(wanted.deviation > degrees(0), "wanted_precision: the angle must be positive");
+    const double most = wanted.deviation.radians() * wanted.deviation.radians();
+    const auto& team = detail::staying(run);
+    const auto& index = detail::index_of(points, team, projection);
+    auto surface = estimate_normals(index, policy, estimate, team);
+
+    detail::scratch<std::size_t> vague;
+    for (std::size_t i = 0; i < surface.size(); ++i)
+        if (index.is_finite(i)) vague.push_back(i);
+    const auto is_precise = [&](std::size_t i) {
+        return surface[i].trust == trust::good && surface[i].trace() <= most;
+    };
+    const auto is_better = [](const auto& a, const auto& b) {
+        if (a.trust == trust::good || b.trust == trust::good)
+            return a.trust == trust::good && (b.trust != trust::good || a.trace() < b.trace());
+        return usable(a.trust) && (!usable(b.trust) || a.trace() < b.trace());
+    };
+    std::vector<surfel<estimate_t<E>>> before;
+    N wider = policy;
+    while (2 * wider.k <= wanted.max_k && wider.k < index.size()) {
+        std::erase_if(vague, is_precise);
+        if (vague.empty()) break;
+        wider.k *= 2;
+        before.clear();
+        for (const std::size_t i : vague) before.push_back(surface[i]);
+        detail::estimate_at(
+            team, vague.size(), [&vague](std::size_t v) { return vague[v]; }, index,
+            index.viewpoints, index.epsilon(), detail::found_neighborhoods(wider, index), estimate,
+            surface);
+        std::size_t left = 0;
+        for (std::size_t v = 0; v < vague.size(); ++v) {
+            const std::size_t i = vague[v];
+            if (is_better(surface[i], before[v]))
+                vague[left++] = i;
+            else
+                surface[i] = before[v];
+        }
+        vague.resize(left);
+    }
+    return surface;
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/normals/weighted_pca.hpp --------------------------------------------------------
 
 /// @file
@@ -11075,17 +11713,21 @@ struct weighted_pca {
 ///
 /// Let t_j be the coordinates of the points in the tangent plane, about their centroid, and e_j
 /// their errors along the normal. Then the normal rotates by -A^-1 mean(t_j e_j), where A is the
-/// covariance of the t_j minus the variance along the normal (Kanatani 1996; Wang et al. 2001 for
-/// noise along rays).
+/// covariance of the t_j of the points without their noise: that of the measured points minus that
+/// of the noise (Kanatani 1996; Wang et al. 2001 for noise along rays). Where the noise is most of
+/// it, the points do not determine a plane.
 
 namespace gnomon {
 
 /// Models `ray_estimator`. Wraps any estimator whose result is a `normal_estimate`. O(k) more than
 /// the estimator.
 ///
-/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2. The
-/// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
-/// points do not form a plane with this normal. `not_finite` where the view point is not finite.
+/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2, or
+/// would be for a plane whose slope across the ray is 3 standard deviations less. The covariance is
+/// (pi/2)^2 in both directions, its largest value, where the ray is grazing, or where the points
+/// without their noise do not form a plane: they must exceed it significantly, by 3 standard
+/// deviations of a sample variance, in the direction of the tangent plane that is most along the
+/// rays. `not_finite` where the view point is not finite.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>`
 template <estimator E>
@@ -11116,7 +11758,8 @@ struct with_covariance {
             return belief;
         }
         const detail::tangent_basis frame(belief.normal);
-        detail::set_covariance(belief, frame, covariance_in(frame, p, neighbors, viewpoint));
+        detail::set_covariance(belief, frame, covariance_in(frame, p, neighbors, viewpoint),
+                               detail::difference(p, viewpoint));
         return belief;
     }
 
@@ -11137,47 +11780,66 @@ struct with_covariance {
                                                        neighborhood_view neighbors,
                                                        const Eigen::Vector3d& viewpoint) const {
         const moments m = moments::about(p, neighbors);
-        const Eigen::Matrix3d spread = m.covariance_with_point();
-        const double across = detail::dot(frame.normal, detail::product(spread, frame.normal));
-        auto [a11, a12, a22] = frame.restricted(spread);
-        a11 -= across;
-        a22 -= across;
-
+        const auto count = static_cast<double>(m.count + 1);
         const Eigen::Vector3d mean = m.mean_with_point();
-        double s11 = 0.0;
-        double s12 = 0.0;
-        double s22 = 0.0;
-        bool all_grazing = true;
+        detail::tangent_matrix noisy{0.0, 0.0, 0.0}, s{0.0, 0.0, 0.0};
         const auto add = [&](const Eigen::Vector3d& q) {
             const Eigen::Vector3d ray = detail::difference(q, viewpoint);
             const double range = detail::length(ray);
-            // e_j is the error of the range times this cosine; a point at the view point has no
-            // ray, and counts as one with the ray along the normal.
-            const double cosine = range > 0.0 ? detail::dot(ray, frame.normal) / range : 1.0;
-            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
-            const double t1 = cosine * detail::dot(d, frame.b1);
-            const double t2 = cosine * detail::dot(d, frame.b2);
+            // A point at the view point has no ray, and counts as one with the ray along the
+            // normal.
+            const Eigen::Vector3d u = range > 0.0 ? detail::scaled(1.0 / range, ray) : frame.normal;
+            const double cosine = detail::dot(u, frame.normal);
             const double variance = noise.variance_along(ray);
-            s11 += variance * t1 * t1;
-            s12 += variance * t1 * t2;
-            s22 += variance * t2 * t2;
-            all_grazing = all_grazing && !(std::abs(cosine) > detail::grazing_cosine);
+            add_square(noisy, variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
+            // e_j is the error of the range times this cosine.
+            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
+            add_square(s, variance * cosine * cosine, detail::dot(d, frame.b1),
+                       detail::dot(d, frame.b2));
         };
         add(p);
         for (const Eigen::Vector3d& q : neighbors) add(q);
+        const double of_mean = (count - 1.0) / (count * count);  // the centroid errs as well
+        for (double* n : {&noisy.p11, &noisy.p12, &noisy.p22}) *n *= of_mean;
+        const detail::tangent_matrix spread = frame.restricted(m.covariance_with_point());
+        const Eigen::Vector3d ray =
+            detail::combined(1.0, detail::difference(p, viewpoint), 1.0, mean);
+        if (!is_significant(spread, noisy, frame, ray, count)) return detail::no_knowledge;
+        const auto [a11, a12, a22] = detail::tangent_matrix{
+            spread.p11 - noisy.p11, spread.p12 - noisy.p12, spread.p22 - noisy.p22};
         const double determinant = a11 * a22 - a12 * a12;
-        // A is that of a plane if it is positive definite; for PlanePCA it always is.
-        if (all_grazing || !(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
+        if (!(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
         const double i11 = a22 / determinant;
         const double i12 = -a12 / determinant;
         const double i22 = a11 / determinant;
-        const double r11 = i11 * s11 + i12 * s12;
-        const double r12 = i11 * s12 + i12 * s22;
-        const double r22 = i12 * s12 + i22 * s22;
-        const double count = static_cast<double>(m.count + 1);
+        const double r11 = i11 * s.p11 + i12 * s.p12;
+        const double r12 = i11 * s.p12 + i12 * s.p22;
+        const double r22 = i12 * s.p12 + i22 * s.p22;
         const double w = 1.0 / (count * count);
         return {w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
-                w * ((i12 * s11 + i22 * s12) * i12 + r22 * i22)};
+                w * ((i12 * s.p11 + i22 * s.p12) * i12 + r22 * i22)};
+    }
+
+    static void add_square(detail::tangent_matrix& sum, double weight, double x, double y) {
+        sum.p11 += weight * x * x;
+        sum.p12 += weight * x * y;
+        sum.p22 += weight * y * y;
+    }
+
+    /// Whether the points extend along the ray, in the tangent plane, by more than their noise.
+    [[nodiscard]] static bool is_significant(const detail::tangent_matrix& spread,
+                                             const detail::tangent_matrix& noisy,
+                                             const detail::tangent_basis& frame,
+                                             const Eigen::Vector3d& ray, double count) {
+        const double x = detail::dot(ray, frame.b1), y = detail::dot(ray, frame.b2);
+        const auto along = [x, y](const detail::tangent_matrix& m) {
+            return x * x * m.p11 + 2.0 * x * y * m.p12 + y * y * m.p22;
+        };
+        constexpr double deviations = 3.0;  // of a sample variance, whose is sqrt(2 / count) of it
+        const bool is_grazing = !(std::abs(detail::dot(ray, frame.normal)) >
+                                  detail::grazing_cosine * detail::length(ray));
+        return !is_grazing &&
+               along(spread) >= along(noisy) * (1.0 + deviations * std::sqrt(2.0 / count));
     }
 };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The laws of the `neighborhood` concept, for any model: yours, too.
+/// The laws of the `neighborhood` concept, for any model: yours, too. Points are seen `from` these
+/// view points, which need not be known.
 #pragma once
 
 #include <algorithm>
@@ -16,6 +17,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
+#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
@@ -24,16 +26,19 @@ namespace laws {
 // [graph_depends_on_points_alone]
 /// The graph is the same for every execution and through every projection.
 template <class N>
-void graph_depends_on_points_alone(const N& policy, const clouds::cloud& points) {
-    const auto graph = policy(points);
-    for (const unsigned t : {1u, 2u, 4u}) ASSERT_EQ(policy(points, gnomon::threads{t}), graph);
+void graph_depends_on_points_alone(const N& policy, const clouds::cloud& points,
+                                   const gnomon::viewpoint_table& from = {}) {
+    const auto seen = gnomon::with_viewpoints(points, from);
+    const auto graph = policy(seen);
+    for (const unsigned t : {1u, 2u, 4u}) ASSERT_EQ(policy(seen, gnomon::threads{t}), graph);
     struct record {
         int id;
         Eigen::Vector3d xyz;
     };
     std::vector<record> records;
     for (const auto& p : points) records.push_back({0, p});
-    ASSERT_EQ(policy(records, gnomon::sequential{}, &record::xyz), graph);
+    ASSERT_EQ(policy(gnomon::with_viewpoints(records, from), gnomon::sequential{}, &record::xyz),
+              graph);
 }
 // [graph_depends_on_points_alone]
 
@@ -41,9 +46,10 @@ void graph_depends_on_points_alone(const N& policy, const clouds::cloud& points)
 /// The neighbors of one point are those of the stored graph, in the same order and with the same
 /// note; so are those of the graph of an index.
 template <gnomon::indexed_neighborhood N>
-void find_agrees_with_graph(const N& policy, const clouds::cloud& points) {
-    const gnomon::spatial_index index(points);
-    const auto graph = policy(points);
+void find_agrees_with_graph(const N& policy, const clouds::cloud& points,
+                            const gnomon::viewpoint_table& from = {}) {
+    const gnomon::spatial_index index(gnomon::with_viewpoints(points, from));
+    const auto graph = policy(gnomon::with_viewpoints(points, from));
     ASSERT_EQ(policy(index), graph);
     std::vector<gnomon::neighbor> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -63,8 +69,9 @@ void find_agrees_with_graph(const N& policy, const clouds::cloud& points) {
 /// A sweep visits each finite point once, with the neighbors that `find` returns, and with their
 /// moments and mean distance.
 template <gnomon::sweeping_neighborhood N>
-void sweep_agrees_with_find(const N& policy, const clouds::cloud& points) {
-    const gnomon::spatial_index index(points);
+void sweep_agrees_with_find(const N& policy, const clouds::cloud& points,
+                            const gnomon::viewpoint_table& from = {}) {
+    const gnomon::spatial_index index(gnomon::with_viewpoints(points, from));
     std::vector<std::size_t> visits(points.size(), 0);
     std::vector<gnomon::neighbor> neighbors, expected;
     const auto visit = [&](std::size_t i, const auto& found) {
@@ -93,8 +100,9 @@ void sweep_agrees_with_find(const N& policy, const clouds::cloud& points) {
 
 /// Nearest first, ties by index, which policies without an order of their own promise.
 template <gnomon::indexed_neighborhood N>
-void neighbors_are_in_canonical_order(const N& policy, const clouds::cloud& points) {
-    const gnomon::spatial_index index(points);
+void neighbors_are_in_canonical_order(const N& policy, const clouds::cloud& points,
+                                      const gnomon::viewpoint_table& from = {}) {
+    const gnomon::spatial_index index(gnomon::with_viewpoints(points, from));
     std::vector<gnomon::neighbor> found;
     for (std::size_t i = 0; i < points.size(); ++i) {
         gnomon::detail::find_noted(policy, index, i, found);
@@ -103,11 +111,12 @@ void neighbors_are_in_canonical_order(const N& policy, const clouds::cloud& poin
 }
 
 template <class N>
-void neighborhood_laws(const N& policy, const clouds::cloud& points) {
-    graph_lists_other_finite_points(policy(points), points);
-    graph_depends_on_points_alone(policy, points);
-    if constexpr (gnomon::indexed_neighborhood<N>) find_agrees_with_graph(policy, points);
-    if constexpr (gnomon::sweeping_neighborhood<N>) sweep_agrees_with_find(policy, points);
+void neighborhood_laws(const N& policy, const clouds::cloud& points,
+                       const gnomon::viewpoint_table& from = {}) {
+    graph_lists_other_finite_points(policy(gnomon::with_viewpoints(points, from)), points);
+    graph_depends_on_points_alone(policy, points, from);
+    if constexpr (gnomon::indexed_neighborhood<N>) find_agrees_with_graph(policy, points, from);
+    if constexpr (gnomon::sweeping_neighborhood<N>) sweep_agrees_with_find(policy, points, from);
 }
 
 }  // namespace laws

@@ -2,14 +2,18 @@
 /// What vector instructions do, against plain loops. Compiled once more for each set of
 /// instructions, see tests/CMakeLists.txt.
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <vector>
 
 #include <gtest/gtest.h>
 
 #include "laws/clouds.hpp"
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/neighborhoods/detail/ray_metric.hpp>
 
 namespace {
 
@@ -36,6 +40,49 @@ TEST(lanes, measure_points_and_boxes) {
             const float gx = std::max(0.0f, std::abs(dx) - 0.25f);
             const float gy = std::max(0.0f, std::abs(dy) - 0.5f);
             ASSERT_NEAR(gap2[l], 4 * (gx * gx + gy * gy + dz * dz), 4e-6);
+        }
+    }
+}
+
+/// Distances from a segment, also where they are 0 but for rounding; and no box is left out that
+/// may have a point within the limit.
+TEST(lanes, measure_from_segments) {
+    constexpr gnomon::detail::compiled_instructions instructions;
+    gnomon::random_stream random(5);
+    const auto any = [&] { return static_cast<float>(random.uniform()); };
+    for (int trial = 0; trial < 300; ++trial) {
+        const Eigen::Vector3d u = clouds::gaussian_vector(random).normalized();
+        const float half_length = trial % 3 == 0 ? 0.0f : any();
+        const Eigen::Vector3f v = u.cast<float>(), from(any(), any(), any());
+        const gnomon::detail::lane_segment segment{from[0], from[1], from[2],    v[0],
+                                                   v[1],    v[2],    half_length};
+        const gnomon::detail::ray_metric metric(u, half_length);
+        gnomon::detail::lane_points points;
+        gnomon::detail::lane_boxes boxes;
+        const std::array<float, 3> half{0.02f, 0.05f, 0.0f};
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            Eigen::Vector3f q(any(), any(), any());
+            if (l % 4 == 0) q = from + 0.3f * any() * v;
+            points.set(l, {q[0], q[1], q[2]});
+            boxes.set(l, {q[0], q[1], q[2]}, half);
+        }
+        const lanes d2 = segment.squared_distances(points);
+        const float limit = 0.1f * any();
+        const std::uint32_t near = segment.near(instructions, boxes, limit);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const Eigen::Vector3d d(points.x[l] - from[0], points.y[l] - from[1],
+                                    points.z[l] - from[2]);
+            ASSERT_GE(d2[l], 0.0f);
+            ASSERT_NEAR(d2[l], metric.squared(d[0], d[1], d[2]), 2e-6);
+            double nearest = clouds::infinity;  // of the corners
+            for (int corner = 0; corner < 4; ++corner) {
+                const double x = corner % 2 == 0 ? half[0] : -half[0];
+                const double y = corner / 2 == 0 ? half[1] : -half[1];
+                nearest = std::min(nearest, metric.squared(d[0] + x, d[1] + y, d[2]));
+            }
+            if (nearest <= limit) {
+                ASSERT_TRUE((near >> l & 1u) != 0) << l;
+            }
         }
     }
 }

@@ -19,7 +19,7 @@
 namespace {
 
 using gnomon::knn, gnomon::tie_rule;
-using gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
+using gnomon::detail::distances_from_points, gnomon::detail::leaf_search, gnomon::detail::leaf_tree;
 using found_neighbors = gnomon::detail::found_neighbors<leaf_tree>;
 using gnomon::detail::place_visitor;
 
@@ -127,7 +127,8 @@ TEST(leaf_search, does_not_depend_on_earlier_queries) {
             };
             leaf_search learning(tree, {k});
             for (std::size_t g = tree.groups(); g-- > 0;) learning(g, into(once));
-            for (std::size_t g = 0; g < tree.groups(); ++g) leaf_search(tree, {k})(g, into(afresh));
+            for (std::size_t g = 0; g < tree.groups(); ++g)
+                leaf_search(tree, {k}, distances_from_points(tree))(g, into(afresh));
             EXPECT_EQ(once, afresh);
         }
     }

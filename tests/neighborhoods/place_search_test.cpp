@@ -46,8 +46,9 @@ TEST(place_search, finds_what_leaf_search_finds) {
              {nearest_wanted{.k = 1}, nearest_wanted{.k = 26},
               nearest_wanted{.k = 9, .ties = gnomon::tie_rule::all},
               nearest_wanted{.k = 30, .radius = 0.1}, nearest_wanted{.k = 12, .of = &some}}) {
-            EXPECT_EQ(all_found(tree, gnomon::detail::place_search(tree, wanted)),
-                      all_found(tree, gnomon::detail::leaf_search(tree, wanted)));
+            const gnomon::detail::distances_from_points distances(tree);
+            EXPECT_EQ(all_found(tree, gnomon::detail::place_search(tree, wanted, distances)),
+                      all_found(tree, gnomon::detail::leaf_search(tree, wanted, distances)));
         }
     }
 }

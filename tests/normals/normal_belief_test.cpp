@@ -146,6 +146,33 @@ void expect_deviation_along_z(const auto& estimate) {
     EXPECT_GT(belief.covariance(2, 2), 30.0 * belief.covariance(1, 1));
 }
 
+/// At the slope itself it is the test of the trace; the farther it looks, the more is vague.
+TEST(normal_belief, is_vague_where_a_flatter_plane_would_be) {
+    using gnomon::detail::is_vague_within;
+    gnomon::random_stream random(9);
+    std::size_t vague = 0, only_if_flatter = 0;
+    for (int trial = 0; trial < 2000; ++trial) {
+        const gnomon::detail::tangent_basis frame(clouds::gaussian_vector(random).normalized());
+        const Eigen::Vector3d u = clouds::gaussian_vector(random).normalized();
+        if (std::abs(u.dot(frame.normal)) < 0.05) continue;
+        const double a = random.uniform(0.0, 0.15), b = random.uniform(0.0, 0.15);
+        const gnomon::detail::tangent_matrix p{a, random.uniform(-1.0, 1.0) * std::sqrt(a * b), b};
+        const bool here = is_vague_within(0.0, frame, p, u);
+        EXPECT_EQ(here, a + b > 0.1) << a + b;
+        const bool flatter = is_vague_within(2.0, frame, p, u);
+        EXPECT_TRUE(flatter || !here);
+        EXPECT_TRUE(is_vague_within(4.0, frame, p, u) || !flatter);
+        vague += here ? 1 : 0;
+        only_if_flatter += flatter && !here ? 1 : 0;
+    }
+    EXPECT_GT(vague, 100u);
+    EXPECT_GT(only_if_flatter, 100u);
+    // Seen along the normal nothing is flatter; along the surface everything is vague.
+    const gnomon::detail::tangent_basis up(Eigen::Vector3d::UnitZ());
+    EXPECT_FALSE(is_vague_within(9.0, up, {0.01, 0.0, 0.01}, Eigen::Vector3d::UnitZ()));
+    EXPECT_TRUE(is_vague_within(0.0, up, {1e-9, 0.0, 1e-9}, Eigen::Vector3d::UnitX()));
+}
+
 TEST(normal_belief, is_of_the_difference_of_normals) {
     expect_deviation_along_z(gnomon::plane_eif{.noise = gnomon::constant_noise{0.005}});
     expect_deviation_along_z(gnomon::plane_ekf{.noise = gnomon::constant_noise{0.005}});

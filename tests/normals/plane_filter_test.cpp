@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 
 #include <Eigen/Geometry>
@@ -181,6 +182,29 @@ TEST(plane_filter, covariance_lies_as_the_neighborhood_does) {
         check(plane_ekf{.noise = gnomon::constant_noise{0.001}});
         check(plane_ukf{.noise = gnomon::constant_noise{0.001}});
     }
+}
+
+/// The unscented filter approaches its result step by step; it is trusted as soon as steps are
+/// small in standard deviations.
+TEST(plane_filter, unscented_filter_converges_in_strong_noise) {
+    constexpr double sigma = 0.02;
+    gnomon::random_stream random(5);
+    const plane_ukf filter{.noise = gnomon::constant_noise{sigma}};
+    const plane_ukf patient{.noise = gnomon::constant_noise{sigma}, .max_iterations = 200};
+    int good = 0;
+    constexpr int draws = 200;
+    for (int draw = 0; draw < draws; ++draw) {
+        clouds::cloud points;
+        for (int i = 0; i < 30; ++i) {
+            const Eigen::Vector3d q(2.0, random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1));
+            points.push_back(q * (1.0 + sigma * random.gaussian() / q.norm()));
+        }
+        const auto belief = filter(points[0], std::span(points).subspan(1));
+        const auto limit = patient(points[0], std::span(points).subspan(1));
+        good += belief.trust == trust::good ? 1 : 0;
+        EXPECT_LT((belief.normal - limit.normal).norm(), 0.02 * std::sqrt(limit.trace()));
+    }
+    EXPECT_GT(good, draws * 9 / 10);
 }
 
 TEST(plane_filter, refuses_priors_and_iterations_that_make_no_sense) {

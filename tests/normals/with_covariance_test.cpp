@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -54,9 +56,52 @@ TEST(with_covariance, is_the_spread_of_the_normals) {
     }
 }
 
-/// Oracle: the derivative of PlanePCA's normal by the range of each point, by differences. The
-/// points lie up to a third as far across their plane as within it, so that the variance across
-/// counts; all rays are parallel to the normal, so that nothing else does.
+/// Where noise along oblique rays is a third of the extent of the nearest neighbors, their
+/// covariances hold on average: the part of their extent that is noise does not count.
+TEST(with_covariance, holds_where_noise_extends_the_neighborhood) {
+    constexpr double sigma = 0.02;
+    const Eigen::Vector3d viewpoint(1.2, 0.4, 1.0);
+    const with_covariance<plane_pca> estimate{.noise = gnomon::constant_noise{sigma}};
+    gnomon::random_stream random(3, 6);
+    double nees = 0.0;
+    int good = 0;
+    constexpr int draws = 2000;
+    for (int draw = 0; draw < draws; ++draw) {
+        clouds::cloud noisy;
+        for (int i = 0; i < 400; ++i) {
+            const double half = i == 0 ? 0.02 : 0.3;  // the point itself is near the center
+            const Eigen::Vector3d p(random.uniform(-half, half), random.uniform(-half, half), 0.0);
+            noisy.push_back(p + sigma * random.gaussian() * (p - viewpoint).normalized());
+        }
+        const auto nearest = std::span(noisy).subspan(1);
+        std::ranges::sort(nearest, {},
+                          [&](const Eigen::Vector3d& q) { return (q - noisy[0]).squaredNorm(); });
+        const auto belief = estimate(noisy[0], nearest.first(40), viewpoint);
+        if (belief.trust != trust::good) continue;
+        ++good;
+        nees += gnomon::nees(belief, Eigen::Vector3d::UnitZ());
+    }
+    EXPECT_GT(good, draws * 9 / 10);
+    EXPECT_NEAR(nees / good, 2.0, 0.2);
+}
+
+/// Points that extend along the rays no farther than their noise do not determine a plane.
+TEST(with_covariance, of_noise_alone_is_no_knowledge) {
+    const Eigen::Vector3d viewpoint(-1.0, 0.0, 0.02);
+    clouds::cloud noise;
+    gnomon::random_stream random(4, 6);
+    for (int i = 0; i < 40; ++i)
+        noise.push_back({0.02 * random.gaussian(), random.uniform(-0.1, 0.1), 0.0});
+    const std::span others = std::span(noise).subspan(1);
+    // The plane through noise along the rays of one scan line.
+    const auto of_noise = with_covariance<plane_pca>{.noise = gnomon::constant_noise{0.02}}(
+        noise[0], others, viewpoint);
+    EXPECT_EQ(of_noise.trust, trust::weak);
+    EXPECT_GT(of_noise.trace(), 1.0);
+}
+
+/// Oracle: the derivative of PlanePCA's normal by the range of each point, by differences. All rays
+/// are parallel to the normal, so that noise adds nothing to the extent of the points.
 TEST(with_covariance, is_the_derivative_of_the_normal) {
     constexpr double sigma = 1e-4;
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
@@ -65,7 +110,7 @@ TEST(with_covariance, is_the_derivative_of_the_normal) {
         clouds::cloud points;
         for (int i = 0; i < 30; ++i) {
             const Eigen::Vector3d d = clouds::gaussian_vector(random);
-            points.push_back({0.1 * d.x(), 0.08 * d.y(), 0.025 * d.z()});
+            points.push_back({0.1 * d.x(), 0.08 * d.y(), sigma * d.z()});
         }
         const auto normal_of = [](const clouds::cloud& q) {
             return plane_pca{}(q[0], std::span(q).subspan(1)).normal;

@@ -15,8 +15,8 @@
 /// any point; the graph is the same bytes for every execution; `find` and `sweep` agree with the
 /// graph.
 ///
-/// Models: `knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`, `delaunay` and
-/// `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
+/// Models: `knn`, `noise_knn`, `ray_knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`,
+/// `delaunay` and `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
 /// std::vector<std::vector<point_index>>.
 #pragma once
 

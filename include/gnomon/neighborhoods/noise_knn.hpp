@@ -63,7 +63,11 @@ struct noise_knn {
         const auto is_far = [within](const neighbor& q) { return !(q.squared_distance <= within); };
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
-        if (looks_across(index)) add_across(index, i, found);
+        if (looks_across(index)) {
+            detail::across_lines across(index);
+            across.add_to(found, static_cast<point_index>(i));
+            std::sort(found.begin(), found.end());
+        }
     }
 
     /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
@@ -93,21 +97,6 @@ struct noise_knn {
   private:
     [[nodiscard]] bool looks_across(const spatial_index& index) const {
         return sees_across_lines && !index.viewpoints.empty();
-    }
-
-    /// Adds the neighbors across scan lines. (A template, so that only its users compile it.)
-    static void add_across(const auto& index, std::size_t i, auto& found) {
-        detail::across_lines across(index);
-        for (const point_index j : across(static_cast<point_index>(i), found.size(),
-                                          [&](std::size_t n) { return found[n].index; })) {
-            const neighbor q{squared_distance(index[i], index[j]), j};
-            add_once(q, found);
-        }
-        std::sort(found.begin(), found.end());
-    }
-
-    static void add_once(const auto& one, auto& all) {
-        if (std::find(all.begin(), all.end(), one) == all.end()) all.push_back(one);
     }
 
     /// The square of the distance [m^2] within which point i has its neighbors.
@@ -149,12 +138,7 @@ struct noise_knn {
             near_.resize(static_cast<std::size_t>(end - near_.begin()));
             if (across_) {
                 all_.assign(places.begin(), places.end());
-                const auto indices = (*across_)(
-                    i, near_.size(), [&](std::size_t n) { return tree.index()[near_[n]]; });
-                for (const point_index j : indices) {
-                    add_once(tree.place_of(j), near_);
-                    add_once(tree.place_of(j), all_);
-                }
+                for (const point_index j : across_->add_to(near_, i)) across_->add_once(j, i, all_);
             }
             visit_all_(i,
                        detail::found_neighbors(

@@ -175,8 +175,7 @@ class noise_meter {
     }
 
     [[nodiscard]] static auto half_length(const noise_curve& noise) {
-        constexpr double all = 4.0;  // standard deviations: 99.99 % of the noise
-        return [noise](const Eigen::Vector3d& ray) { return all * noise.along(ray); };
+        return [noise](const Eigen::Vector3d& ray) { return ray_deviations * noise.along(ray); };
     }
 
     const spatial_index& index_;

@@ -15,6 +15,8 @@
 /// Klasing 2010, Sec. 3.2.7, Eqs. (3.14)-(3.18), which names the unscented filter as an extension.
 #pragma once
 
+#include <algorithm>
+
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
@@ -67,9 +69,9 @@ struct plane_filter {
         // The first linearization has no covariance: sigma points this close to each other give
         // the derivative.
         state.covariance = diagonal(1e-8, 1e-8, 1e-4 * noise.variance_along(x));
-        constexpr double converged_step = 1e-9;  // [rad]
-        bool converged = false;
-        for (int i = 0; i < max_iterations && !converged; ++i) {
+        constexpr double last_step = 1e-9;  // [rad], of rounding; numerical
+        double step = 1.0;
+        for (int i = 0; i < max_iterations && step > last_step; ++i) {
             information sum = information_of(prior, state);
             const Linearization linearize(state, anchor);
             add_measurement(state, linearize, x, sum);
@@ -81,12 +83,16 @@ struct plane_filter {
                 return without_normal(belief, trust::degenerate);
             state = state.moved(delta);
             state.covariance = covariance;
-            converged = std::abs(delta[0]) + std::abs(delta[1]) < converged_step;
+            step = std::abs(delta[0]) + std::abs(delta[1]);
         }
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
+        // Steps that are small in standard deviations do not matter (numerical).
+        constexpr double negligible = 0.01;
+        const bool converged =
+            step <= std::max(last_step, negligible * std::sqrt(c(0, 0) + c(1, 1)));
         if (!converged) belief.trust = trust::weak;
-        set_covariance(belief, state.frame, {c(0, 0), c(0, 1), c(1, 1)});
+        set_covariance(belief, state.frame, {c(0, 0), c(0, 1), c(1, 1)}, x);
         return belief;
     }
 
@@ -148,8 +154,9 @@ struct plane_filter {
 /// [rad] and `prior_distance` [m] of an uninformative prior.
 ///
 /// Trust: that of `plane_pca`; `weak` as well where the iteration does not converge, or where the
-/// trace of the covariance is above 0.1 rad^2: if all rays are grazing, the covariance is that of
-/// the prior. `not_finite` where the view point is not finite.
+/// trace of the covariance is above 0.1 rad^2, or would be for a plane whose slope across the ray
+/// is 3 standard deviations less; if all rays are grazing, the covariance is that of the prior.
+/// `not_finite` where the view point is not finite.
 using plane_ekf = detail::plane_filter<detail::by_derivative>;
 
 /// The iterated unscented Kalman filter, for strong noise and grazing rays; otherwise as

@@ -27,6 +27,7 @@
 #include <gnomon/normals/quad_trans_svd.hpp>
 #include <gnomon/normals/ray_ls.hpp>
 #include <gnomon/normals/robust_pca.hpp>
+#include <gnomon/normals/robust_ray_ls.hpp>
 #include <gnomon/normals/sample_consensus.hpp>
 #include <gnomon/normals/vector_pca.hpp>
 #include <gnomon/normals/vector_svd.hpp>
@@ -56,6 +57,7 @@ inline constexpr auto other_estimators = boost::hana::make_tuple(
     named{"gravitationally_weighted", gravitationally_weighted{}},
     named{"literal_plane_ekf", literal_plane_ekf{}}, named{"plane_ekf", plane_ekf{}},
     named{"plane_ukf", plane_ukf{}}, named{"plane_eif", plane_eif{}},
+    named{"robust_ray_ls", robust_ray_ls{}},
     named{"plane_pca with covariance", with_covariance<plane_pca>{}}, named{"ray_ls", ray_ls{}},
     named{"weighted_pca", weighted_pca{}}, named{"robust_pca", robust_pca{}},
     named{"ransac_plane", ransac_plane{}}, named{"mlesac_plane", mlesac_plane{}});

@@ -6,8 +6,9 @@
 ///
 /// Let t_j be the coordinates of the points in the tangent plane, about their centroid, and e_j
 /// their errors along the normal. Then the normal rotates by -A^-1 mean(t_j e_j), where A is the
-/// covariance of the t_j minus the variance along the normal (Kanatani 1996; Wang et al. 2001 for
-/// noise along rays).
+/// covariance of the t_j of the points without their noise: that of the measured points minus that
+/// of the noise (Kanatani 1996; Wang et al. 2001 for noise along rays). Where the noise is most of
+/// it, the points do not determine a plane.
 #pragma once
 
 #include <functional>
@@ -29,9 +30,12 @@ namespace gnomon {
 /// Models `ray_estimator`. Wraps any estimator whose result is a `normal_estimate`. O(k) more than
 /// the estimator.
 ///
-/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2. The
-/// covariance is (pi/2)^2 in both directions, its largest value, where all rays are grazing or the
-/// points do not form a plane with this normal. `not_finite` where the view point is not finite.
+/// Trust: the estimator's; `weak` as well where the trace of the covariance is above 0.1 rad^2, or
+/// would be for a plane whose slope across the ray is 3 standard deviations less. The covariance is
+/// (pi/2)^2 in both directions, its largest value, where the ray is grazing, or where the points
+/// without their noise do not form a plane: they must exceed it significantly, by 3 standard
+/// deviations of a sample variance, in the direction of the tangent plane that is most along the
+/// rays. `not_finite` where the view point is not finite.
 ///
 /// @tparam E  the estimator that gives the normal, e.g. `with_covariance<plane_pca>`
 template <estimator E>
@@ -62,7 +66,8 @@ struct with_covariance {
             return belief;
         }
         const detail::tangent_basis frame(belief.normal);
-        detail::set_covariance(belief, frame, covariance_in(frame, p, neighbors, viewpoint));
+        detail::set_covariance(belief, frame, covariance_in(frame, p, neighbors, viewpoint),
+                               detail::difference(p, viewpoint));
         return belief;
     }
 
@@ -83,47 +88,66 @@ struct with_covariance {
                                                        neighborhood_view neighbors,
                                                        const Eigen::Vector3d& viewpoint) const {
         const moments m = moments::about(p, neighbors);
-        const Eigen::Matrix3d spread = m.covariance_with_point();
-        const double across = detail::dot(frame.normal, detail::product(spread, frame.normal));
-        auto [a11, a12, a22] = frame.restricted(spread);
-        a11 -= across;
-        a22 -= across;
-
+        const auto count = static_cast<double>(m.count + 1);
         const Eigen::Vector3d mean = m.mean_with_point();
-        double s11 = 0.0;
-        double s12 = 0.0;
-        double s22 = 0.0;
-        bool all_grazing = true;
+        detail::tangent_matrix noisy{0.0, 0.0, 0.0}, s{0.0, 0.0, 0.0};
         const auto add = [&](const Eigen::Vector3d& q) {
             const Eigen::Vector3d ray = detail::difference(q, viewpoint);
             const double range = detail::length(ray);
-            // e_j is the error of the range times this cosine; a point at the view point has no
-            // ray, and counts as one with the ray along the normal.
-            const double cosine = range > 0.0 ? detail::dot(ray, frame.normal) / range : 1.0;
-            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
-            const double t1 = cosine * detail::dot(d, frame.b1);
-            const double t2 = cosine * detail::dot(d, frame.b2);
+            // A point at the view point has no ray, and counts as one with the ray along the
+            // normal.
+            const Eigen::Vector3d u = range > 0.0 ? detail::scaled(1.0 / range, ray) : frame.normal;
+            const double cosine = detail::dot(u, frame.normal);
             const double variance = noise.variance_along(ray);
-            s11 += variance * t1 * t1;
-            s12 += variance * t1 * t2;
-            s22 += variance * t2 * t2;
-            all_grazing = all_grazing && !(std::abs(cosine) > detail::grazing_cosine);
+            add_square(noisy, variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
+            // e_j is the error of the range times this cosine.
+            const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
+            add_square(s, variance * cosine * cosine, detail::dot(d, frame.b1),
+                       detail::dot(d, frame.b2));
         };
         add(p);
         for (const Eigen::Vector3d& q : neighbors) add(q);
+        const double of_mean = (count - 1.0) / (count * count);  // the centroid errs as well
+        for (double* n : {&noisy.p11, &noisy.p12, &noisy.p22}) *n *= of_mean;
+        const detail::tangent_matrix spread = frame.restricted(m.covariance_with_point());
+        const Eigen::Vector3d ray =
+            detail::combined(1.0, detail::difference(p, viewpoint), 1.0, mean);
+        if (!is_significant(spread, noisy, frame, ray, count)) return detail::no_knowledge;
+        const auto [a11, a12, a22] = detail::tangent_matrix{
+            spread.p11 - noisy.p11, spread.p12 - noisy.p12, spread.p22 - noisy.p22};
         const double determinant = a11 * a22 - a12 * a12;
-        // A is that of a plane if it is positive definite; for PlanePCA it always is.
-        if (all_grazing || !(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
+        if (!(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
         const double i11 = a22 / determinant;
         const double i12 = -a12 / determinant;
         const double i22 = a11 / determinant;
-        const double r11 = i11 * s11 + i12 * s12;
-        const double r12 = i11 * s12 + i12 * s22;
-        const double r22 = i12 * s12 + i22 * s22;
-        const double count = static_cast<double>(m.count + 1);
+        const double r11 = i11 * s.p11 + i12 * s.p12;
+        const double r12 = i11 * s.p12 + i12 * s.p22;
+        const double r22 = i12 * s.p12 + i22 * s.p22;
         const double w = 1.0 / (count * count);
         return {w * (r11 * i11 + r12 * i12), w * (r11 * i12 + r12 * i22),
-                w * ((i12 * s11 + i22 * s12) * i12 + r22 * i22)};
+                w * ((i12 * s.p11 + i22 * s.p12) * i12 + r22 * i22)};
+    }
+
+    static void add_square(detail::tangent_matrix& sum, double weight, double x, double y) {
+        sum.p11 += weight * x * x;
+        sum.p12 += weight * x * y;
+        sum.p22 += weight * y * y;
+    }
+
+    /// Whether the points extend along the ray, in the tangent plane, by more than their noise.
+    [[nodiscard]] static bool is_significant(const detail::tangent_matrix& spread,
+                                             const detail::tangent_matrix& noisy,
+                                             const detail::tangent_basis& frame,
+                                             const Eigen::Vector3d& ray, double count) {
+        const double x = detail::dot(ray, frame.b1), y = detail::dot(ray, frame.b2);
+        const auto along = [x, y](const detail::tangent_matrix& m) {
+            return x * x * m.p11 + 2.0 * x * y * m.p12 + y * y * m.p22;
+        };
+        constexpr double deviations = 3.0;  // of a sample variance, whose is sqrt(2 / count) of it
+        const bool is_grazing = !(std::abs(detail::dot(ray, frame.normal)) >
+                                  detail::grazing_cosine * detail::length(ray));
+        return !is_grazing &&
+               along(spread) >= along(noisy) * (1.0 + deviations * std::sqrt(2.0 / count));
     }
 };
 

@@ -7,10 +7,13 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <type_traits>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -39,14 +42,21 @@ template <class Index, execution X>
         [&](auto& rays) { rays.rebuild(index, run); });
 }
 
+/// Which neighborhoods get neighbors across scan lines.
+enum class lacking {
+    few_across,  ///< fewer than three neighbors are across the line; for fits to all neighbors
+    a_side       ///< there is none on one side of it; for fits to the inliers among them
+};
+
 /// Searches for them; each thread has its own object. (A template for compile time only.)
 template <class Index>
 class across_lines {
   public:
-    explicit across_lines(const Index& index) : index_(index) {}
+    explicit across_lines(const Index& index, lacking what = lacking::few_across)
+        : index_(index), what_(what) {}
 
     /// The points of the nearest rays in each quadrant around that of a point, turned to its scan
-    /// line, if fewer than three of its neighbors are across the line.
+    /// line, if its neighbors lack some.
     /// @param count      of the neighbors
     /// @param neighbor   neighbor(n): the index of neighbor n
     /// @return indices, some of which may be among the neighbors; valid until the next call
@@ -57,22 +67,54 @@ class across_lines {
         if (!all_finite(u)) return {};
         const ray_plane<> plane(u);
         scan_line<> line;
-        around_.clear();  // by their indices: sums are the same in whatever order they come
-        for (std::size_t n = 0; n < count; ++n) around_.push_back(neighbor(n));
-        std::sort(around_.begin(), around_.end());
-        const auto offset = [&](std::size_t n) {
-            return plane.offset(ray_direction(index_, around_[n]));
-        };
-        for (std::size_t n = 0; n < count; ++n) line.add(offset(n));
+        around_.resize(count);
+        const bool is_fixed = index_.viewpoints.positions().size() == 1;  // performance only
+        const Eigen::Vector3d viewpoint = index_.viewpoints[i];
+        for (std::size_t n = 0; n < count; ++n) {
+            // Of any length: the axis depends on the angles about the ray only.
+            const point_index j = neighbor(n);
+            const auto [x, y, z] = index_.tree().position(index_.tree().place_of(j));
+            around_[n] =
+                plane.offset(difference({x, y, z}, is_fixed ? viewpoint : index_.viewpoints[j]));
+        }
+        for (const auto& offset : around_) line.add(offset);
         line.fit();
-        std::size_t across = 0;
-        for (std::size_t n = 0; n < count && across < enough; ++n)
-            across += line.is_along(offset(n)) ? 0 : 1;
-        if (across < enough) find(i, u, plane, line);
+        std::array<std::size_t, 2> sides{};
+        for (const auto& offset : around_)
+            if (!line.is_along(offset)) ++sides[line.quadrant(offset) - 2];
+        const bool lacks_some = sides[0] + sides[1] < enough ||
+                                (what_ == lacking::a_side && (sides[0] == 0 || sides[1] == 0));
+        if (lacks_some) find(i, u, plane, line);
         return found_;
     }
 
+    /// Adds them to neighbors, or to the places of neighbors in the tree, which are not repeated.
+    /// @return all of them, as above
+    std::span<const point_index> add_to(auto& neighbors, point_index i) {
+        const auto index = [&](std::size_t n) { return index_of(neighbors[n]); };
+        const auto found = (*this)(i, neighbors.size(), index);
+        for (const point_index j : found) add_once(j, i, neighbors);
+        return found;
+    }
+    /// Adds point j to the neighbors of point i, or to their places, unless it is among them.
+    template <class Neighbor, class Allocator>
+    void add_once(point_index j, point_index i, std::vector<Neighbor, Allocator>& neighbors) const {
+        Neighbor one;
+        if constexpr (std::same_as<Neighbor, neighbor>) {
+            one = {squared_distance(index_[i], index_[j]), j};
+        } else {
+            one = index_.tree().place_of(j);
+        }
+        if (std::find(neighbors.begin(), neighbors.end(), one) == neighbors.end())
+            neighbors.push_back(one);
+    }
+
   private:
+    [[nodiscard]] point_index index_of(const neighbor& q) const { return q.index; }
+    [[nodiscard]] point_index index_of(std::uint32_t place) const {
+        return index_.tree().index()[place];
+    }
+
     // These are chosen on streets 20,001 to 20,003 and furnished rooms 20,001 to 20,012: where
     // fewer neighbors count as enough, roads are interrupted; where more are wanted, or farther
     // ones, edges blur.
@@ -85,24 +127,26 @@ class across_lines {
             rays_ = &directions_of(index_, sequential{});  // only where they are needed
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
+            // As many as are on three lines, up to the distance of the next line.
+            const double ratio = across.radians() / along.radians();
+            first_ = static_cast<std::size_t>(8.0 * std::clamp(ratio, 4.0, 16.0));
         }
-        constexpr std::size_t few = 32, many = 256;  // rays to look at; chosen likewise
-        for (std::size_t count = few; count <= many; count *= 4) {
-            search_tree(rays_->tree(), u, {.k = count, .except = i}, near_);
+        constexpr std::size_t many = 256;  // rays to look at; chosen likewise
+        for (std::size_t count = first_; count <= many; count *= 4) {
+            search_tree(rays_->tree(), u,
+                        {.k = count, .squared_radius = reach_ * reach_, .except = i}, near_);
             counts_ = {};
             std::size_t full = 0;  // quadrants
             found_.clear();
             for (const neighbor& q : near_) {
-                if (q.squared_distance < same_ray || q.squared_distance > reach_ * reach_) continue;
+                if (q.squared_distance < same_ray) continue;
                 std::size_t& in_quadrant =
-                    counts_[line.quadrant(plane.offset(ray_direction(index_, q.index)))];
+                    counts_[line.quadrant(plane.offset(rays_->direction(q)))];
                 if (in_quadrant == wanted || !is_beside(i, q.index)) continue;
                 full += ++in_quadrant == wanted ? 1 : 0;
                 found_.push_back(q.index);
             }
-            if (full == counts_.size() || near_.size() < count ||
-                near_.back().squared_distance > reach_ * reach_)
-                return;
+            if (full == counts_.size() || near_.size() < count) return;
         }
     }
 
@@ -121,11 +165,14 @@ class across_lines {
     }
 
     const Index& index_;
+    lacking what_;
     const directions_of_index<Index>* rays_ = nullptr;
-    double reach_ = 0.0;  // [rad]
+    double reach_ = 0.0;     // [rad]
+    std::size_t first_ = 0;  // rays to look at
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<point_index> around_, found_;
+    scratch<std::array<double, 2>> around_;  // offsets of the neighbors' rays
+    scratch<point_index> found_;
 };
 
 }  // namespace gnomon::detail

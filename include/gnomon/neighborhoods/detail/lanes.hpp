@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 
 #include <gnomon/core/detail/cmath.hpp>
@@ -45,13 +46,14 @@ struct lane_points {
     }
 };
 
-/// Thirty-two boxes, as their centers and half their side lengths.
+/// Thirty-two boxes, as their centers, half their side lengths and half their diagonals.
 struct lane_boxes {
-    lanes x, y, z, half_x, half_y, half_z;
+    lanes x, y, z, half_x, half_y, half_z, half_diagonal;
 
     void set(std::size_t l, const std::array<float, 3>& middle, const std::array<float, 3>& half) {
         x[l] = middle[0], y[l] = middle[1], z[l] = middle[2];
         half_x[l] = half[0], half_y[l] = half[1], half_z[l] = half[2];
+        half_diagonal[l] = std::sqrt(half[0] * half[0] + half[1] * half[1] + half[2] * half[2]);
     }
 
     /// Four times the squared distances from (px, py, pz); 0 inside.
@@ -65,6 +67,58 @@ struct lane_boxes {
             // d + |d| is twice the larger of d and 0, which compilers would not vectorise.
             const float gx = dx + std::abs(dx), gy = dy + std::abs(dy), gz = dz + std::abs(dz);
             d2.at[l] = gx * gx + gy * gy + gz * gz;
+        }
+        return d2;
+    }
+};
+
+/// Distances of 32 points from a point.
+struct lane_point {
+    float x, y, z;
+
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+        return points.squared_distances(x, y, z);
+    }
+    /// Which of 32 boxes may have points within a limit, a squared distance.
+    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
+                                                         float limit) const {
+        return instructions.at_most(boxes.squared_distances_times_4(x, y, z), 4.00004f * limit);
+    }
+};
+
+/// Distances of 32 points from a segment.
+struct lane_segment {
+    float x, y, z;     // of its middle
+    float ux, uy, uz;  // its direction, of length 1, or 0 for a segment of length 0
+    float half_length;
+
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+        return squared_distances(points.x, points.y, points.z);
+    }
+    /// Which of 32 boxes may have points within a limit, a squared distance: the balls around them.
+    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
+                                                         float limit) const {
+        constexpr float margin = 1e-5f;  // floats are off by some 2^-24 of coordinates below 4
+        const float distance = std::sqrt(limit) + margin;
+        lanes excess = squared_distances(boxes.x, boxes.y, boxes.z);
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float reach = distance + boxes.half_diagonal.at[l];
+            excess.at[l] -= reach * reach + margin;
+        }
+        return instructions.at_most(excess, 0.0f);
+    }
+
+  private:
+    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lanes& px, const lanes& py,
+                                                              const lanes& pz) const {
+        lanes d2;
+        for (std::size_t l = 0; l < lane_count; ++l) {
+            const float dx = px.at[l] - x, dy = py.at[l] - y, dz = pz.at[l] - z;
+            const float along = dx * ux + dy * uy + dz * uz;
+            const float end = std::abs(along) - half_length;
+            const float beyond = end + std::abs(end);  // twice the larger of end and 0, see above
+            const float across = dx * dx + dy * dy + dz * dz - along * along;  // or just below 0
+            d2.at[l] = 0.5f * (across + std::abs(across)) + 0.25f * beyond * beyond;
         }
         return d2;
     }

@@ -31,7 +31,9 @@ class leaf_balls {
     /// @param among      only these places are found; all, if null
     /// Precondition: the tree is not empty, and places with a radius are among these.
     leaf_balls(const Tree& tree, Radius radius_of, const place_set* among = nullptr)
-        : tree_(tree), radius_of_(std::move(radius_of)), list_(tree, among) {}
+        : tree_(tree),
+          radius_of_(std::move(radius_of)),
+          list_(tree, distances_from_points(tree), among) {}
 
     /// Calls visit(place, places of all other points within its radius) for each point of the group
     /// number `group` whose radius is not negative. The ball is closed.

@@ -19,15 +19,16 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/neighborhoods/detail/lane_instructions.hpp>
 #include <gnomon/neighborhoods/detail/lanes.hpp>
+#include <gnomon/neighborhoods/detail/leaf_distances.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/place_set.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Lengths are in units of the list, whose reach is at most 1, unless in metres. (A template for
-/// compile time only.)
-template <class Tree>
+/// Lengths are in units of the list, whose reach is at most 1, unless in metres. Distances are
+/// those of leaf_distances.hpp. (A template of trees for compile time only.)
+template <class Tree, class Distances = distances_from_points<Tree>>
 class leaf_list {
   public:
     /// Farther than every point within reach of a query point.
@@ -36,8 +37,11 @@ class leaf_list {
     static constexpr double widest = 256.0;
     /// Precondition: the tree is not empty.
     /// @param among  only these places are listed; all, if null
-    explicit leaf_list(const Tree& tree, const place_set* among = nullptr)
-        : tree_(tree), among_(among), diagonal_(std::sqrt(tree.box().squared_diagonal())) {
+    leaf_list(const Tree& tree, const Distances& distances, const place_set* among = nullptr)
+        : tree_(tree),
+          distances_(distances),
+          among_(among),
+          diagonal_(std::sqrt(tree.box().squared_diagonal())) {
         points_.reserve(std::min(tree.leaves() + lane_count, 4 * lane_count));  // performance only
     }
 
@@ -45,11 +49,10 @@ class leaf_list {
     void enclose(std::span<const std::uint32_t> places) {
         group_ = places.front() / Tree::points_per_group;
         box_ = {tree_.position(places.front()), tree_.position(places.front())};
-        for (const std::uint32_t p : places) box_.add(tree_.position(p));
+        for (const std::uint32_t p : places) distances_.enclose(p, box_);
         for (std::size_t a = 0; a < 3; ++a) origin_[a] = 0.5 * box_.low[a] + 0.5 * box_.high[a];
         half_ = 0.5 * std::sqrt(box_.squared_diagonal());
     }
-
     /// Half the diagonal of the box of the query points [m].
     [[nodiscard]] double half_diagonal() const { return half_; }
     /// Lists the leaves within `reach` [m], greater than 0, of that box, and the query points' own.
@@ -70,7 +73,6 @@ class leaf_list {
             candidate_.resize(most);
         }
     }
-
     /// All points nearer than this are listed [m].
     [[nodiscard]] double reach() const { return reach_; }
     /// Whether all points are listed.
@@ -86,8 +88,7 @@ class leaf_list {
         // under the least normal double.
         const float error = 1e-6f * (static_cast<float>(half_ * scale_) + limit) + 1e-18f +
                             static_cast<float>(1e-161 * scale_);
-        const float below = limit > error ? (limit - error) * (limit - error) : -1.0f;
-        return {below, (limit + error) * (limit + error)};
+        return Distances::doubt(limit, error);
     }
 
     /// Makes the listed points within a limit, a squared distance, of the query point at place p
@@ -97,17 +98,17 @@ class leaf_list {
         const std::size_t own = own_[p % Tree::points_per_group / lane_count];
         const std::size_t lane = p % lane_count;
         const lane_points& queries = points_[own];
-        const float x = queries.x[lane], y = queries.y[lane], z = queries.z[lane];
+        const auto from =
+            distances_.in_list(p, {queries.x[lane], queries.y[lane], queries.z[lane]}, scale_);
         candidates_ = with_widest([&](auto instructions) {
             float* const distance = distance_[0].at;
             std::size_t n = 0;
             for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-                const lanes gap2 = boxes_[g].squared_distances_times_4(x, y, z);
-                std::uint32_t near = instructions.at_most(gap2, 4.00004f * limit);
+                std::uint32_t near = from.near(instructions, boxes_[g], limit);
                 for (; near != 0; near &= near - 1) {
                     const std::size_t b =
                         g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
-                    const lanes d2 = points_[b].squared_distances(x, y, z);
+                    const lanes d2 = from.squared_distances(points_[b]);
                     std::uint32_t within = instructions.at_most(d2, limit);
                     if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
                     n += instructions.compress(d2, starts_[b], within, distance + n,
@@ -119,7 +120,6 @@ class leaf_list {
         });
         return candidates_;
     }
-
     /// The squared distances of the candidates.
     [[nodiscard]] std::span<const float> squared_distances() const {
         return {distance_[0].at, candidates_};
@@ -159,6 +159,7 @@ class leaf_list {
         }
     }
 
+    [[nodiscard]] const Distances& distances() const { return distances_; }
     /// The place of a candidate.
     [[nodiscard]] std::uint32_t place(std::size_t candidate) const { return candidate_[candidate]; }
     /// Puts a candidate beyond all limits.
@@ -227,13 +228,14 @@ class leaf_list {
     static constexpr double least_reach = 1e-150;  // the square of `scale_` must not overflow [m]
 
     const Tree& tree_;
+    Distances distances_;
     const place_set* among_;
     double diagonal_;                     // of all [m]
     std::size_t group_ = 0, listed_ = 0;  // number of the group; how many leaves are listed
-    leaf_box box_{};
-    std::array<double, 3> origin_{};                         // its middle
-    double half_ = 0.0, reach_ = 0.0;                        // of its diagonal; of the list [m]
-    double scale_ = 1.0;                                     // [1/m]
+    leaf_box box_{};                      // of the query points
+    std::array<double, 3> origin_{};      // its middle
+    double half_ = 0.0, reach_ = 0.0;     // of its diagonal; of the list [m]
+    double scale_ = 1.0;                  // [1/m]
     std::array<std::size_t, Tree::leaves_per_group> own_{};  // where the group's leaves are listed
     scratch<lane_boxes> boxes_;                              // of the leaves, 32 in each
     scratch<lane_points> points_;                            // of each leaf

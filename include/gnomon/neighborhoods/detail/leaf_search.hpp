@@ -33,19 +33,20 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Searches group by group; each thread has its own object, which estimates distances in a group by
-/// those in the group before. (A template, so that only users of a search compile it.)
-template <class Tree>
+/// Searches group by group; each thread has its own object, which estimates distances, those of
+/// leaf_distances.hpp, in a group by those in the group before. (A template, so that only users of
+/// a search compile it.)
+template <class Tree, class Distances = distances_from_points<Tree>>
 class leaf_search {
   public:
     /// Precondition: the tree is not empty.
-    leaf_search(const Tree& tree, const nearest_wanted& wanted)
+    leaf_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
         : tree_(tree),
           k_(std::min(wanted.k, tree.size() - 1)),
           ties_(wanted.ties),
           radius_(wanted.radius),
           of_(wanted.of),
-          list_(tree) {}
+          list_(tree, distances) {}
 
     /// Calls visit(place, places of its k nearest neighbors) for each query point in a group.
     template <class Visit>
@@ -143,12 +144,11 @@ class leaf_search {
             limit = std::min(most, limit);
         }
     }
-
     /// Removes points beyond the radius from the selection.
     void drop_farther(std::size_t p) {
         std::uint32_t *const first = selected_.data(), *const last = first + selected_.size();
         selected_ = {first, std::remove_if(first, last, [&](std::uint32_t at) {
-                         return tree_.squared_distance(p, at) > radius_ * radius_;
+                         return list_.distances().squared(p, at) > radius_ * radius_;
                      })};
     }
 
@@ -217,7 +217,7 @@ class leaf_search {
         candidates_.clear();
         list_.for_each_between(below, above, [&](std::size_t c) {
             const std::uint32_t at = list_.place(c);
-            doubtful_.push_back({tree_.squared_distance(from, at), tree_.index()[at]});
+            doubtful_.push_back({list_.distances().squared(from, at), tree_.index()[at]});
             candidates_.push_back(static_cast<std::uint32_t>(c));
         });
         // As in tree_query, whose sort this shares: for compile time only.
@@ -236,7 +236,7 @@ class leaf_search {
     tie_rule ties_;
     double radius_;
     const place_set* of_;
-    leaf_list<Tree> list_;
+    leaf_list<Tree, Distances> list_;
     double last_ = std::numeric_limits<double>::infinity();  // squared k-th distance [m^2]
     double guess_ = 0.0, reach_ = 0.0;  // of the next one; within which leaves are listed [m]
     scratch<double> reached_;           // the k-th distances in a group [m]

@@ -12,6 +12,7 @@
 #include <gnomon/core/detail/instruction_set.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/neighborhoods/detail/found_neighbors.hpp>
+#include <gnomon/neighborhoods/detail/leaf_distances.hpp>
 #include <gnomon/neighborhoods/detail/leaf_search.hpp>
 #include <gnomon/neighborhoods/detail/leaf_tree.hpp>
 #include <gnomon/neighborhoods/detail/place_search.hpp>
@@ -63,11 +64,14 @@ void sweep_leaves(const leaf_tree& tree, const X& run, auto&& make_search, auto&
 }
 
 /// `leaf_search`, or where many points coincide `place_search`.
-template <class Tree>
+/// @tparam Distances  from what they are measured: see leaf_distances.hpp
+template <class Tree, class Distances = distances_from_points<Tree>>
 class nearest_search {
   public:
     nearest_search(const Tree& tree, const nearest_wanted& wanted)
-        : tree_(tree), by_leaf_(tree, wanted), by_place_(tree, wanted) {}
+        : nearest_search(tree, wanted, Distances(tree)) {}
+    nearest_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
+        : tree_(tree), by_leaf_(tree, wanted, distances), by_place_(tree, wanted, distances) {}
 
     void operator()(std::size_t group, auto&& visit) {
         if (tree_.crowded())
@@ -78,8 +82,8 @@ class nearest_search {
 
   private:
     const Tree& tree_;
-    leaf_search<Tree> by_leaf_;
-    place_search<Tree> by_place_;
+    leaf_search<Tree, Distances> by_leaf_;
+    place_search<Tree, Distances> by_place_;
 };
 
 /// The sweep of a search for the k nearest.

@@ -10,6 +10,7 @@
 #include <span>
 
 #include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/neighborhoods/detail/leaf_distances.hpp>
 #include <gnomon/neighborhoods/detail/nearest_wanted.hpp>
 #include <gnomon/neighborhoods/detail/tree_query.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -17,10 +18,12 @@
 namespace gnomon::detail {
 
 /// Searches as `leaf_search` does; each thread has its own object.
-template <class Tree>
+/// @tparam Distances  from what they are measured: see leaf_distances.hpp
+template <class Tree, class Distances = distances_from_points<Tree>>
 class place_search {
   public:
-    place_search(const Tree& tree, const nearest_wanted& wanted) : tree_(tree), wanted_(wanted) {}
+    place_search(const Tree& tree, const nearest_wanted& wanted, const Distances& distances)
+        : tree_(tree), wanted_(wanted), distances_(distances) {}
 
     /// Calls visit(place, places of its nearest neighbors) for each query point in a group.
     void operator()(std::size_t group, auto&& visit) {
@@ -34,7 +37,7 @@ class place_search {
                          .squared_radius = wanted_.radius * wanted_.radius,
                          .ties = wanted_.ties,
                          .except = tree_.index()[p]},
-                        found_);
+                        found_, distances_.metric_at(p));
             places_.resize(found_.size());
             for (std::size_t q = 0; q < found_.size(); ++q)
                 places_[q] = tree_.place_of(found_[q].index);
@@ -45,6 +48,7 @@ class place_search {
   private:
     const Tree& tree_;
     nearest_wanted wanted_;
+    Distances distances_;
     scratch<neighbor> found_;
     scratch<std::uint32_t> places_;
 };

@@ -68,6 +68,11 @@ class ray_directions {
     }
     [[nodiscard]] const Tree& tree() const { return tree_; }
     [[nodiscard]] const line_spacing& spacing() const { return spacing_; }
+    /// That of a neighbor in the tree.
+    [[nodiscard]] Eigen::Vector3d direction(const neighbor& q) const {
+        const auto u = tree_.position(tree_.place_of(q.index));
+        return {u[0], u[1], u[2]};
+    }
 
   private:
     /// The medians over some rays: of the nearest ray along the scan line, and of the nearest one
@@ -131,11 +136,6 @@ class ray_directions {
             to = std::min(to, q.squared_distance);
         }
         return found;
-    }
-
-    [[nodiscard]] Eigen::Vector3d direction(const neighbor& q) const {
-        const auto u = tree_.position(tree_.place_of(q.index));
-        return {u[0], u[1], u[2]};
     }
 
     Tree tree_;

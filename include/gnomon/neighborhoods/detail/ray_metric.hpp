@@ -14,17 +14,28 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/neighborhoods/detail/leaf_box.hpp>
 
 namespace gnomon::detail {
 
+/// Half the length of the segment in standard deviations of the noise: 1 in 16,000 points is
+/// farther off (normal distribution).
+inline constexpr double ray_deviations = 4.0;
+
 /// The distance from a segment about the searched position.
 class ray_metric {
   public:
+    /// Of a segment of no length.
+    ray_metric() = default;
     /// @param direction    of the ray, of length 1
     /// @param half_length  of the segment [m]
     ray_metric(const Eigen::Vector3d& direction, double half_length)
         : u_(direction), half_length_(half_length) {}
+
+    [[nodiscard]] const Eigen::Vector3d& direction() const { return u_; }
+    /// [m]
+    [[nodiscard]] double half_length() const { return half_length_; }
 
     /// The squared distance of a position at this offset from the middle of the segment [m^2].
     [[nodiscard]] double squared(double x, double y, double z) const {
@@ -53,8 +64,22 @@ class ray_metric {
     }
 
   private:
-    Eigen::Vector3d u_;
-    double half_length_;
+    Eigen::Vector3d u_{0.0, 0.0, 0.0};
+    double half_length_ = 0.0;
 };
+
+/// The metric about the finite point i of an index: that from the point itself where its view point
+/// is unknown, or at the point. (A template for compile time only.)
+template <class Index>
+[[nodiscard]] ray_metric ray_metric_of(const Index& index, std::size_t i,
+                                       const noise_curve& noise) {
+    if (index.viewpoints.empty()) return {};
+    const Eigen::Vector3d ray = difference(index[i], index.viewpoints[i]);
+    const double range = length(ray);
+    if (!(range > 0.0 && std::isfinite(range))) return {};
+    // A segment longer than the cloud measures as one of that length does.
+    const double most = std::sqrt(index.tree().box().squared_diagonal());
+    return {scaled(1.0 / range, ray), std::min(ray_deviations * noise.along(ray), most)};
+}
 
 }  // namespace gnomon::detail

@@ -44,7 +44,8 @@ class residual_sampler {
 
     /// The planes of `samples` finite points, spread evenly over their order, with their 16
     /// neighbors nearest to the segment of the ray, of half_length(ray) [m] to either side; where
-    /// these lie on one scan line, with four in each quadrant around the ray.
+    /// these lie on one scan line, with four in each quadrant around the ray, or none if there are
+    /// too few.
     [[nodiscard]] scratch<sampled_plane> operator()(std::size_t samples, const execution auto& run,
                                                     auto&& half_length) const {
         const std::size_t n = std::min(samples, finite_.size());
@@ -75,6 +76,8 @@ class residual_sampler {
             across_line(i, neighbors, [&](std::size_t n) { return found[n].index; });
         if (around.size() == neighbors)
             for (std::size_t n = 0; n < neighbors; ++n) found[n].index = around[n];
+        else if (!around.empty())
+            return plane;  // along one line, to which errors between the lines do not show
         ray_regression regression(plane.ray);
         for (const neighbor& q : found) regression.add(difference(index_[q.index], p));
         regression.solve();

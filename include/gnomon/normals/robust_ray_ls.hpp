@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The regression of `plane_eif` on the inliers among the neighbors. Near edges, and where scan
+/// lines are far apart, neighbors are on several surfaces. If the regression on all of them leaves
+/// outliers, planes through the point and pairs of neighbors are tried, and the plane of least cost
+/// is fitted again to its inliers (MSAC: Torr and Zisserman 2000). Each quadrant around the ray
+/// counts the same in this cost: otherwise a plane through the scan line of the point and a car
+/// next to it would be better than the road, of which few other points are near.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/trust.hpp>
+#include <gnomon/neighborhoods/detail/scan_line.hpp>
+#include <gnomon/normals/detail/ray_regression.hpp>
+#include <gnomon/normals/detail/require_noise.hpp>
+#include <gnomon/normals/estimator.hpp>
+#include <gnomon/normals/normal_belief.hpp>
+#include <gnomon/normals/plane_eif.hpp>
+#include <gnomon/normals/ray_ls.hpp>
+
+namespace gnomon {
+
+namespace detail {
+
+/// Points relative to a view point, and their distances from planes. (A template for compile time
+/// only.)
+template <class Vector = Eigen::Vector3d>
+class seen_points {
+  public:
+    /// @param p      the point whose normal is estimated, and its neighbors [m]
+    /// @param sigma  of the noise along the rays [m]
+    seen_points(const Vector& p, neighborhood_view neighbors, const Vector& viewpoint, double sigma)
+        : x_(difference(p, viewpoint)), sigma_(sigma) {
+        for (const Vector& q : neighbors) neighbors_.push_back(difference(q, viewpoint));
+    }
+
+    [[nodiscard]] std::size_t size() const { return neighbors_.size(); }
+
+    /// The regression on the point and the neighbors for which is_in(neighbor).
+    [[nodiscard]] ray_regression regression(auto&& is_in) const {
+        ray_regression r(x_);
+        for (const Vector& q : neighbors_)
+            if (is_in(q)) r.add(difference(q, x_));
+        r.solve();
+        return r;
+    }
+    /// The regression on the point and the inliers of a plane.
+    [[nodiscard]] ray_regression regression_on(const plane& of) const {
+        return regression([&](const Vector& q) { return is_inlier(of, q); });
+    }
+
+    [[nodiscard]] bool has_point_on(const plane& one) const { return is_inlier(one, x_); }
+    /// The share of the neighbors that are inliers.
+    [[nodiscard]] double share_on(const plane& one) const {
+        const auto inliers = std::count_if(neighbors_.begin(), neighbors_.end(),
+                                           [&](const Vector& q) { return is_inlier(one, q); });
+        return static_cast<double>(inliers) / static_cast<double>(size());
+    }
+
+    /// The plane of least cost through the point and two of its neighbors; without a normal, if no
+    /// pair determines one.
+    [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
+        const scratch<double> weights = weights_by_quadrant();
+        random_stream random(seed);
+        plane best{{0.0, 0.0, 0.0}, 0.0};
+        double least = std::numeric_limits<double>::infinity();
+        for (int trial = 0; trial < trials; ++trial) {
+            const Vector a = difference(neighbors_[random.bits() % size()], x_);
+            const Vector b = difference(neighbors_[random.bits() % size()], x_);
+            const Vector n = cross(a, b);
+            const double area = length(n);
+            constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only
+            if (!(area > elongated * length(a) * length(b))) continue;
+            const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
+            if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
+            double cost = 0.0;
+            for (std::size_t j = 0; j < size() && cost < least; ++j)
+                cost += weights[j] * std::min(1.0, squared_deviation(candidate, neighbors_[j]));
+            if (cost < least) least = cost, best = candidate;
+        }
+        return best;
+    }
+
+  private:
+    /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
+    /// standard deviations, of the noise across the plane and of half of it in any direction, for
+    /// errors that are not along the ray (chosen on streets 20,001 to 20,003).
+    [[nodiscard]] double squared_deviation(const plane& from, const Vector& x) const {
+        constexpr double most = 3.0, elsewhere = 0.5;
+        const double along = dot(from.normal, x), off = along - from.offset;
+        const double r2 = dot(x, x);
+        return off * off * r2 /
+               (most * most * sigma_ * sigma_ * (along * along + elsewhere * elsewhere * r2));
+    }
+    [[nodiscard]] bool is_inlier(const plane& of, const Vector& x) const {
+        return squared_deviation(of, x) <= 1.0;
+    }
+
+    /// For each neighbor one over the number of neighbors in its quadrant.
+    [[nodiscard]] scratch<double> weights_by_quadrant() const {
+        const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
+        scan_line<> line;
+        for (const Vector& q : neighbors_) line.add(around.offset(q));
+        line.fit();
+        std::array<double, 4> counts{};
+        for (const Vector& q : neighbors_) counts[line.quadrant(around.offset(q))] += 1.0;
+        scratch<double> weights;
+        for (const Vector& q : neighbors_)
+            weights.push_back(1.0 / counts[line.quadrant(around.offset(q))]);
+        return weights;
+    }
+
+    Vector x_;
+    double sigma_;
+    scratch<Vector> neighbors_;
+};
+
+}  // namespace detail
+
+/// Models `ray_estimator`. Needs three neighbors. O(k) where they are inliers, and O(trials k)
+/// elsewhere.
+///
+/// Trust: that of `plane_eif` on the inliers; `weak` as well where the point is not one of them, or
+/// fewer than half of the neighbors are.
+struct robust_ray_ls {
+    static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
+
+    noise_curve noise = constant_noise{};  ///< along the rays
+    /// The number of pairs; with two thirds of the neighbors outliers, all of them contain one in
+    /// (1 - 1/9)^60, 1 of 1,000 cases.
+    int trials = 60;
+    std::uint64_t seed = 1;          ///< of the pairs; every point uses the same sequence
+    double min_aspect_ratio = 0.05;  ///< of the rays of the inliers, below which the normal is weak
+
+    /// @throws std::invalid_argument  if the noise is 0, or there is no trial
+    [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
+                                                    neighborhood_view neighbors,
+                                                    const Eigen::Vector3d& viewpoint = {
+                                                        0.0, 0.0, 0.0}) const {
+        detail::require_noise(noise);
+        detail::require(trials >= 1, "robust_ray_ls: needs a trial");
+        if (neighbors.size() < 3) return {};
+        const Eigen::Vector3d ray = detail::difference(p, viewpoint);
+        const double sigma = noise.along(ray);
+        const detail::seen_points<> points(p, neighbors, viewpoint, sigma);
+        auto regression = points.regression([](const auto&) { return true; });
+        constexpr double nearly_all = 0.95;  // chosen on streets 20,001 to 20,003
+        bool is_inlier = true;
+        if (usable(regression.status())) {
+            plane found = plane_of(regression);
+            if (!points.has_point_on(found) || points.share_on(found) < nearly_all) {
+                const plane best = points.consensus(trials, seed);
+                if (detail::has_length(best.normal)) found = best;
+                for (int refit = 0; refit < 2; ++refit) {
+                    regression = points.regression_on(found);
+                    if (!usable(regression.status())) break;
+                    found = plane_of(regression);
+                }
+                is_inlier = points.has_point_on(found) && points.share_on(found) >= 0.5;
+            }
+        }
+        auto belief = detail::belief_of(regression, ray, sigma, min_aspect_ratio);
+        if (belief.trust == trust::good && !is_inlier) belief.trust = trust::weak;
+        return belief;
+    }
+
+  private:
+    /// The plane relative to the view point.
+    [[nodiscard]] static plane plane_of(const detail::ray_regression& r) {
+        const Eigen::Vector3d m = r.solution();
+        const double size = detail::length(m);
+        return {detail::scaled(1.0 / size, m), r.range() / size};
+    }
+};
+
+}  // namespace gnomon
