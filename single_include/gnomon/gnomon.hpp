@@ -4734,8 +4734,8 @@ class distances_from_rays {
     [[nodiscard]] lane_segment in_list(std::size_t place, const std::array<float, 3>& at,
                                        double scale) const {
         const ray_metric& m = segments_[place % segments_.size()];
-        const Eigen::Vector3f u = m.direction().template cast<float>();
-        return {at[0], at[1], at[2], u[0], u[1], u[2], static_cast<float>(m.half_length() * scale)};
+        const auto u = [&m](int axis) { return static_cast<float>(m.direction()[axis]); };
+        return {at[0], at[1], at[2], u(0), u(1), u(2), static_cast<float>(m.half_length() * scale)};
     }
     /// Squares are differences of squares of all coordinates, to which `error` is relative.
     [[nodiscard]] static std::pair<float, float> doubt(float limit, float error) {
@@ -8920,7 +8920,7 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
     if (!(cosine > grazing_cosine)) return true;
     const double x = dot(u, frame.b1), y = dot(u, frame.b2);  // the ray in the tangent plane
     const double sine = std::hypot(x, y);
-    const auto [c, s] = sine > 0.0 ? std::array{x / sine, y / sine} : std::array{1.0, 0.0};
+    const double c = sine > 0.0 ? x / sine : 1.0, s = sine > 0.0 ? y / sine : 0.0;
     const double along = c * c * p.p11 + 2.0 * c * s * p.p12 + s * s * p.p22;
     const double across = s * s * p.p11 - 2.0 * c * s * p.p12 + c * c * p.p22;
     // Deviations of the slope, and of the turn about the ray.
@@ -11229,17 +11229,20 @@ class seen_points {
     /// @param p      the point whose normal is estimated, and its neighbors [m]
     /// @param sigma  of the noise along the rays [m]
     seen_points(const Vector& p, neighborhood_view neighbors, const Vector& viewpoint, double sigma)
-        : x_(difference(p, viewpoint)), sigma_(sigma) {
-        for (const Vector& q : neighbors) neighbors_.push_back(difference(q, viewpoint));
-    }
+        : neighbors_(neighbors),
+          viewpoint_(viewpoint),
+          x_(difference(p, viewpoint)),
+          sigma_(sigma) {}
 
     [[nodiscard]] std::size_t size() const { return neighbors_.size(); }
 
     /// The regression on the point and the neighbors for which is_in(neighbor).
     [[nodiscard]] ray_regression regression(auto&& is_in) const {
         ray_regression r(x_);
-        for (const Vector& q : neighbors_)
+        for (std::size_t j = 0; j < size(); ++j) {
+            const Vector q = at(j);
             if (is_in(q)) r.add(difference(q, x_));
+        }
         r.solve();
         return r;
     }
@@ -11251,21 +11254,23 @@ class seen_points {
     [[nodiscard]] bool has_point_on(const plane& one) const { return is_inlier(one, x_); }
     /// The share of the neighbors that are inliers.
     [[nodiscard]] double share_on(const plane& one) const {
-        const auto inliers = std::count_if(neighbors_.begin(), neighbors_.end(),
-                                           [&](const Vector& q) { return is_inlier(one, q); });
+        std::size_t inliers = 0;
+        for (std::size_t j = 0; j < size(); ++j) inliers += is_inlier(one, at(j)) ? 1 : 0;
         return static_cast<double>(inliers) / static_cast<double>(size());
     }
 
     /// The plane of least cost through the point and two of its neighbors; without a normal, if no
-    /// pair determines one.
+    /// pair determines one. Of more than 256 neighbors, those at even distances in their order
+    /// count.
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
-        const scratch<double> weights = weights_by_quadrant();
+        const std::size_t step = (size() + most_counted - 1) / most_counted;
+        const std::array<double, most_counted> weights = weights_by_quadrant(step);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
         for (int trial = 0; trial < trials; ++trial) {
-            const Vector a = difference(neighbors_[random.bits() % size()], x_);
-            const Vector b = difference(neighbors_[random.bits() % size()], x_);
+            const Vector a = difference(at(random.bits() % size()), x_);
+            const Vector b = difference(at(random.bits() % size()), x_);
             const Vector n = cross(a, b);
             const double area = length(n);
             constexpr double elongated = 0.2;  // the sine of 12 degrees: performance only
@@ -11273,14 +11278,16 @@ class seen_points {
             const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
             if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
             double cost = 0.0;
-            for (std::size_t j = 0; j < size() && cost < least; ++j)
-                cost += weights[j] * std::min(1.0, squared_deviation(candidate, neighbors_[j]));
+            for (std::size_t j = 0; j * step < size() && cost < least; ++j)
+                cost += weights[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
             if (cost < least) least = cost, best = candidate;
         }
         return best;
     }
 
   private:
+    static constexpr std::size_t most_counted = 256;  // performance only
+
     /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
     /// standard deviations, of the noise across the plane and of half of it in any direction, for
     /// errors that are not along the ray (chosen on streets 20,001 to 20,003).
@@ -11295,23 +11302,26 @@ class seen_points {
         return squared_deviation(of, x) <= 1.0;
     }
 
-    /// For each neighbor one over the number of neighbors in its quadrant.
-    [[nodiscard]] scratch<double> weights_by_quadrant() const {
+    /// For each neighbor that counts, one over the number of these in its quadrant.
+    [[nodiscard]] std::array<double, most_counted> weights_by_quadrant(std::size_t step) const {
         const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
         scan_line<> line;
-        for (const Vector& q : neighbors_) line.add(around.offset(q));
+        for (std::size_t j = 0; j < size(); j += step) line.add(around.offset(at(j)));
         line.fit();
+        std::array<std::size_t, most_counted> quadrant;
         std::array<double, 4> counts{};
-        for (const Vector& q : neighbors_) counts[line.quadrant(around.offset(q))] += 1.0;
-        scratch<double> weights;
-        for (const Vector& q : neighbors_)
-            weights.push_back(1.0 / counts[line.quadrant(around.offset(q))]);
+        for (std::size_t j = 0; j * step < size(); ++j)
+            counts[quadrant[j] = line.quadrant(around.offset(at(j * step)))] += 1.0;
+        std::array<double, most_counted> weights;
+        for (std::size_t j = 0; j * step < size(); ++j) weights[j] = 1.0 / counts[quadrant[j]];
         return weights;
     }
 
-    Vector x_;
+    [[nodiscard]] Vector at(std::size_t j) const { return difference(neighbors_[j], viewpoint_); }
+
+    neighborhood_view neighbors_;
+    Vector viewpoint_, x_;
     double sigma_;
-    scratch<Vector> neighbors_;
 };
 
 }  // namespace detail
@@ -11331,17 +11341,19 @@ struct robust_ray_ls {
     std::uint64_t seed = 1;          ///< of the pairs; every point uses the same sequence
     double min_aspect_ratio = 0.05;  ///< of the rays of the inliers, below which the normal is weak
 
+    /// (A template for compile time only.)
     /// @throws std::invalid_argument  if the noise is 0, or there is no trial
-    [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
+    template <class Vector = Eigen::Vector3d>
+    [[nodiscard]] normal_belief<ray_fit> operator()(const std::type_identity_t<Vector>& p,
                                                     neighborhood_view neighbors,
                                                     const Eigen::Vector3d& viewpoint = {
                                                         0.0, 0.0, 0.0}) const {
         detail::require_noise(noise);
         detail::require(trials >= 1, "robust_ray_ls: needs a trial");
         if (neighbors.size() < 3) return {};
-        const Eigen::Vector3d ray = detail::difference(p, viewpoint);
+        const Vector ray = detail::difference(p, viewpoint);
         const double sigma = noise.along(ray);
-        const detail::seen_points<> points(p, neighbors, viewpoint, sigma);
+        const detail::seen_points<Vector> points(p, neighbors, viewpoint, sigma);
         auto regression = points.regression([](const auto&) { return true; });
         constexpr double nearly_all = 0.95;  // chosen on streets 20,001 to 20,003
         bool is_inlier = true;

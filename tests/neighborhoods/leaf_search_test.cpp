@@ -125,7 +125,7 @@ TEST(leaf_search, does_not_depend_on_earlier_queries) {
                     found.sort_into(all[i].neighbors);
                 });
             };
-            leaf_search learning(tree, {k});
+            leaf_search learning(tree, {k}, distances_from_points(tree));
             for (std::size_t g = tree.groups(); g-- > 0;) learning(g, into(once));
             for (std::size_t g = 0; g < tree.groups(); ++g)
                 leaf_search(tree, {k}, distances_from_points(tree))(g, into(afresh));
@@ -157,7 +157,7 @@ TEST(leaf_search, accumulates_the_moments_of_the_neighbors) {
             ASSERT_LE((m.outer - expected.outer).norm(), 1e-14 * expected.outer.norm());
             ASSERT_NEAR(mean_distance, distance, 1e-14 * distance);
         };
-        leaf_search search(tree, {k});
+        leaf_search search(tree, {k}, distances_from_points(tree));
         place_visitor show(tree, visit);
         for (std::size_t g = 0; g < tree.groups(); ++g) search(g, show);
     }

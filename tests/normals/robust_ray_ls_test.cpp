@@ -17,15 +17,15 @@ namespace {
 
 using gnomon::constant_noise, gnomon::plane_eif, gnomon::robust_ray_ls, gnomon::trust;
 
-constexpr double sigma = 0.02;
-const robust_ray_ls robust{.noise = constant_noise{sigma}};
-const Eigen::Vector3d sensor(0.0, 0.0, 0.0);
+constexpr double range_sigma = 0.02;
+const robust_ray_ls robust_normal{.noise = constant_noise{range_sigma}};
+const Eigen::Vector3d lidar_place(0.0, 0.0, 0.0);
 
 /// The point where the ray in a direction meets the plane n . x = d, with noise along the ray.
 Eigen::Vector3d seen(const Eigen::Vector3d& direction, const Eigen::Vector3d& n, double d,
                      gnomon::random_stream& random) {
     const Eigen::Vector3d u = direction.normalized();
-    return (d / n.dot(u) + sigma * random.gaussian()) * u;
+    return (d / n.dot(u) + range_sigma * random.gaussian()) * u;
 }
 
 double degrees_off(const auto& belief, const Eigen::Vector3d& truth) {
@@ -35,15 +35,15 @@ double degrees_off(const auto& belief, const Eigen::Vector3d& truth) {
 TEST(robust_ray_ls, is_plane_eif_without_outliers) {
     gnomon::random_stream random(1);
     const Eigen::Vector3d n = Eigen::Vector3d(1.0, 0.2, 0.3).normalized();
-    const plane_eif reference{.noise = constant_noise{sigma}};
+    const plane_eif reference{.noise = constant_noise{range_sigma}};
     int same = 0;
     for (int trial = 0; trial < 200; ++trial) {
         clouds::cloud points;
         for (int i = 0; i < 19; ++i)
             points.push_back(
                 seen({1.0, random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)}, n, 4.0, random));
-        const auto belief = robust(points[0], std::span(points).subspan(1), sensor);
-        const auto expected = reference(points[0], std::span(points).subspan(1), sensor);
+        const auto belief = robust_normal(points[0], std::span(points).subspan(1), lidar_place);
+        const auto expected = reference(points[0], std::span(points).subspan(1), lidar_place);
         if (belief.normal != expected.normal) continue;  // a point was off by chance
         ++same;
         EXPECT_EQ(belief.covariance, expected.covariance);
@@ -67,8 +67,9 @@ TEST(robust_ray_ls, takes_the_plane_of_the_point) {
                 seen({1.0, y, random.uniform(-0.15, 0.15)}, y > 0.0 ? left : right, 3.0, random));
         }
         const auto others = std::span(points).subspan(1);
-        near += degrees_off(robust(points[0], others, sensor), left) < 15.0 ? 1 : 0;
-        near_without += degrees_off(plane_eif{}(points[0], others, sensor), left) < 15.0 ? 1 : 0;
+        near += degrees_off(robust_normal(points[0], others, lidar_place), left) < 15.0 ? 1 : 0;
+        near_without +=
+            degrees_off(plane_eif{}(points[0], others, lidar_place), left) < 15.0 ? 1 : 0;
     }
     EXPECT_GT(near, trials * 9 / 10);
     EXPECT_LT(near_without, trials / 10);
@@ -93,7 +94,8 @@ TEST(robust_ray_ls, counts_each_quadrant_alike) {
             points.push_back(on_road(6.8, 0.1 * i));
             points.push_back(on_road(7.4, 0.1 * i));
         }
-        near += degrees_off(robust(points[0], std::span(points).subspan(1), sensor), up) < 5.0;
+        near += degrees_off(robust_normal(points[0], std::span(points).subspan(1), lidar_place),
+                            up) < 5.0;
     }
     EXPECT_GT(near, trials * 9 / 10);
 }
@@ -105,14 +107,16 @@ TEST(robust_ray_ls, of_a_stray_point_is_weak) {
         wall.push_back(seen({1.0, random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1)},
                             Eigen::Vector3d::UnitX(), 4.0, random));
     const Eigen::Vector3d stray(3.5, 0.0, 0.0);
-    EXPECT_EQ(robust(Eigen::Vector3d(4.0, 0.0, 0.0), wall, sensor).trust, trust::good);
-    EXPECT_EQ(robust(stray, wall, sensor).trust, trust::weak);
+    EXPECT_EQ(robust_normal(Eigen::Vector3d(4.0, 0.0, 0.0), wall, lidar_place).trust, trust::good);
+    EXPECT_EQ(robust_normal(stray, wall, lidar_place).trust, trust::weak);
 }
 
 TEST(robust_ray_ls, reports_degenerate_neighborhoods) {
     const Eigen::Vector3d p(2, 0, 0);
-    EXPECT_EQ(robust(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}).trust, trust::too_few_neighbors);
-    EXPECT_EQ(robust(p, clouds::cloud{{2, 1, 0}, {2, 2, 0}, {2, -1, 0}}).trust, trust::degenerate);
+    EXPECT_EQ(robust_normal(p, clouds::cloud{{2, 1, 0}, {2, 0, 1}}).trust,
+              trust::too_few_neighbors);
+    EXPECT_EQ(robust_normal(p, clouds::cloud{{2, 1, 0}, {2, 2, 0}, {2, -1, 0}}).trust,
+              trust::degenerate);
     EXPECT_THROW((void)(robust_ray_ls{.noise = constant_noise{0.0}}(p, clouds::cloud(4, p))),
                  std::invalid_argument);
     EXPECT_THROW((void)(robust_ray_ls{.trials = 0}(p, clouds::cloud(4, p))), std::invalid_argument);

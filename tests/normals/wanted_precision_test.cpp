@@ -23,10 +23,10 @@ namespace {
 using gnomon::constant_noise, gnomon::degrees, gnomon::ray_knn, gnomon::robust_ray_ls,
     gnomon::trust, gnomon::wanted_precision;
 
-constexpr double sigma = 0.01;
-const Eigen::Vector3d sensor(0.0, 0.0, 0.0);
+constexpr double wall_sigma = 0.01;
+const Eigen::Vector3d wall_viewpoint(0.0, 0.0, 0.0);
 
-/// Two walls that meet at an edge 4 m before the sensor, with noise along the rays.
+/// Two walls that meet at an edge 4 m before the wall_viewpoint, with noise along the rays.
 clouds::cloud walls() {
     gnomon::random_stream random(1);
     clouds::cloud points;
@@ -35,27 +35,28 @@ clouds::cloud walls() {
             const Eigen::Vector3d u =
                 Eigen::Vector3d(1.0, 0.004 * column + 0.002, 0.004 * row).normalized();
             const double side = column < 0 ? -1.0 : 1.0;  // the planes x + 2 side y = 4
-            points.push_back((4.0 / (u.x() + side * 0.7 * u.y()) + sigma * random.gaussian()) * u);
+            points.push_back((4.0 / (u.x() + side * 0.7 * u.y()) + wall_sigma * random.gaussian()) *
+                             u);
         }
     return points;
 }
 
-const ray_knn neighborhood{.k = 16, .noise = constant_noise{sigma}};
-const robust_ray_ls estimator{.noise = constant_noise{sigma}};
+const ray_knn first_neighborhood{.k = 16, .noise = constant_noise{wall_sigma}};
+const robust_ray_ls robust_estimator{.noise = constant_noise{wall_sigma}};
 
 /// Each point has the first k that is precise enough, or the best one until then.
 TEST(wanted_precision, grows_neighborhoods_by_doublings) {
     const auto points = walls();
-    const auto seen = gnomon::with_viewpoint(points, sensor);
+    const auto seen = gnomon::with_viewpoint(points, wall_viewpoint);
     const wanted_precision wanted{degrees(3.0), 128};
     const double most = wanted.deviation.radians() * wanted.deviation.radians();
-    const auto grown = gnomon::estimate_normals(seen, neighborhood, estimator, wanted);
+    const auto grown = gnomon::estimate_normals(seen, first_neighborhood, robust_estimator, wanted);
     ASSERT_EQ(grown.size(), points.size());
     std::vector<std::vector<gnomon::surfel<gnomon::estimate_t<robust_ray_ls>>>> of_k;
     for (std::size_t k = 16; k <= 128; k *= 2) {
-        ray_knn wider = neighborhood;
+        ray_knn wider = first_neighborhood;
         wider.k = k;
-        of_k.push_back(gnomon::estimate_normals(seen, wider(seen), estimator));
+        of_k.push_back(gnomon::estimate_normals(seen, wider(seen), robust_estimator));
     }
     const auto is_precise = [most](const auto& s) {
         return s.trust == trust::good && s.trace() <= most;
@@ -82,11 +83,12 @@ TEST(wanted_precision, grows_neighborhoods_by_doublings) {
 
 TEST(wanted_precision, is_the_same_on_every_execution) {
     const auto points = walls();
-    const auto seen = gnomon::with_viewpoint(points, sensor);
+    const auto seen = gnomon::with_viewpoint(points, wall_viewpoint);
     const wanted_precision wanted{degrees(2.0), 64};
-    const auto expected = gnomon::estimate_normals(seen, neighborhood, estimator, wanted);
-    const auto found =
-        gnomon::estimate_normals(seen, neighborhood, estimator, wanted, gnomon::threads{4});
+    const auto expected =
+        gnomon::estimate_normals(seen, first_neighborhood, robust_estimator, wanted);
+    const auto found = gnomon::estimate_normals(seen, first_neighborhood, robust_estimator, wanted,
+                                                gnomon::threads{4});
     for (std::size_t i = 0; i < points.size(); ++i) {
         ASSERT_EQ(found[i].normal, expected[i].normal);
         ASSERT_EQ(found[i].neighbors, expected[i].neighbors);
@@ -96,7 +98,7 @@ TEST(wanted_precision, is_the_same_on_every_execution) {
 /// A precision that every normal has, and one that none has; few points, and points that are not
 /// finite.
 TEST(wanted_precision, ends_with_any_points) {
-    const gnomon::with_covariance<gnomon::plane_pca> pca{.noise = constant_noise{sigma}};
+    const gnomon::with_covariance<gnomon::plane_pca> pca{.noise = constant_noise{wall_sigma}};
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
         for (const double wanted : {1e-9, 1.0, 90.0}) {

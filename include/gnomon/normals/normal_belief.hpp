@@ -9,7 +9,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <limits>
 #include <numbers>
 
@@ -108,7 +107,7 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
     if (!(cosine > grazing_cosine)) return true;
     const double x = dot(u, frame.b1), y = dot(u, frame.b2);  // the ray in the tangent plane
     const double sine = std::hypot(x, y);
-    const auto [c, s] = sine > 0.0 ? std::array{x / sine, y / sine} : std::array{1.0, 0.0};
+    const double c = sine > 0.0 ? x / sine : 1.0, s = sine > 0.0 ? y / sine : 0.0;
     const double along = c * c * p.p11 + 2.0 * c * s * p.p12 + s * s * p.p22;
     const double across = s * s * p.p11 - 2.0 * c * s * p.p12 + c * c * p.p22;
     // Deviations of the slope, and of the turn about the ray.

@@ -79,8 +79,8 @@ class distances_from_rays {
     [[nodiscard]] lane_segment in_list(std::size_t place, const std::array<float, 3>& at,
                                        double scale) const {
         const ray_metric& m = segments_[place % segments_.size()];
-        const Eigen::Vector3f u = m.direction().template cast<float>();
-        return {at[0], at[1], at[2], u[0], u[1], u[2], static_cast<float>(m.half_length() * scale)};
+        const auto u = [&m](int axis) { return static_cast<float>(m.direction()[axis]); };
+        return {at[0], at[1], at[2], u(0), u(1), u(2), static_cast<float>(m.half_length() * scale)};
     }
     /// Squares are differences of squares of all coordinates, to which `error` is relative.
     [[nodiscard]] static std::pair<float, float> doubt(float limit, float error) {
