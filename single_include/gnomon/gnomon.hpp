@@ -6801,6 +6801,13 @@ class across_lines {
     scratch<point_index> found_;
 };
 
+/// Adds them to the neighbors of one point.
+template <class Index>
+void add_across(const Index& index, point_index i, auto& found,
+                lacking what = lacking::few_across) {
+    across_lines<Index>(index, what).add_to(found, i);
+}
+
 }  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/noise_knn.hpp -----------------------------------------------------
@@ -6843,8 +6850,7 @@ struct noise_knn {
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
         if (looks_across(index)) {
-            detail::across_lines across(index);
-            across.add_to(found, static_cast<point_index>(i));
+            detail::add_across(index, static_cast<point_index>(i), found);
             std::sort(found.begin(), found.end());
         }
     }
@@ -7132,10 +7138,8 @@ struct ray_knn {
         detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
                             found, detail::ray_metric_of(index, i, noise));
         for (neighbor& q : found) q.squared_distance = squared_distance(index[i], index[q.index]);
-        if (looks_across(index)) {
-            detail::across_lines across(index, detail::lacking::a_side);
-            across.add_to(found, static_cast<point_index>(i));
-        }
+        if (looks_across(index))
+            detail::add_across(index, static_cast<point_index>(i), found, detail::lacking::a_side);
         std::sort(found.begin(), found.end());
     }
 

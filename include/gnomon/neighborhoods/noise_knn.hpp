@@ -64,8 +64,7 @@ struct noise_knn {
         const auto end = std::find_if(found.begin(), found.end(), is_far) - found.begin();
         found.resize(std::min(found.size(), std::max(static_cast<std::size_t>(end), fewest)));
         if (looks_across(index)) {
-            detail::across_lines across(index);
-            across.add_to(found, static_cast<point_index>(i));
+            detail::add_across(index, static_cast<point_index>(i), found);
             std::sort(found.begin(), found.end());
         }
     }

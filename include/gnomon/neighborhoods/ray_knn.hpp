@@ -72,10 +72,8 @@ struct ray_knn {
         detail::search_tree(index.tree(), index[i], {.k = k, .except = static_cast<point_index>(i)},
                             found, detail::ray_metric_of(index, i, noise));
         for (neighbor& q : found) q.squared_distance = squared_distance(index[i], index[q.index]);
-        if (looks_across(index)) {
-            detail::across_lines across(index, detail::lacking::a_side);
-            across.add_to(found, static_cast<point_index>(i));
-        }
+        if (looks_across(index))
+            detail::add_across(index, static_cast<point_index>(i), found, detail::lacking::a_side);
         std::sort(found.begin(), found.end());
     }
 

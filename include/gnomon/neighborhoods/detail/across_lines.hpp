@@ -175,4 +175,11 @@ class across_lines {
     scratch<point_index> found_;
 };
 
+/// Adds them to the neighbors of one point.
+template <class Index>
+void add_across(const Index& index, point_index i, auto& found,
+                lacking what = lacking::few_across) {
+    across_lines<Index>(index, what).add_to(found, i);
+}
+
 }  // namespace gnomon::detail
