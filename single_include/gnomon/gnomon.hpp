@@ -4604,8 +4604,8 @@ class found_neighbors {
 
 namespace gnomon::detail {
 
-/// Half the length of the segment in standard deviations of the noise: 1 in 16,000 points is
-/// farther off (normal distribution).
+/// Half the length of the segment in standard deviations of the noise (a number; of a normal
+/// distribution, 1 in 16,000 points is farther off).
 inline constexpr double ray_deviations = 4.0;
 
 /// The distance from a segment about the searched position.
@@ -4718,11 +4718,14 @@ class distances_from_rays {
     void enclose(std::size_t place, leaf_box& box) {
         ray_metric& m = segments_[place % segments_.size()];
         m = metric_at(place);
-        for (const double half : {-m.half_length(), m.half_length()}) {
-            auto end = index_->tree().position(place);
-            for (std::size_t a = 0; a < 3; ++a) end[a] += half * m.direction()[static_cast<int>(a)];
-            box.add(end);
+        auto near = index_->tree().position(place), far = near;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double half = m.half_length() * m.direction()[static_cast<int>(a)];
+            near[a] -= half;
+            far[a] += half;
         }
+        box.add(near);
+        box.add(far);
     }
     [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
         const auto p = index_->tree().position(place), q = index_->tree().position(other);
@@ -5291,14 +5294,14 @@ namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
 /// Calls search(group, visit) for all groups of a tree, with a search and a visitor for each chunk
-/// of work, which make_search() and make_visitor() give. The visitor's finish(), if it has one, is
-/// called at the end of the chunk.
+/// of work, which make_search(tree) and make_visitor() give (generic, so that only users of a
+/// search compile it). The visitor's finish(), if it has one, is called at the end of the chunk.
 template <execution X>
 void search_all_groups(const leaf_tree& tree, const X& run, auto&& make_search,
                        auto&& make_visitor) {
     constexpr std::size_t groups_per_chunk = 16;
     run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
-        auto search = make_search();
+        auto search = make_search(tree);
         auto visit = make_visitor();
         const std::size_t first = chunk * groups_per_chunk;
         const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
@@ -5361,7 +5364,7 @@ template <execution X>
 void sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
                    auto&& make_visitor) {
     sweep_leaves(
-        tree, run, [&] { return nearest_search(tree, wanted); }, make_visitor);
+        tree, run, [&](const auto& of) { return nearest_search(of, wanted); }, make_visitor);
 }
 
 }  // namespace GNOMON_LANES
@@ -6674,8 +6677,9 @@ enum class lacking {
     a_side       ///< there is none on one side of it; for fits to the inliers among them
 };
 
-/// Searches for them; each thread has its own object. (A template for compile time only.)
-template <class Index>
+/// Searches for them; each thread has its own object. (A template, of numbers as well, for compile
+/// time only.)
+template <class Index, class Number = double>
 class across_lines {
   public:
     explicit across_lines(const Index& index, lacking what = lacking::few_across)
@@ -6705,11 +6709,11 @@ class across_lines {
         }
         for (const auto& offset : around_) line.add(offset);
         line.fit();
-        std::array<std::size_t, 2> sides{};
-        for (const auto& offset : around_)
-            if (!line.is_along(offset)) ++sides[line.quadrant(offset) - 2];
-        const bool lacks_some = sides[0] + sides[1] < enough ||
-                                (what_ == lacking::a_side && (sides[0] == 0 || sides[1] == 0));
+        counts_ = {};
+        for (const auto& offset : around_) ++counts_[line.quadrant(offset)];
+        const std::size_t left = counts_[2], right = counts_[3];
+        const bool lacks_some =
+            left + right < enough || (what_ == lacking::a_side && (left == 0 || right == 0));
         if (lacks_some) find(i, u, plane, line);
         return found_;
     }
@@ -6797,7 +6801,7 @@ class across_lines {
     std::size_t first_ = 0;  // rays to look at
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<std::array<double, 2>> around_;  // offsets of the neighbors' rays
+    scratch<std::array<Number, 2>> around_;  // offsets of the neighbors' rays
     scratch<point_index> found_;
 };
 
@@ -6865,7 +6869,7 @@ struct noise_knn {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
-            [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
+            [&](const auto& tree) { return detail::nearest_search(tree, {.k = k}); },
             [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>
@@ -7077,8 +7081,8 @@ struct radius {
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        const auto make_search = [&] {
-            return detail::leaf_balls(index.tree(), [this](std::size_t) { return r; });
+        const auto make_search = [&](const auto& tree) {
+            return detail::leaf_balls(tree, [this](std::size_t) { return r; });
         };
         detail::sweep_leaves(index.tree(), run, make_search, make_visitor);
     }
@@ -7150,8 +7154,8 @@ struct ray_knn {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
-            [&] {
-                return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k},
+            [&](const auto& tree) {
+                return detail::nearest_search(tree, {.k = k},
                                               detail::distances_from_rays(index, noise));
             },
             [&] { return visitor_of_places(*this, index, make_visitor()); });
@@ -8771,6 +8775,17 @@ namespace gnomon::detail {
 /// A symmetric 2 x 2 matrix in the coordinates (b1, b2) of a tangent basis.
 struct tangent_matrix {
     double p11, p12, p22;
+
+    /// x^2 p11 + 2 x y p12 + y^2 p22
+    [[nodiscard]] double along(double x, double y) const {
+        return x * x * p11 + 2.0 * x * y * p12 + y * y * p22;
+    }
+    /// Adds the outer product of (x, y) with itself, times a weight.
+    void add(double weight, double x, double y) {
+        p11 += weight * x * x;
+        p12 += weight * x * y;
+        p22 += weight * y * y;
+    }
 };
 
 /// A unit normal and an orthonormal basis (b1, b2) of its tangent plane.
@@ -8881,8 +8896,8 @@ inline constexpr double vague_trace = 0.1;
 /// unit; chosen here, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
-/// The number of standard deviations by which the slope of a plane may be less than estimated; a
-/// normal distribution exceeds it to one side in 1 of 740 cases (chosen on furnished rooms 20,001
+/// By how many standard deviations the slope of a plane may be less than estimated (a number; a
+/// normal distribution exceeds it to one side in 1 of 740 cases; chosen on furnished rooms 20,001
 /// to 20,010, where 2 and 3 give the same covariances).
 inline constexpr double vague_deviations = 3.0;
 
@@ -8925,11 +8940,9 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
     const double x = dot(u, frame.b1), y = dot(u, frame.b2);  // the ray in the tangent plane
     const double sine = std::hypot(x, y);
     const double c = sine > 0.0 ? x / sine : 1.0, s = sine > 0.0 ? y / sine : 0.0;
-    const double along = c * c * p.p11 + 2.0 * c * s * p.p12 + s * s * p.p22;
-    const double across = s * s * p.p11 - 2.0 * c * s * p.p12 + c * c * p.p22;
     // Deviations of the slope, and of the turn about the ray.
-    const double of_slope = std::sqrt(std::max(0.0, along)) / (cosine * cosine);
-    const double of_turn = std::sqrt(std::max(0.0, across)) / cosine;
+    const double of_slope = std::sqrt(std::max(0.0, p.along(c, s))) / (cosine * cosine);
+    const double of_turn = std::sqrt(std::max(0.0, p.along(-s, c))) / cosine;
     const double flatter = std::max(0.0, sine / cosine - deviations * of_slope);
     const double secant = 1.0 + flatter * flatter;  // squared
     const double trace = of_slope * of_slope / (secant * secant) + of_turn * of_turn / secant;
@@ -10348,7 +10361,7 @@ struct plane_filter {
         }
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
-        // Steps that are small in standard deviations do not matter (numerical).
+        // A last step of a hundredth of a standard deviation does not matter (numerical).
         constexpr double negligible = 0.01;
         const bool converged =
             step <= std::max(last_step, negligible * std::sqrt(c(0, 0) + c(1, 1)));
@@ -11268,7 +11281,7 @@ class seen_points {
     /// count.
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
         const std::size_t step = (size() + most_counted - 1) / most_counted;
-        const std::array<double, most_counted> weights = weights_by_quadrant(step);
+        const weights weight = weights_by_quadrant(step);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
@@ -11283,7 +11296,7 @@ class seen_points {
             if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
             double cost = 0.0;
             for (std::size_t j = 0; j * step < size() && cost < least; ++j)
-                cost += weights[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
+                cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
             if (cost < least) least = cost, best = candidate;
         }
         return best;
@@ -11291,6 +11304,7 @@ class seen_points {
 
   private:
     static constexpr std::size_t most_counted = 256;  // performance only
+    using weights = std::array<typename Vector::Scalar, most_counted>;
 
     /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
     /// standard deviations, of the noise across the plane and of half of it in any direction, for
@@ -11307,18 +11321,19 @@ class seen_points {
     }
 
     /// For each neighbor that counts, one over the number of these in its quadrant.
-    [[nodiscard]] std::array<double, most_counted> weights_by_quadrant(std::size_t step) const {
+    [[nodiscard]] weights weights_by_quadrant(std::size_t step) const {
         const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
         scan_line<> line;
         for (std::size_t j = 0; j < size(); j += step) line.add(around.offset(at(j)));
         line.fit();
-        std::array<std::size_t, most_counted> quadrant;
-        std::array<double, 4> counts{};
-        for (std::size_t j = 0; j * step < size(); ++j)
-            counts[quadrant[j] = line.quadrant(around.offset(at(j * step)))] += 1.0;
-        std::array<double, most_counted> weights;
-        for (std::size_t j = 0; j * step < size(); ++j) weights[j] = 1.0 / counts[quadrant[j]];
-        return weights;
+        const auto quadrant = [&](std::size_t j) {
+            return line.quadrant(around.offset(at(j * step)));
+        };
+        std::array<typename Vector::Scalar, 4> counts{};
+        for (std::size_t j = 0; j * step < size(); ++j) counts[quadrant(j)] += 1.0;
+        weights weight;
+        for (std::size_t j = 0; j * step < size(); ++j) weight[j] = 1.0 / counts[quadrant(j)];
+        return weight;
     }
 
     [[nodiscard]] Vector at(std::size_t j) const { return difference(neighbors_[j], viewpoint_); }
@@ -11807,22 +11822,22 @@ struct with_covariance {
             const Eigen::Vector3d u = range > 0.0 ? detail::scaled(1.0 / range, ray) : frame.normal;
             const double cosine = detail::dot(u, frame.normal);
             const double variance = noise.variance_along(ray);
-            add_square(noisy, variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
+            noisy.add(variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
             // e_j is the error of the range times this cosine.
             const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
-            add_square(s, variance * cosine * cosine, detail::dot(d, frame.b1),
-                       detail::dot(d, frame.b2));
+            s.add(variance * cosine * cosine, detail::dot(d, frame.b1), detail::dot(d, frame.b2));
         };
         add(p);
         for (const Eigen::Vector3d& q : neighbors) add(q);
-        const double of_mean = (count - 1.0) / (count * count);  // the centroid errs as well
-        for (double* n : {&noisy.p11, &noisy.p12, &noisy.p22}) *n *= of_mean;
         const detail::tangent_matrix spread = frame.restricted(m.covariance_with_point());
         const Eigen::Vector3d ray =
             detail::combined(1.0, detail::difference(p, viewpoint), 1.0, mean);
-        if (!is_significant(spread, noisy, frame, ray, count)) return detail::no_knowledge;
-        const auto [a11, a12, a22] = detail::tangent_matrix{
-            spread.p11 - noisy.p11, spread.p12 - noisy.p12, spread.p22 - noisy.p22};
+        // Of n points: the centroid has a part 1 / n of their noise.
+        const double part = (count - 1.0) / (count * count);
+        if (!is_significant(spread, noisy, part, frame, ray, count)) return detail::no_knowledge;
+        const double a11 = spread.p11 - part * noisy.p11;
+        const double a12 = spread.p12 - part * noisy.p12;
+        const double a22 = spread.p22 - part * noisy.p22;
         const double determinant = a11 * a22 - a12 * a12;
         if (!(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
         const double i11 = a22 / determinant;
@@ -11836,26 +11851,18 @@ struct with_covariance {
                 w * ((i12 * s.p11 + i22 * s.p12) * i12 + r22 * i22)};
     }
 
-    static void add_square(detail::tangent_matrix& sum, double weight, double x, double y) {
-        sum.p11 += weight * x * x;
-        sum.p12 += weight * x * y;
-        sum.p22 += weight * y * y;
-    }
-
     /// Whether the points extend along the ray, in the tangent plane, by more than their noise.
+    /// @param part  of `noisy`, the sum of the noise of all points, that is in their covariance
     [[nodiscard]] static bool is_significant(const detail::tangent_matrix& spread,
-                                             const detail::tangent_matrix& noisy,
+                                             const detail::tangent_matrix& noisy, double part,
                                              const detail::tangent_basis& frame,
                                              const Eigen::Vector3d& ray, double count) {
         const double x = detail::dot(ray, frame.b1), y = detail::dot(ray, frame.b2);
-        const auto along = [x, y](const detail::tangent_matrix& m) {
-            return x * x * m.p11 + 2.0 * x * y * m.p12 + y * y * m.p22;
-        };
         constexpr double deviations = 3.0;  // of a sample variance, whose is sqrt(2 / count) of it
         const bool is_grazing = !(std::abs(detail::dot(ray, frame.normal)) >
                                   detail::grazing_cosine * detail::length(ray));
-        return !is_grazing &&
-               along(spread) >= along(noisy) * (1.0 + deviations * std::sqrt(2.0 / count));
+        return !is_grazing && spread.along(x, y) >= part * noisy.along(x, y) *
+                                                        (1.0 + deviations * std::sqrt(2.0 / count));
     }
 };
 
@@ -13631,8 +13638,8 @@ class linker {
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
         const leaf_tree& tree = points_.tree();
-        const auto make_search = [&] {
-            return leaf_balls(tree,
+        const auto make_search = [&](const auto& of) {
+            return leaf_balls(of,
                               [&](std::size_t place) { return radius_of(tree.index()[place]); });
         };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {
@@ -14458,10 +14465,10 @@ class plane_growth {
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
 
     /// The free points by their roughness, each with it: the variance of the neighborhood along the
-    /// normal, in variances of the noise.
-    template <execution X>
+    /// normal, in variances of the noise. (A template of numbers for compile time only.)
+    template <execution X, class Number = double>
     [[nodiscard]] auto flattest_first(const X& run) const {
-        scratch<std::pair<double, point_index>> order;
+        scratch<std::pair<Number, point_index>> order;
         for (std::size_t i = 0; i < cloud_.size(); ++i)
             if (is_free(i)) order.emplace_back(0.0, static_cast<point_index>(i));
         for_each_chunk(run, order.size(), [&](std::size_t begin, std::size_t end) {
@@ -15538,37 +15545,39 @@ struct sensor_place {
 /// the first about the least of them.
 /// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
 /// anything to sort or to look up.
-/// @param points  a position_view
-[[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
-                                                     const viewpoint_table& viewpoints,
+/// @param points      a position_view
+/// @param viewpoints  a viewpoint_table (generic for compile time only)
+[[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points, const auto& viewpoints,
                                                      double sigma) {
+    using position = std::remove_cvref_t<decltype(viewpoints[0])>;
+    using cube = std::array<typename position::Scalar, 3>;
     constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d least(infinity, infinity, infinity);
-    for (const Eigen::Vector3d& v : viewpoints.positions())
+    position least(infinity, infinity, infinity);
+    for (const position& v : viewpoints.positions())
         for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
-    const auto cube_of = [&](const Eigen::Vector3d& v) {
-        if (sigma < exact) return std::array{v[0], v[1], v[2]};
+    const auto cube_of = [&](const position& v) {
+        if (sigma < exact) return cube{v[0], v[1], v[2]};
         const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
-        return std::array{cell(0), cell(1), cell(2)};
+        return cube{cell(0), cell(1), cell(2)};
     };
-    scratch<std::array<double, 3>> cubes;
+    scratch<cube> cubes;
     if (viewpoints.empty()) {
-        least = Eigen::Vector3d(0.0, 0.0, 0.0);
+        least = position(0.0, 0.0, 0.0);
         cubes.push_back(cube_of(least));
     }
-    for (const Eigen::Vector3d& v : viewpoints.positions())
+    for (const position& v : viewpoints.positions())
         if (is_finite(v) && (cubes.empty() || cubes.back() != cube_of(v)))
             cubes.push_back(cube_of(v));
     std::sort(cubes.begin(), cubes.end());
     cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
     scratch<sensor_place> places(cubes.size());
     std::size_t latest = 0;
-    std::array<double, 3> before{infinity, infinity, infinity};
+    cube before{infinity, infinity, infinity};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3d v = viewpoints[i];
+        const position v = viewpoints[i];
         if (!is_finite(points[i]) || !is_finite(v)) continue;
-        if (const std::array own{v[0], v[1], v[2]}; own != before) {
+        if (const cube own{v[0], v[1], v[2]}; own != before) {
             latest = static_cast<std::size_t>(
                 std::lower_bound(cubes.begin(), cubes.end(), cube_of(v)) - cubes.begin());
             before = own;

@@ -79,7 +79,7 @@ struct noise_knn {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
-            [&] { return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k}); },
+            [&](const auto& tree) { return detail::nearest_search(tree, {.k = k}); },
             [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
     template <execution X>

@@ -54,8 +54,8 @@ struct radius {
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         require_valid();
-        const auto make_search = [&] {
-            return detail::leaf_balls(index.tree(), [this](std::size_t) { return r; });
+        const auto make_search = [&](const auto& tree) {
+            return detail::leaf_balls(tree, [this](std::size_t) { return r; });
         };
         detail::sweep_leaves(index.tree(), run, make_search, make_visitor);
     }

@@ -84,8 +84,8 @@ struct ray_knn {
         require_valid();
         detail::search_all_groups(
             index.tree(), run,
-            [&] {
-                return detail::nearest_search(index.tree(), detail::nearest_wanted{.k = k},
+            [&](const auto& tree) {
+                return detail::nearest_search(tree, {.k = k},
                                               detail::distances_from_rays(index, noise));
             },
             [&] { return visitor_of_places(*this, index, make_visitor()); });

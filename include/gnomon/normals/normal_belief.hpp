@@ -64,8 +64,8 @@ inline constexpr double vague_trace = 0.1;
 /// unit; chosen here, not in the thesis.)
 inline constexpr double grazing_cosine = 0.02;
 
-/// The number of standard deviations by which the slope of a plane may be less than estimated; a
-/// normal distribution exceeds it to one side in 1 of 740 cases (chosen on furnished rooms 20,001
+/// By how many standard deviations the slope of a plane may be less than estimated (a number; a
+/// normal distribution exceeds it to one side in 1 of 740 cases; chosen on furnished rooms 20,001
 /// to 20,010, where 2 and 3 give the same covariances).
 inline constexpr double vague_deviations = 3.0;
 
@@ -108,11 +108,9 @@ inline constexpr tangent_matrix no_knowledge{largest_variance, 0.0, largest_vari
     const double x = dot(u, frame.b1), y = dot(u, frame.b2);  // the ray in the tangent plane
     const double sine = std::hypot(x, y);
     const double c = sine > 0.0 ? x / sine : 1.0, s = sine > 0.0 ? y / sine : 0.0;
-    const double along = c * c * p.p11 + 2.0 * c * s * p.p12 + s * s * p.p22;
-    const double across = s * s * p.p11 - 2.0 * c * s * p.p12 + c * c * p.p22;
     // Deviations of the slope, and of the turn about the ray.
-    const double of_slope = std::sqrt(std::max(0.0, along)) / (cosine * cosine);
-    const double of_turn = std::sqrt(std::max(0.0, across)) / cosine;
+    const double of_slope = std::sqrt(std::max(0.0, p.along(c, s))) / (cosine * cosine);
+    const double of_turn = std::sqrt(std::max(0.0, p.along(-s, c))) / cosine;
     const double flatter = std::max(0.0, sine / cosine - deviations * of_slope);
     const double secant = 1.0 + flatter * flatter;  // squared
     const double trace = of_slope * of_slope / (secant * secant) + of_turn * of_turn / secant;

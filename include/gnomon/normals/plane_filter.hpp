@@ -87,7 +87,7 @@ struct plane_filter {
         }
         const Eigen::Matrix3d& c = state.covariance;
         belief.normal = state.frame.normal;
-        // Steps that are small in standard deviations do not matter (numerical).
+        // A last step of a hundredth of a standard deviation does not matter (numerical).
         constexpr double negligible = 0.01;
         const bool converged =
             step <= std::max(last_step, negligible * std::sqrt(c(0, 0) + c(1, 1)));

@@ -79,7 +79,7 @@ class seen_points {
     /// count.
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
         const std::size_t step = (size() + most_counted - 1) / most_counted;
-        const std::array<double, most_counted> weights = weights_by_quadrant(step);
+        const weights weight = weights_by_quadrant(step);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
@@ -94,7 +94,7 @@ class seen_points {
             if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
             double cost = 0.0;
             for (std::size_t j = 0; j * step < size() && cost < least; ++j)
-                cost += weights[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
+                cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
             if (cost < least) least = cost, best = candidate;
         }
         return best;
@@ -102,6 +102,7 @@ class seen_points {
 
   private:
     static constexpr std::size_t most_counted = 256;  // performance only
+    using weights = std::array<typename Vector::Scalar, most_counted>;
 
     /// The squared distance of a point from a plane, divided by that of the farthest inlier: three
     /// standard deviations, of the noise across the plane and of half of it in any direction, for
@@ -118,18 +119,19 @@ class seen_points {
     }
 
     /// For each neighbor that counts, one over the number of these in its quadrant.
-    [[nodiscard]] std::array<double, most_counted> weights_by_quadrant(std::size_t step) const {
+    [[nodiscard]] weights weights_by_quadrant(std::size_t step) const {
         const ray_plane<Vector> around(scaled(1.0 / length(x_), x_));
         scan_line<> line;
         for (std::size_t j = 0; j < size(); j += step) line.add(around.offset(at(j)));
         line.fit();
-        std::array<std::size_t, most_counted> quadrant;
-        std::array<double, 4> counts{};
-        for (std::size_t j = 0; j * step < size(); ++j)
-            counts[quadrant[j] = line.quadrant(around.offset(at(j * step)))] += 1.0;
-        std::array<double, most_counted> weights;
-        for (std::size_t j = 0; j * step < size(); ++j) weights[j] = 1.0 / counts[quadrant[j]];
-        return weights;
+        const auto quadrant = [&](std::size_t j) {
+            return line.quadrant(around.offset(at(j * step)));
+        };
+        std::array<typename Vector::Scalar, 4> counts{};
+        for (std::size_t j = 0; j * step < size(); ++j) counts[quadrant(j)] += 1.0;
+        weights weight;
+        for (std::size_t j = 0; j * step < size(); ++j) weight[j] = 1.0 / counts[quadrant(j)];
+        return weight;
     }
 
     [[nodiscard]] Vector at(std::size_t j) const { return difference(neighbors_[j], viewpoint_); }

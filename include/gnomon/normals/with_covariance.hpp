@@ -99,22 +99,22 @@ struct with_covariance {
             const Eigen::Vector3d u = range > 0.0 ? detail::scaled(1.0 / range, ray) : frame.normal;
             const double cosine = detail::dot(u, frame.normal);
             const double variance = noise.variance_along(ray);
-            add_square(noisy, variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
+            noisy.add(variance, detail::dot(u, frame.b1), detail::dot(u, frame.b2));
             // e_j is the error of the range times this cosine.
             const Eigen::Vector3d d = detail::difference(detail::difference(q, p), mean);
-            add_square(s, variance * cosine * cosine, detail::dot(d, frame.b1),
-                       detail::dot(d, frame.b2));
+            s.add(variance * cosine * cosine, detail::dot(d, frame.b1), detail::dot(d, frame.b2));
         };
         add(p);
         for (const Eigen::Vector3d& q : neighbors) add(q);
-        const double of_mean = (count - 1.0) / (count * count);  // the centroid errs as well
-        for (double* n : {&noisy.p11, &noisy.p12, &noisy.p22}) *n *= of_mean;
         const detail::tangent_matrix spread = frame.restricted(m.covariance_with_point());
         const Eigen::Vector3d ray =
             detail::combined(1.0, detail::difference(p, viewpoint), 1.0, mean);
-        if (!is_significant(spread, noisy, frame, ray, count)) return detail::no_knowledge;
-        const auto [a11, a12, a22] = detail::tangent_matrix{
-            spread.p11 - noisy.p11, spread.p12 - noisy.p12, spread.p22 - noisy.p22};
+        // Of n points: the centroid has a part 1 / n of their noise.
+        const double part = (count - 1.0) / (count * count);
+        if (!is_significant(spread, noisy, part, frame, ray, count)) return detail::no_knowledge;
+        const double a11 = spread.p11 - part * noisy.p11;
+        const double a12 = spread.p12 - part * noisy.p12;
+        const double a22 = spread.p22 - part * noisy.p22;
         const double determinant = a11 * a22 - a12 * a12;
         if (!(a11 > 0.0 && determinant > 0.0)) return detail::no_knowledge;
         const double i11 = a22 / determinant;
@@ -128,26 +128,18 @@ struct with_covariance {
                 w * ((i12 * s.p11 + i22 * s.p12) * i12 + r22 * i22)};
     }
 
-    static void add_square(detail::tangent_matrix& sum, double weight, double x, double y) {
-        sum.p11 += weight * x * x;
-        sum.p12 += weight * x * y;
-        sum.p22 += weight * y * y;
-    }
-
     /// Whether the points extend along the ray, in the tangent plane, by more than their noise.
+    /// @param part  of `noisy`, the sum of the noise of all points, that is in their covariance
     [[nodiscard]] static bool is_significant(const detail::tangent_matrix& spread,
-                                             const detail::tangent_matrix& noisy,
+                                             const detail::tangent_matrix& noisy, double part,
                                              const detail::tangent_basis& frame,
                                              const Eigen::Vector3d& ray, double count) {
         const double x = detail::dot(ray, frame.b1), y = detail::dot(ray, frame.b2);
-        const auto along = [x, y](const detail::tangent_matrix& m) {
-            return x * x * m.p11 + 2.0 * x * y * m.p12 + y * y * m.p22;
-        };
         constexpr double deviations = 3.0;  // of a sample variance, whose is sqrt(2 / count) of it
         const bool is_grazing = !(std::abs(detail::dot(ray, frame.normal)) >
                                   detail::grazing_cosine * detail::length(ray));
-        return !is_grazing &&
-               along(spread) >= along(noisy) * (1.0 + deviations * std::sqrt(2.0 / count));
+        return !is_grazing && spread.along(x, y) >= part * noisy.along(x, y) *
+                                                        (1.0 + deviations * std::sqrt(2.0 / count));
     }
 };
 

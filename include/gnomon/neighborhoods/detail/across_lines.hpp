@@ -48,8 +48,9 @@ enum class lacking {
     a_side       ///< there is none on one side of it; for fits to the inliers among them
 };
 
-/// Searches for them; each thread has its own object. (A template for compile time only.)
-template <class Index>
+/// Searches for them; each thread has its own object. (A template, of numbers as well, for compile
+/// time only.)
+template <class Index, class Number = double>
 class across_lines {
   public:
     explicit across_lines(const Index& index, lacking what = lacking::few_across)
@@ -79,11 +80,11 @@ class across_lines {
         }
         for (const auto& offset : around_) line.add(offset);
         line.fit();
-        std::array<std::size_t, 2> sides{};
-        for (const auto& offset : around_)
-            if (!line.is_along(offset)) ++sides[line.quadrant(offset) - 2];
-        const bool lacks_some = sides[0] + sides[1] < enough ||
-                                (what_ == lacking::a_side && (sides[0] == 0 || sides[1] == 0));
+        counts_ = {};
+        for (const auto& offset : around_) ++counts_[line.quadrant(offset)];
+        const std::size_t left = counts_[2], right = counts_[3];
+        const bool lacks_some =
+            left + right < enough || (what_ == lacking::a_side && (left == 0 || right == 0));
         if (lacks_some) find(i, u, plane, line);
         return found_;
     }
@@ -171,7 +172,7 @@ class across_lines {
     std::size_t first_ = 0;  // rays to look at
     std::array<std::size_t, 4> counts_{};
     scratch<neighbor> near_;
-    scratch<std::array<double, 2>> around_;  // offsets of the neighbors' rays
+    scratch<std::array<Number, 2>> around_;  // offsets of the neighbors' rays
     scratch<point_index> found_;
 };
 

@@ -63,11 +63,14 @@ class distances_from_rays {
     void enclose(std::size_t place, leaf_box& box) {
         ray_metric& m = segments_[place % segments_.size()];
         m = metric_at(place);
-        for (const double half : {-m.half_length(), m.half_length()}) {
-            auto end = index_->tree().position(place);
-            for (std::size_t a = 0; a < 3; ++a) end[a] += half * m.direction()[static_cast<int>(a)];
-            box.add(end);
+        auto near = index_->tree().position(place), far = near;
+        for (std::size_t a = 0; a < 3; ++a) {
+            const double half = m.half_length() * m.direction()[static_cast<int>(a)];
+            near[a] -= half;
+            far[a] += half;
         }
+        box.add(near);
+        box.add(far);
     }
     [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
         const auto p = index_->tree().position(place), q = index_->tree().position(other);

@@ -21,14 +21,14 @@ namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
 /// Calls search(group, visit) for all groups of a tree, with a search and a visitor for each chunk
-/// of work, which make_search() and make_visitor() give. The visitor's finish(), if it has one, is
-/// called at the end of the chunk.
+/// of work, which make_search(tree) and make_visitor() give (generic, so that only users of a
+/// search compile it). The visitor's finish(), if it has one, is called at the end of the chunk.
 template <execution X>
 void search_all_groups(const leaf_tree& tree, const X& run, auto&& make_search,
                        auto&& make_visitor) {
     constexpr std::size_t groups_per_chunk = 16;
     run((tree.groups() + groups_per_chunk - 1) / groups_per_chunk, [&](std::size_t chunk) {
-        auto search = make_search();
+        auto search = make_search(tree);
         auto visit = make_visitor();
         const std::size_t first = chunk * groups_per_chunk;
         const std::size_t last = std::min(first + groups_per_chunk, tree.groups());
@@ -91,7 +91,7 @@ template <execution X>
 void sweep_nearest(const leaf_tree& tree, const nearest_wanted& wanted, const X& run,
                    auto&& make_visitor) {
     sweep_leaves(
-        tree, run, [&] { return nearest_search(tree, wanted); }, make_visitor);
+        tree, run, [&](const auto& of) { return nearest_search(of, wanted); }, make_visitor);
 }
 
 }  // namespace GNOMON_LANES

@@ -19,8 +19,8 @@
 
 namespace gnomon::detail {
 
-/// Half the length of the segment in standard deviations of the noise: 1 in 16,000 points is
-/// farther off (normal distribution).
+/// Half the length of the segment in standard deviations of the noise (a number; of a normal
+/// distribution, 1 in 16,000 points is farther off).
 inline constexpr double ray_deviations = 4.0;
 
 /// The distance from a segment about the searched position.

@@ -14,6 +14,17 @@ namespace gnomon::detail {
 /// A symmetric 2 x 2 matrix in the coordinates (b1, b2) of a tangent basis.
 struct tangent_matrix {
     double p11, p12, p22;
+
+    /// x^2 p11 + 2 x y p12 + y^2 p22
+    [[nodiscard]] double along(double x, double y) const {
+        return x * x * p11 + 2.0 * x * y * p12 + y * y * p22;
+    }
+    /// Adds the outer product of (x, y) with itself, times a weight.
+    void add(double weight, double x, double y) {
+        p11 += weight * x * x;
+        p12 += weight * x * y;
+        p22 += weight * y * y;
+    }
 };
 
 /// A unit normal and an orthonormal basis (b1, b2) of its tangent plane.

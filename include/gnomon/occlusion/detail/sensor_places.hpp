@@ -8,6 +8,7 @@
 #include <array>
 #include <cstddef>
 #include <limits>
+#include <type_traits>
 
 #include <Eigen/Core>
 
@@ -40,37 +41,39 @@ struct sensor_place {
 /// the first about the least of them.
 /// O(n log v) for v cubes; points of a scan line follow one another, so that there is hardly
 /// anything to sort or to look up.
-/// @param points  a position_view
-[[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points,
-                                                     const viewpoint_table& viewpoints,
+/// @param points      a position_view
+/// @param viewpoints  a viewpoint_table (generic for compile time only)
+[[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points, const auto& viewpoints,
                                                      double sigma) {
+    using position = std::remove_cvref_t<decltype(viewpoints[0])>;
+    using cube = std::array<typename position::Scalar, 3>;
     constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    Eigen::Vector3d least(infinity, infinity, infinity);
-    for (const Eigen::Vector3d& v : viewpoints.positions())
+    position least(infinity, infinity, infinity);
+    for (const position& v : viewpoints.positions())
         for (int a = 0; a < 3 && is_finite(v); ++a) least[a] = std::min(least[a], v[a]);
-    const auto cube_of = [&](const Eigen::Vector3d& v) {
-        if (sigma < exact) return std::array{v[0], v[1], v[2]};
+    const auto cube_of = [&](const position& v) {
+        if (sigma < exact) return cube{v[0], v[1], v[2]};
         const auto cell = [&](int a) { return std::round((v[a] - least[a]) / sigma); };
-        return std::array{cell(0), cell(1), cell(2)};
+        return cube{cell(0), cell(1), cell(2)};
     };
-    scratch<std::array<double, 3>> cubes;
+    scratch<cube> cubes;
     if (viewpoints.empty()) {
-        least = Eigen::Vector3d(0.0, 0.0, 0.0);
+        least = position(0.0, 0.0, 0.0);
         cubes.push_back(cube_of(least));
     }
-    for (const Eigen::Vector3d& v : viewpoints.positions())
+    for (const position& v : viewpoints.positions())
         if (is_finite(v) && (cubes.empty() || cubes.back() != cube_of(v)))
             cubes.push_back(cube_of(v));
     std::sort(cubes.begin(), cubes.end());
     cubes.erase(std::unique(cubes.begin(), cubes.end()), cubes.end());
     scratch<sensor_place> places(cubes.size());
     std::size_t latest = 0;
-    std::array<double, 3> before{infinity, infinity, infinity};
+    cube before{infinity, infinity, infinity};
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const Eigen::Vector3d v = viewpoints[i];
+        const position v = viewpoints[i];
         if (!is_finite(points[i]) || !is_finite(v)) continue;
-        if (const std::array own{v[0], v[1], v[2]}; own != before) {
+        if (const cube own{v[0], v[1], v[2]}; own != before) {
             latest = static_cast<std::size_t>(
                 std::lower_bound(cubes.begin(), cubes.end(), cube_of(v)) - cubes.begin());
             before = own;

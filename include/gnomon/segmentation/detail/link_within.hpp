@@ -43,8 +43,8 @@ class linker {
     template <execution X>
     void link_all(auto&& radius_of, auto&& link, const X& run) {
         const leaf_tree& tree = points_.tree();
-        const auto make_search = [&] {
-            return leaf_balls(tree,
+        const auto make_search = [&](const auto& of) {
+            return leaf_balls(of,
                               [&](std::size_t place) { return radius_of(tree.index()[place]); });
         };
         const auto join = [&](std::size_t place, std::span<const std::uint32_t> places) {

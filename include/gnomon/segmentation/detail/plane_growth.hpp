@@ -65,10 +65,10 @@ class plane_growth {
     [[nodiscard]] Eigen::Vector3d normal(std::size_t i) const { return surface_[i].normal; }
 
     /// The free points by their roughness, each with it: the variance of the neighborhood along the
-    /// normal, in variances of the noise.
-    template <execution X>
+    /// normal, in variances of the noise. (A template of numbers for compile time only.)
+    template <execution X, class Number = double>
     [[nodiscard]] auto flattest_first(const X& run) const {
-        scratch<std::pair<double, point_index>> order;
+        scratch<std::pair<Number, point_index>> order;
         for (std::size_t i = 0; i < cloud_.size(); ++i)
             if (is_free(i)) order.emplace_back(0.0, static_cast<point_index>(i));
         for_each_chunk(run, order.size(), [&](std::size_t begin, std::size_t end) {
