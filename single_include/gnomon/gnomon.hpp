@@ -6758,7 +6758,7 @@ class across_lines {
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
             // As many as are on three lines, up to the distance of the next line.
-            const double ratio = across.radians() / along.radians();
+            const double ratio = along.radians() > 0.0 ? across.radians() / along.radians() : 0.0;
             first_ = static_cast<std::size_t>(8.0 * std::clamp(ratio, 4.0, 16.0));
         }
         constexpr std::size_t many = 256;  // rays to look at; chosen likewise
@@ -7174,26 +7174,24 @@ struct ray_knn {
     class visitor_of_places {
       public:
         visitor_of_places(const ray_knn& policy, const Index& index, Visit visit)
-            : tree_(index.tree()), visit_(std::move(visit)) {
+            : index_(index), show_(index.tree(), std::move(visit)) {
             if (policy.looks_across(index)) across_.emplace(index, detail::lacking::a_side);
         }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             if (across_) {
                 all_.assign(places.begin(), places.end());
-                across_->add_to(all_, tree_.index()[place]);
+                across_->add_to(all_, index_.tree().index()[place]);
                 places = all_;
             }
-            visit_(tree_.index()[place], detail::found_neighbors(tree_, place, places));
+            show_(place, places);
         }
 
-        void finish() {
-            if constexpr (requires { visit_.finish(); }) visit_.finish();
-        }
+        void finish() { show_.finish(); }
 
       private:
-        const detail::leaf_tree& tree_;
-        Visit visit_;
+        const Index& index_;
+        detail::place_visitor<Visit> show_;
         std::optional<detail::across_lines<Index>> across_;
         detail::scratch<std::uint32_t> all_;  // places
     };
@@ -11673,7 +11671,7 @@ template <class R, detail::neighborhood_of_k N, estimator E, execution X = seque
     };
     std::vector<surfel<estimate_t<E>>> before;
     N wider = policy;
-    while (2 * wider.k <= wanted.max_k && wider.k < index.size()) {
+    while (wider.k <= wanted.max_k / 2 && wider.k < index.size()) {
         std::erase_if(vague, is_precise);
         if (vague.empty()) break;
         wider.k *= 2;

@@ -30,7 +30,6 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/adjacency.hpp>
 #include <gnomon/neighborhoods/detail/across_lines.hpp>
-#include <gnomon/neighborhoods/detail/found_neighbors.hpp>
 #include <gnomon/neighborhoods/detail/graph_of.hpp>
 #include <gnomon/neighborhoods/detail/leaf_distances.hpp>
 #include <gnomon/neighborhoods/detail/leaf_sweep.hpp>
@@ -104,26 +103,24 @@ struct ray_knn {
     class visitor_of_places {
       public:
         visitor_of_places(const ray_knn& policy, const Index& index, Visit visit)
-            : tree_(index.tree()), visit_(std::move(visit)) {
+            : index_(index), show_(index.tree(), std::move(visit)) {
             if (policy.looks_across(index)) across_.emplace(index, detail::lacking::a_side);
         }
 
         void operator()(std::size_t place, std::span<const std::uint32_t> places) {
             if (across_) {
                 all_.assign(places.begin(), places.end());
-                across_->add_to(all_, tree_.index()[place]);
+                across_->add_to(all_, index_.tree().index()[place]);
                 places = all_;
             }
-            visit_(tree_.index()[place], detail::found_neighbors(tree_, place, places));
+            show_(place, places);
         }
 
-        void finish() {
-            if constexpr (requires { visit_.finish(); }) visit_.finish();
-        }
+        void finish() { show_.finish(); }
 
       private:
-        const detail::leaf_tree& tree_;
-        Visit visit_;
+        const Index& index_;
+        detail::place_visitor<Visit> show_;
         std::optional<detail::across_lines<Index>> across_;
         detail::scratch<std::uint32_t> all_;  // places
     };

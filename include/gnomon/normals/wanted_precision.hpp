@@ -89,7 +89,7 @@ template <class R, detail::neighborhood_of_k N, estimator E, execution X = seque
     };
     std::vector<surfel<estimate_t<E>>> before;
     N wider = policy;
-    while (2 * wider.k <= wanted.max_k && wider.k < index.size()) {
+    while (wider.k <= wanted.max_k / 2 && wider.k < index.size()) {
         std::erase_if(vague, is_precise);
         if (vague.empty()) break;
         wider.k *= 2;

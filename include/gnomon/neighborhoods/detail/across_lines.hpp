@@ -129,7 +129,7 @@ class across_lines {
             const auto& [along, across] = rays_->spacing();
             reach_ = most_spacings * std::max(along, across).radians();
             // As many as are on three lines, up to the distance of the next line.
-            const double ratio = across.radians() / along.radians();
+            const double ratio = along.radians() > 0.0 ? across.radians() / along.radians() : 0.0;
             first_ = static_cast<std::size_t>(8.0 * std::clamp(ratio, 4.0, 16.0));
         }
         constexpr std::size_t many = 256;  // rays to look at; chosen likewise
