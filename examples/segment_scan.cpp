@@ -169,7 +169,7 @@ json description_of(const gnomon::scan& scan, const result& r) {
     for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
         const auto members = r.surfaces[label];
         const gnomon::plane_estimate& plane = r.planes[label];
-        const auto frame = gnomon::principal_frame_of(gnomon::subset_view(scan, members));
+        const auto frame = gnomon::principal_frame::of(gnomon::subset_view(scan, members));
         const Eigen::Vector3d viewpoint = scan.viewpoints[members.front()];
         list.push_back({{"label", label},
                         {"points", members.size()},

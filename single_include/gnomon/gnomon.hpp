@@ -12442,6 +12442,17 @@ struct principal_frame {
     /// The axis of smallest variance, a unit vector of arbitrary sign: the normal of a planar
     /// segment.
     [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
+
+    /// The principal frame of the finite points of a range, by the eigenvectors of their
+    /// covariance.
+    /// @param points      any point range of n points [m]
+    /// @param projection  maps an element of the range to a point
+    /// @return the frame; with all members at their defaults if no point is finite
+    /// @throws std::invalid_argument  if n is 2^32 - 1 or more
+    /// Complexity: O(n). Source: Klasing 2010, Sec. 3.5.1.
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] static principal_frame of(const R& points, Proj projection = {});
 };
 
 namespace detail {
@@ -12483,16 +12494,9 @@ struct moments_about_first {
 
 }  // namespace detail
 
-/// Computes the principal frame of the finite points of a range, by the eigenvectors of their
-/// covariance.
-/// @param points      any point range of n points [m]
-/// @param projection  maps an element of the range to a point
-/// @return the frame; with all members at their defaults if no point is finite
-/// @throws std::invalid_argument  if n is 2^32 - 1 or more
-/// Complexity: O(n). Source: Klasing 2010, Sec. 3.5.1.
-template <class R, class Proj = std::identity>
+template <class R, class Proj>
     requires point_range<R, Proj>
-[[nodiscard]] principal_frame principal_frame_of(const R& points, Proj projection = {}) {
+principal_frame principal_frame::of(const R& points, Proj projection) {
     const position_view<R, Proj> p(points, std::move(projection));
     principal_frame frame = detail::principal_axes_of(detail::moments_about_first(p));
     std::size_t first = 0;
@@ -15548,7 +15552,7 @@ struct sensor_place {
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points, const auto& viewpoints,
                                                      double sigma) {
     using position = std::remove_cvref_t<decltype(viewpoints[0])>;
-    using cube = std::array<typename position::Scalar, 3>;
+    using cube = std::array<typename position::Scalar, position::SizeAtCompileTime>;
     constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
     position least(infinity, infinity, infinity);
@@ -16489,7 +16493,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
 
     std::vector<principal_frame> frames;
     for (std::size_t s = 0; s < parts.size(); ++s)
-        frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
+        frames.push_back(principal_frame::of(subset_view<R, Proj>(points, parts[s], projection)));
     detail::union_find sets(parts.size());
     const auto is_flat = [&](std::size_t s) {
         return frames[s].spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place

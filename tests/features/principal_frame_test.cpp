@@ -25,7 +25,7 @@ TEST(principal_frame, fits_a_turned_box) {
             }
         }
         points.push_back({clouds::nan, 0, 0});
-        const auto frame = gnomon::principal_frame_of(points);
+        const auto frame = gnomon::principal_frame::of(points);
         EXPECT_LT((frame.box_size - size).norm(), 1e-7);
         EXPECT_LT((frame.box_center - center).norm(), 1e-7);
         EXPECT_LT((frame.centroid - center).norm(), 1e-7);
@@ -38,7 +38,7 @@ TEST(principal_frame, fits_a_turned_box) {
 TEST(principal_frame, survives_every_cloud) {
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
-        const auto frame = gnomon::principal_frame_of(points);
+        const auto frame = gnomon::principal_frame::of(points);
         EXPECT_TRUE(frame.axes.allFinite() && frame.box_size.allFinite());
         EXPECT_NEAR(std::abs(frame.axes.determinant()), 1.0, 1e-9);
     }

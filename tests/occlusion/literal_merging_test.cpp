@@ -160,16 +160,16 @@ clouds::cloud rectangle(const Eigen::Vector3d& center, double turned) {
 }
 
 TEST(segment_distances, are_those_of_rectangles_in_one_plane) {
-    const auto a = gnomon::principal_frame_of(rectangle({0, 0, 1}, 0.0));
-    const auto b = gnomon::principal_frame_of(rectangle({3, 4, 1}, 0.0));
+    const auto a = gnomon::principal_frame::of(rectangle({0, 0, 1}, 0.0));
+    const auto b = gnomon::principal_frame::of(rectangle({3, 4, 1}, 0.0));
     EXPECT_NEAR(angular_distance(a, b), 0.0, 1e-12);
     EXPECT_NEAR(orthogonal_distance(a, b), 0.0, 1e-12);
     EXPECT_EQ(orthogonal_distance(a, a), 0.0);
 }
 
 TEST(segment_distances, are_those_of_parallel_rectangles) {
-    const auto a = gnomon::principal_frame_of(rectangle({0, 0, 1}, 0.0));
-    const auto b = gnomon::principal_frame_of(rectangle({3, 0, 1.04}, 0.0));
+    const auto a = gnomon::principal_frame::of(rectangle({0, 0, 1}, 0.0));
+    const auto b = gnomon::principal_frame::of(rectangle({3, 0, 1.04}, 0.0));
     EXPECT_NEAR(orthogonal_distance(a, b), 0.04, 1e-12);
     EXPECT_NEAR(angular_distance(a, b), 0.0, 1e-12);
 }
@@ -177,11 +177,11 @@ TEST(segment_distances, are_those_of_parallel_rectangles) {
 /// The second centroid lies in the plane of the first, which is 3 sin(t) from that of the second.
 TEST(segment_distances, take_the_smaller_distance_of_a_plane) {
     for (const double t : {1e-7, 0.1, 0.7, 0.5 * std::numbers::pi}) {
-        const auto a = gnomon::principal_frame_of(rectangle({0, 0, 0}, 0.0));
-        const auto b = gnomon::principal_frame_of(rectangle({3, 0, 0}, t));
+        const auto a = gnomon::principal_frame::of(rectangle({0, 0, 0}, 0.0));
+        const auto b = gnomon::principal_frame::of(rectangle({3, 0, 0}, t));
         EXPECT_NEAR(angular_distance(a, b), t, 1e-12);
         EXPECT_NEAR(orthogonal_distance(a, b), 0.0, 1e-12);
-        const auto c = gnomon::principal_frame_of(rectangle({3, 0, 0.5}, t));
+        const auto c = gnomon::principal_frame::of(rectangle({3, 0, 0.5}, t));
         const double from_other = std::abs(3.0 * std::sin(t) - 0.5 * std::cos(t));
         EXPECT_NEAR(orthogonal_distance(a, c), std::min(0.5, from_other), 1e-12);
     }
@@ -189,8 +189,8 @@ TEST(segment_distances, take_the_smaller_distance_of_a_plane) {
 
 /// An obtuse angle between normals is an acute one between planes.
 TEST(segment_distances, know_no_sides_of_planes) {
-    auto a = gnomon::principal_frame_of(rectangle({0, 0, 0}, 0.0));
-    const auto b = gnomon::principal_frame_of(rectangle({1, 0, 0.2}, 0.3));
+    auto a = gnomon::principal_frame::of(rectangle({0, 0, 0}, 0.0));
+    const auto b = gnomon::principal_frame::of(rectangle({1, 0, 0.2}, 0.3));
     const double angle = angular_distance(a, b), offset = orthogonal_distance(a, b);
     a.axes.col(2) *= -1.0;
     EXPECT_DOUBLE_EQ(angular_distance(a, b), angle);
@@ -201,14 +201,14 @@ TEST(segment_distances, are_symmetric_and_stay_under_rigid_motion) {
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         const auto first = clouds::sheet(60, seed);
         const auto second = clouds::sheet(40, seed + 100);
-        const auto a = gnomon::principal_frame_of(first);
-        const auto b = gnomon::principal_frame_of(second);
+        const auto a = gnomon::principal_frame::of(first);
+        const auto b = gnomon::principal_frame::of(second);
         EXPECT_DOUBLE_EQ(angular_distance(a, b), angular_distance(b, a));
         EXPECT_DOUBLE_EQ(orthogonal_distance(a, b), orthogonal_distance(b, a));
         const auto r = clouds::random_rotation(seed);
         for (const Eigen::Vector3d& t : {Eigen::Vector3d(1, 2, 3), {6e5, 4.8e6, 100}}) {
-            const auto c = gnomon::principal_frame_of(clouds::moved(first, r, t));
-            const auto d = gnomon::principal_frame_of(clouds::moved(second, r, t));
+            const auto c = gnomon::principal_frame::of(clouds::moved(first, r, t));
+            const auto d = gnomon::principal_frame::of(clouds::moved(second, r, t));
             EXPECT_NEAR(angular_distance(c, d), angular_distance(a, b), 1e-7);
             EXPECT_NEAR(orthogonal_distance(c, d), orthogonal_distance(a, b), 1e-7);
         }

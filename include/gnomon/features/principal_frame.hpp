@@ -36,6 +36,17 @@ struct principal_frame {
     /// The axis of smallest variance, a unit vector of arbitrary sign: the normal of a planar
     /// segment.
     [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
+
+    /// The principal frame of the finite points of a range, by the eigenvectors of their
+    /// covariance.
+    /// @param points      any point range of n points [m]
+    /// @param projection  maps an element of the range to a point
+    /// @return the frame; with all members at their defaults if no point is finite
+    /// @throws std::invalid_argument  if n is 2^32 - 1 or more
+    /// Complexity: O(n). Source: Klasing 2010, Sec. 3.5.1.
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] static principal_frame of(const R& points, Proj projection = {});
 };
 
 namespace detail {
@@ -77,16 +88,9 @@ struct moments_about_first {
 
 }  // namespace detail
 
-/// Computes the principal frame of the finite points of a range, by the eigenvectors of their
-/// covariance.
-/// @param points      any point range of n points [m]
-/// @param projection  maps an element of the range to a point
-/// @return the frame; with all members at their defaults if no point is finite
-/// @throws std::invalid_argument  if n is 2^32 - 1 or more
-/// Complexity: O(n). Source: Klasing 2010, Sec. 3.5.1.
-template <class R, class Proj = std::identity>
+template <class R, class Proj>
     requires point_range<R, Proj>
-[[nodiscard]] principal_frame principal_frame_of(const R& points, Proj projection = {}) {
+principal_frame principal_frame::of(const R& points, Proj projection) {
     const position_view<R, Proj> p(points, std::move(projection));
     principal_frame frame = detail::principal_axes_of(detail::moments_about_first(p));
     std::size_t first = 0;

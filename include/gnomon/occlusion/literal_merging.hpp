@@ -148,7 +148,7 @@ template <class R, merge_policy M = conservative, class Proj = std::identity>
 
     std::vector<principal_frame> frames;
     for (std::size_t s = 0; s < parts.size(); ++s)
-        frames.push_back(principal_frame_of(subset_view<R, Proj>(points, parts[s], projection)));
+        frames.push_back(principal_frame::of(subset_view<R, Proj>(points, parts[s], projection)));
     detail::union_find sets(parts.size());
     const auto is_flat = [&](std::size_t s) {
         return frames[s].spectrum.lambda[0] > 0.0 &&  // else it is of nothing, or of one place

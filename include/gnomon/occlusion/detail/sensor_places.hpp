@@ -46,7 +46,7 @@ struct sensor_place {
 [[nodiscard]] scratch<sensor_place> places_of_sensor(const auto& points, const auto& viewpoints,
                                                      double sigma) {
     using position = std::remove_cvref_t<decltype(viewpoints[0])>;
-    using cube = std::array<typename position::Scalar, 3>;
+    using cube = std::array<typename position::Scalar, position::SizeAtCompileTime>;
     constexpr double exact = 1e-6;  // [m]; numerical: below, each view point is one
     constexpr double infinity = std::numeric_limits<double>::infinity();
     position least(infinity, infinity, infinity);
