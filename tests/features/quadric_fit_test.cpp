@@ -13,7 +13,7 @@
 #include "laws/clouds.hpp"
 #include "laws/curvature_laws.hpp"
 #include <gnomon/features/curvature.hpp>
-#include <gnomon/features/detail/quadric_fit.hpp>
+#include <gnomon/core/detail/quadric_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 
 namespace {

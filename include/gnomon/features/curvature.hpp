@@ -31,7 +31,7 @@
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/detail/eigen_2x2.hpp>
 #include <gnomon/features/detail/height_frame.hpp>
-#include <gnomon/features/detail/quadric_fit.hpp>
+#include <gnomon/core/detail/quadric_fit.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {

@@ -4,10 +4,10 @@
 /// to know it (`prefer_small_error`, `plane_ekf`, `feature_preserving`) when the data sheet is
 /// lost.
 ///
-/// The residual of a fitted plane is noise only if the neighborhood is much wider than the noise:
-/// a ball of radius r that noise fills reads r / sqrt(5). So neighborhoods grow until their radius
-/// is four times what they read; and they must be flat, so that the value is one that 70 % of
-/// them exceed: bends and edges count only where they are nearly everywhere.
+/// The residual of a fitted plane or quadric is noise only if the neighborhood is much wider than
+/// the noise: a ball of radius r that noise fills reads r / sqrt(5). So neighborhoods grow until
+/// their radius is four times what they read; and they must be smooth, so that the value is one
+/// that 70 % of them exceed: edges count only where they are nearly everywhere.
 #pragma once
 
 #include <algorithm>
@@ -20,32 +20,22 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/local_surface.hpp>
 #include <gnomon/normals/detail/quantile.hpp>
-#include <gnomon/normals/plane_fit.hpp>
 
 namespace gnomon {
 namespace detail {
-
-/// The moments of the first k neighbors about p.
-template <class Points>
-[[nodiscard]] moments moments_of_first(std::size_t k, const std::vector<neighbor>& neighbors,
-                                       const Points& points, const Eigen::Vector3d& p) {
-    moments m;
-    for (std::size_t l = 0; l < k; ++l) m.add(difference(points[neighbors[l].index], p));
-    return m;
-}
 
 /// `noise_level` of an index, from neighborhoods of up to max_k points.
 template <class Index>
 [[nodiscard]] double noise_level_in(const Index& points, std::size_t max_k) {
     constexpr std::size_t samples = 500;
-    constexpr double flat_part = 0.3, clearance = 4.0;
+    constexpr double smooth_part = 0.3, clearance = 4.0;
     std::vector<std::size_t> chosen;  // evenly from the finite points
     const std::size_t step = std::max<std::size_t>(1, points.finite() / samples);
     for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
@@ -53,23 +43,24 @@ template <class Index>
 
     double sigma = 0.0;
     std::vector<neighbor> neighbors;
+    surroundings around;
     std::vector<double> spread, radius;
     for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
         spread.clear();
         radius.clear();
         for (const std::size_t i : chosen) {
-            const Eigen::Vector3d p = points[i];
             knn{.k = k}.find(points, i, neighbors);
             if (neighbors.size() < 3) return 0.0;  // at most three points are always coplanar
-            const auto n = static_cast<double>(neighbors.size());
-            const moments m = moments_of_first(neighbors.size(), neighbors, points, p);
-            const plane_fit fit = plane_of_least_spread(m.covariance_with_point(), 0.0);
-            // k + 1 points, less the three parameters of a plane
-            spread.push_back(std::sqrt(fit.spectrum.lambda[2] * (n + 1.0) / (n - 2.0)));
-            radius.push_back(std::sqrt(neighbors.back().squared_distance));
+            around.assign(points, i, neighbors);
+            const local_fits fits(around, around.last(), 0.0);
+            double variance = fits.left_by_plane() / fits.freedom_of_plane();
+            if (fits.has_quadric())
+                variance = std::min(variance, fits.left_by_quadric() / fits.freedom_of_quadric());
+            spread.push_back(std::sqrt(variance));
+            radius.push_back(around.radius(around.last()));
         }
         if (chosen.empty()) return 0.0;
-        sigma = quantile(spread, flat_part);
+        sigma = quantile(spread, smooth_part);
         if (k >= max_k || quantile(radius, 0.5) >= clearance * sigma) return sigma;
     }
 }

@@ -22,19 +22,27 @@ struct quadric {
     double c = 0.0;
     double e = 0.0;
     double f = 0.0;
+    double constant = 0.0;  ///< [m]
+
+    /// The height z at (x, y) [m].
+    [[nodiscard]] double operator()(double x, double y) const {
+        return (a * x + b * y + e) * x + (c * y + f) * y + constant;
+    }
 };
 
-/// Least-squares fit of all six coefficients. Solves the normal equations, so x and y should be of
-/// order 1. Needs six points.
+/// Least-squares fit of all six coefficients, and of the plane that is their first three. Solves
+/// the normal equations, so x and y should be of order 1. Needs six points.
 class least_squares_quadric {
   public:
-    /// Adds the point (x, y, z). O(1).
-    void add(double x, double y, double z) {
+    /// Adds the point (x, y, z) with a weight. O(1).
+    void add(double x, double y, double z, double weight = 1.0) {
         const std::array<double, 6> row{1.0, x, y, x * x, x * y, y * y};
         for (std::size_t i = 0; i < 6; ++i) {
-            right_[i] += row[i] * z;
-            for (std::size_t j = 0; j <= i; ++j) left_[i][j] += row[i] * row[j];
+            const double weighted = weight * row[i];
+            right_[i] += weighted * z;
+            for (std::size_t j = 0; j <= i; ++j) left_[i][j] += weighted * row[j];
         }
+        heights_ += weight * z * z;
     }
 
     /// Solves the normal equations A c = r by the decomposition A = L D L^T, in place. O(1).
@@ -60,6 +68,11 @@ class least_squares_quadric {
         for (std::size_t i = 0; i < 6; ++i) {
             for (std::size_t k = 0; k < i; ++k) right_[i] -= left_[i][k] * right_[k];
         }
+        of_plane_ = heights_;
+        for (std::size_t i = 0; i < 6; ++i) {
+            heights_ = std::max(0.0, heights_ - right_[i] * right_[i] / left_[i][i]);
+            if (i == 2) of_plane_ = heights_;
+        }
         for (std::size_t i = 6; i-- > 0;) {
             right_[i] /= left_[i][i];
             for (std::size_t k = i + 1; k < 6; ++k) right_[i] -= left_[k][i] * right_[k];
@@ -69,13 +82,20 @@ class least_squares_quadric {
 
     /// The quadric in coordinates x, y if (sx x, sy y, z) were added. Precondition: solved.
     [[nodiscard]] quadric solution(double sx, double sy) const {
-        return {right_[3] * sx * sx, right_[4] * sx * sy, right_[5] * sy * sy, right_[1] * sx,
-                right_[2] * sy};
+        return {right_[3] * sx * sx, right_[4] * sx * sy, right_[5] * sy * sy,
+                right_[1] * sx,      right_[2] * sy,      right_[0]};
     }
+
+    /// The weighted sum of squares [m^2] of the heights over the quadric. Precondition: solved.
+    [[nodiscard]] double squared_residual() const { return heights_; }
+    /// The same over the plane z = constant + e x + f y that fits best. Precondition: solved.
+    [[nodiscard]] double squared_residual_of_plane() const { return of_plane_; }
 
   private:
     square_array<6> left_ = {};         // A, then L and D; lower triangle
     std::array<double, 6> right_ = {};  // r, then the coefficients
+    double heights_ = 0.0;              // sum of w z^2, then what the quadric leaves of it [m^2]
+    double of_plane_ = 0.0;             // what the plane leaves of it [m^2]
 };
 
 /// Fit by the unit vector [a' b' c' d'] that minimizes the sum of squares of
