@@ -11,6 +11,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <cstdio>
 #include <exception>
@@ -59,9 +60,16 @@ constexpr const char* usage =
     "  --meshes FOLDER  with octagonal_pocket.stl, featuretype.stl and wingnut.obj;\n"
     "                   the default is ../shared/data/normals_truth\n";
 
+/// The time of `work` [s].
+double time_of(auto&& work) {
+    const auto start = std::chrono::steady_clock::now();
+    work();
+    return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+}
+
 /// Every method, with every k, on a cloud.
-std::vector<measurement> measured(const cloud& data, const plan& p) {
-    std::vector<measurement> result;
+void measure(cloud_report& report, const cloud& data, const plan& p) {
+    std::vector<measurement>& result = report.measured;
     const std::span truth = std::span(data.normals).first(p.tests);
     const auto enter = [&](const char* method, std::size_t k, const auto& surface) {
         const auto q = gnomon::quality_of(std::span(surface).first(p.tests), truth);
@@ -92,8 +100,15 @@ std::vector<measurement> measured(const cloud& data, const plan& p) {
 #ifdef GNOMON_BENCHMARKS_PCL
     for (const std::size_t k : p.ks) enter("PCL", k, pcl_planes(data.points, nearest, k));
 #endif
-    enter(ours, 0, gnomon::estimate_normals(data.points, gnomon::feature_preserving{}));
-    return result;
+    std::vector<gnomon::surfel<gnomon::plane_fit>> surface;
+    const double time = time_of(
+        [&] { surface = gnomon::estimate_normals(data.points, gnomon::feature_preserving{}); });
+    enter(ours, 0, surface);
+    report.time_ratio =
+        time / time_of([&] {
+            (void)gnomon::estimate_normals(data.points, gnomon::knn{.k = 30}(data.points),
+                                           gnomon::plane_pca{});
+        });
 }
 
 /// All clouds, by shape and then by column.
@@ -101,13 +116,13 @@ std::vector<cloud_report> reports_of(const std::vector<shape>& shapes, const pla
     std::vector<cloud_report> reports;
     for (const shape& s : shapes) {
         for (std::size_t c = 0; s.boundary && c < columns.size(); ++c)
-            reports.push_back({&s, c, {}});
+            reports.push_back({&s, c, {}, 0.0});
     }
     std::atomic<int> done{0};
     gnomon::threads{}(reports.size(), [&](std::size_t i) {
         cloud_report& r = reports[i];
         const column& c = columns[r.column];
-        r.measured = measured(make_cloud(*r.of->boundary, c, p.points, r.of->seed), p);
+        measure(r, make_cloud(*r.of->boundary, c, p.points, r.of->seed), p);
         std::fprintf(stderr, "%d of %zu clouds: %s, %s\n", ++done, reports.size(), r.of->name,
                      c.name);
     });
@@ -134,16 +149,20 @@ void print_others([[maybe_unused]] const shape& s, [[maybe_unused]] const plan& 
 
 void run(const plan& p) {
     std::vector<shape> shapes;
-    std::array<int, 2> taken{};  // of each half
+    std::array<int, 3> taken{};  // of each part
     for (const shape& s : all_shapes(p.meshes)) {
-        if (!p.quick || taken[s.held_out ? 1 : 0]++ < 2) shapes.push_back(s);
+        if (!p.quick || taken[static_cast<std::size_t>(s.of_list)]++ < 2) shapes.push_back(s);
     }
     const std::vector<cloud_report> reports = reports_of(shapes, p);
-    std::vector<const cloud_report*> all;
+    std::vector<const cloud_report*> all, smooth;
     std::array<std::vector<const cloud_report*>, 2> half;
     for (const cloud_report& r : reports) {
+        if (r.of->of_list == part::smooth) {
+            if (columns[r.column].noise == 0.0) smooth.push_back(&r);
+            continue;
+        }
         all.push_back(&r);
-        half[r.of->held_out ? 1 : 0].push_back(&r);
+        half[r.of->of_list == part::held_out ? 1 : 0].push_back(&r);
     }
 
     std::printf(
@@ -160,6 +179,13 @@ void run(const plan& p) {
     print_methods("all shapes", all, ours, rivals);
     for (const std::string& rival : rivals) print_choice_of_k(all, rival);
     for (const std::string& rival : rivals) print_duel(all, ours, rival);
+    std::printf("\n");
+    for (const std::string& rival : rivals) {
+        print_own_k("all shapes", all, ours, rival);
+        print_own_k("held-out half", half[1], ours, rival);
+        print_own_k("smooth shapes without noise", smooth, ours, rival);
+    }
+    print_times(all, ours);
 }
 
 /// @throws std::invalid_argument  for a word that makes no sense

@@ -8242,6 +8242,366 @@ void estimate_normals(const R& points, const N& neighborhood, const E& not_an_es
 
 }  // namespace gnomon
 
+// -------- gnomon/core/detail/least_squares_quadric.hpp -------------------------------------------
+
+/// @file
+/// Quadrics as heights z over a plane, and their fit by least squares: normal equations in
+/// fixed-size arrays, which take a tenth of the compile time of Eigen expressions.
+
+namespace gnomon::detail {
+
+/// The quadric z = a x^2 + b x y + c y^2 + e x + f y + constant. Units: a, b, c [1/m]; e, f [1].
+struct quadric {
+    double a = 0.0;
+    double b = 0.0;
+    double c = 0.0;
+    double e = 0.0;
+    double f = 0.0;
+    double constant = 0.0;  ///< [m]
+
+    /// The height z at (x, y) [m].
+    [[nodiscard]] double operator()(double x, double y) const {
+        return (a * x + b * y + e) * x + (c * y + f) * y + constant;
+    }
+};
+
+/// Least-squares fit of all six coefficients, and of the plane that is their first three. Solves
+/// the normal equations, so x and y should be of order 1. Needs six points.
+class least_squares_quadric {
+  public:
+    /// Adds the point (x, y, z) with a weight. O(1).
+    void add(double x, double y, double z, double weight = 1.0) {
+        const std::array<double, 6> row{1.0, x, y, x * x, x * y, y * y};
+        for (std::size_t i = 0; i < 6; ++i) {
+            const double weighted = weight * row[i];
+            right_[i] += weighted * z;
+            for (std::size_t j = 0; j <= i; ++j) left_[i][j] += weighted * row[j];
+        }
+        heights_ += weight * z * z;
+    }
+
+    /// Solves the normal equations A c = r by the decomposition A = L D L^T, in place. O(1).
+    /// @return the minimum of D_j / A_jj over all columns j, in [0, 1]: the fraction of a column
+    ///         that the preceding columns do not explain. The system is singular if it is zero up
+    ///         to rounding.
+    double solve() {
+        double least = 1.0;
+        for (std::size_t j = 0; j < 6; ++j) {
+            const double all = left_[j][j];
+            for (std::size_t k = 0; k < j; ++k) {
+                left_[j][j] -= left_[j][k] * left_[j][k] * left_[k][k];
+            }
+            if (!(left_[j][j] > 0.0)) return 0.0;
+            least = std::min(least, left_[j][j] / all);
+            for (std::size_t i = j + 1; i < 6; ++i) {
+                for (std::size_t k = 0; k < j; ++k) {
+                    left_[i][j] -= left_[i][k] * left_[j][k] * left_[k][k];
+                }
+                left_[i][j] /= left_[j][j];
+            }
+        }
+        for (std::size_t i = 0; i < 6; ++i) {
+            for (std::size_t k = 0; k < i; ++k) right_[i] -= left_[i][k] * right_[k];
+        }
+        of_plane_ = heights_;
+        for (std::size_t i = 0; i < 6; ++i) {
+            heights_ = std::max(0.0, heights_ - right_[i] * right_[i] / left_[i][i]);
+            if (i == 2) of_plane_ = heights_;
+        }
+        for (std::size_t i = 6; i-- > 0;) {
+            right_[i] /= left_[i][i];
+            for (std::size_t k = i + 1; k < 6; ++k) right_[i] -= left_[k][i] * right_[k];
+        }
+        return least;
+    }
+
+    /// The quadric in coordinates x, y if (sx x, sy y, z) were added. Precondition: solved.
+    [[nodiscard]] quadric solution(double sx, double sy) const {
+        return {right_[3] * sx * sx, right_[4] * sx * sy, right_[5] * sy * sy,
+                right_[1] * sx,      right_[2] * sy,      right_[0]};
+    }
+
+    /// The weighted sum of squares [m^2] of the heights over the quadric. Precondition: solved.
+    [[nodiscard]] double squared_residual() const { return heights_; }
+    /// The same over the plane z = constant + e x + f y that fits best. Precondition: solved.
+    [[nodiscard]] double squared_residual_of_plane() const { return of_plane_; }
+
+  private:
+    square_array<6> left_ = {};         // A, then L and D; lower triangle
+    std::array<double, 6> right_ = {};  // r, then the coefficients
+    double heights_ = 0.0;              // sum of w z^2, then what the quadric leaves of it [m^2]
+    double of_plane_ = 0.0;             // what the plane leaves of it [m^2]
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/tangent_basis.hpp ------------------------------------------------
+
+/// @file
+/// Coordinates of directions near a unit normal: an orthonormal basis of the tangent plane, the
+/// exponential and the logarithm of the unit sphere, and symmetric matrices of the tangent plane.
+
+namespace gnomon::detail {
+
+/// A symmetric 2 x 2 matrix in the coordinates (b1, b2) of a tangent basis.
+struct tangent_matrix {
+    double p11, p12, p22;
+
+    /// x^2 p11 + 2 x y p12 + y^2 p22
+    [[nodiscard]] double along(double x, double y) const {
+        return x * x * p11 + 2.0 * x * y * p12 + y * y * p22;
+    }
+    /// Adds the outer product of (x, y) with itself, times a weight.
+    void add(double weight, double x, double y) {
+        p11 += weight * x * x;
+        p12 += weight * x * y;
+        p22 += weight * y * y;
+    }
+};
+
+/// A unit normal and an orthonormal basis (b1, b2) of its tangent plane.
+struct tangent_basis {
+    Eigen::Vector3d normal, b1, b2;
+
+    explicit tangent_basis(const Eigen::Vector3d& n)
+        : normal(n), b1(orthogonal(n)), b2(cross(n, b1)) {}
+
+    /// The basis at n that is rotated least against a nearby one, so that coordinates keep their
+    /// meaning.
+    tangent_basis(const Eigen::Vector3d& n, const tangent_basis& nearby) : normal(n) {
+        const Eigen::Vector3d e = combined(1.0, nearby.b1, -dot(n, nearby.b1), n);
+        b1 = scaled(1.0 / length(e), e);
+        b2 = cross(n, b1);
+    }
+
+    /// The exponential map: the normal rotated by the angles (d1, d2) [rad].
+    [[nodiscard]] Eigen::Vector3d moved(double d1, double d2) const {
+        const double angle = std::hypot(d1, d2);
+        if (angle == 0.0) return normal;
+        const double s = std::sin(angle) / angle;
+        return combined(std::cos(angle), normal, s * d1, b1, s * d2, b2);
+    }
+
+    /// The logarithm map: the rotation (d1, d2, 0) [rad] from the normal to n or -n, whichever is
+    /// nearer.
+    [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& n) const {
+        const double along = dot(n, normal);
+        const double x = dot(n, b1);
+        const double y = dot(n, b2);
+        const double across = std::hypot(x, y);
+        if (across == 0.0) return {0.0, 0.0, 0.0};
+        const double s = std::copysign(std::atan2(across, std::abs(along)) / across, along);
+        return {s * x, s * y, 0.0};
+    }
+
+    /// The restriction of a symmetric 3 x 3 matrix to the tangent plane.
+    [[nodiscard]] tangent_matrix restricted(const Eigen::Matrix3d& m) const {
+        const Eigen::Vector3d m1 = product(m, b1);
+        return {dot(b1, m1), dot(b2, m1), dot(b2, product(m, b2))};
+    }
+
+    /// The 3 x 3 matrix of a matrix of the tangent plane; the normal is in its null space.
+    [[nodiscard]] Eigen::Matrix3d in_space(const tangent_matrix& p) const {
+        Eigen::Matrix3d m = diagonal(0.0, 0.0, 0.0);
+        add_outer(m, p.p11, b1, b1);
+        add_outer(m, p.p12, b1, b2);
+        add_outer(m, p.p12, b2, b1);
+        add_outer(m, p.p22, b2, b2);
+        return m;
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/local_surface.hpp ------------------------------------------------
+
+/// @file
+/// The simplest surface through a neighborhood that the noise does not reject: a plane, or else a
+/// quadric over it (the jet of degree 2 of Cazals and Pouget 2005). Across an edge both are
+/// rejected.
+
+namespace gnomon::detail {
+
+/// A point and its neighbors, nearest first. The point is number 0, its neighbors are 1 ... last().
+struct surroundings {
+    std::vector<point_index> index;
+    std::vector<Eigen::Vector3d> offset;  ///< from the point [m]
+
+    /// Those of point i, whose neighbors are sorted by distance.
+    void assign(const auto& points, std::size_t i, const auto& neighbors) {
+        const Eigen::Vector3d p = points[i];
+        index.assign(1, static_cast<point_index>(i));
+        offset.assign(1, {0.0, 0.0, 0.0});
+        for (const neighbor& q : neighbors) {
+            index.push_back(q.index);
+            offset.push_back(difference(points[q.index], p));
+        }
+    }
+
+    [[nodiscard]] std::size_t last() const { return index.size() - 1; }
+    /// The distance [m] of neighbor k.
+    [[nodiscard]] double radius(std::size_t k) const { return length(offset[k]); }
+
+    /// The mean distance [m] of the first k neighbors.
+    [[nodiscard]] double mean_distance(std::size_t k) const {
+        double sum = 0.0;
+        for (std::size_t l = 1; l <= k; ++l) sum += length(offset[l]);
+        return k > 0 ? sum / static_cast<double>(k) : 0.0;
+    }
+};
+
+/// A surface near a point p: the positions p + x whose height over `base` is `height` there.
+struct local_surface {
+    plane_fit fit;  ///< the normal at p; spectrum and trust of the points it was fitted to
+    tangent_basis base{Eigen::Vector3d(0.0, 0.0, 1.0)};
+    quadric height;              ///< a constant if the surface is no more than a plane
+    bool curved = false;         ///< a quadric
+    bool settled = false;        ///< the noise does not reject it, and hardly tilts it
+    point_index neighbors = 0;   ///< the number of neighbors, chosen by the noise
+    double mean_distance = 0.0;  ///< to them [m]
+
+    /// The height [m] of p + x over the surface.
+    [[nodiscard]] double residual(const Eigen::Vector3d& x) const {
+        const double z = dot(base.normal, x);
+        return z - (curved ? height(dot(base.b1, x), dot(base.b2, x)) : height.constant);
+    }
+
+    /// The normal, of unit length, of the surface below p + x.
+    [[nodiscard]] Eigen::Vector3d normal_at(const Eigen::Vector3d& x) const {
+        if (!curved) return base.normal;
+        const double a = dot(base.b1, x);
+        const double b = dot(base.b2, x);
+        return direction_of(combined(1.0, base.normal,  //
+                                     -(2.0 * height.a * a + height.b * b + height.e), base.b1,
+                                     -(height.b * a + 2.0 * height.c * b + height.f), base.b2));
+    }
+
+    /// Makes it a plane.
+    void become(const plane_fit& plane, double offset) {
+        fit = plane;
+        base = tangent_basis(plane.normal);
+        height = {};
+        height.constant = offset;
+        curved = false;
+    }
+    /// Makes it a quadric over the same base.
+    void become(const quadric& heights) {
+        height = heights;
+        curved = true;
+        fit.normal = normal_at({0.0, 0.0, 0.0});
+    }
+
+    /// The same surface, of which the point is at `from` [m], as a surface near the position there.
+    [[nodiscard]] local_surface seen_from(const Eigen::Vector3d& from) const {
+        local_surface s = *this;
+        s.height.constant -= dot(base.normal, from);
+        if (!curved) return s;
+        const double a = dot(base.b1, from);
+        const double b = dot(base.b2, from);
+        s.height.constant += height(a, b) - height.constant;
+        s.height.e += 2.0 * height.a * a + height.b * b;
+        s.height.f += height.b * a + 2.0 * height.c * b;
+        s.fit.normal = s.normal_at({0.0, 0.0, 0.0});
+        return s;
+    }
+};
+
+/// The plane of least squares of a point and its first k neighbors, and the quadric over it.
+/// Precondition: k >= 2.
+class local_fits {
+  public:
+    local_fits(const surroundings& around, std::size_t k, double min_aspect_ratio)
+        : count_(static_cast<double>(k + 1)) {
+        moments m;
+        for (std::size_t l = 1; l <= k; ++l) m.add(around.offset[l]);
+        const plane_fit fit = plane_of_least_spread(m.covariance_with_point(), min_aspect_ratio);
+        plane_.become(fit, dot(fit.normal, m.mean_with_point()));
+        of_plane_ = of_quadric_ = count_ * fit.spectrum.lambda[2];
+        constexpr std::size_t fewest = 7;  // one more than a quadric has coefficients
+        if (k < fewest || !usable(fit.trust)) return;
+        const tangent_basis& base = plane_.base;
+        const double scale = 1.0 / around.radius(k);
+        least_squares_quadric heights;
+        for (std::size_t l = 0; l <= k; ++l) {
+            const Eigen::Vector3d& x = around.offset[l];
+            heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x));
+        }
+        has_quadric_ = heights.solve() > least_independence;
+        if (!has_quadric_) return;
+        quadric_ = heights.solution(scale, scale);
+        of_quadric_ = heights.squared_residual();
+    }
+
+    /// What a quadric's coefficients must have of their own, else they are not determined.
+    static constexpr double least_independence = 1e-6;
+
+    [[nodiscard]] const local_surface& plane() const { return plane_; }
+    [[nodiscard]] bool has_quadric() const { return has_quadric_; }
+    /// Precondition: has_quadric().
+    [[nodiscard]] local_surface curved() const {
+        local_surface s = plane_;
+        s.become(quadric_);
+        return s;
+    }
+
+    /// The sums of squared residuals [m^2].
+    [[nodiscard]] double left_by_plane() const { return of_plane_; }
+    [[nodiscard]] double left_by_quadric() const { return of_quadric_; }
+    /// The numbers of points, less those of coefficients.
+    [[nodiscard]] double freedom_of_plane() const { return count_ - 3.0; }
+    [[nodiscard]] double freedom_of_quadric() const { return count_ - 6.0; }
+
+  private:
+    local_surface plane_;
+    quadric quadric_;
+    bool has_quadric_ = false;
+    double count_, of_plane_ = 0.0, of_quadric_ = 0.0;
+};
+
+/// The standard deviation of the slopes of a plane that is fitted to k points over a disc of radius
+/// r [m]: 2 noise / (r sqrt(k)).
+[[nodiscard]] inline double deviation_of_slope(double noise, double r, std::size_t k) {
+    return 2.0 * noise / (r * std::sqrt(static_cast<double>(k)));
+}
+
+/// The simplest surface that the noise does not reject near a point, by a neighborhood of `judged`
+/// points at least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
+/// Precondition: 2 <= k <= around.last().
+/// @param noise  across the surface [m]
+[[nodiscard]] inline local_surface simplest_surface(const surroundings& around, std::size_t k,
+                                                    double noise, double min_aspect_ratio) {
+    constexpr std::size_t judged = 16;
+    constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
+    constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves
+    constexpr double digits = 1e-6;    // of the radius, that count as noise
+    constexpr double sure = 0.01;      // standard deviation of the slopes [rad]
+    const std::size_t wide = std::min(std::max(k, judged), around.last());
+    const local_fits fits(around, k, min_aspect_ratio);
+    local_surface surface = fits.plane();
+    if (wide < fewest || !usable(surface.fit.trust)) return surface;
+
+    const local_fits all = k < wide ? local_fits(around, wide, min_aspect_ratio) : fits;
+    if (!usable(all.plane().fit.trust)) return surface;
+    const double least = std::max(noise, digits * around.radius(wide));
+    // Three standard deviations of a sum of squares above its mean.
+    const auto limit = [&](double freedom) {
+        return least * least * (freedom + 3.0 * std::sqrt(2.0 * freedom));
+    };
+    double left = all.left_by_plane() / all.freedom_of_plane();
+    if (all.left_by_plane() > limit(all.freedom_of_plane())) {
+        const bool accepted = all.has_quadric() && fits.has_quadric() &&
+                              all.left_by_quadric() <= std::max(limit(all.freedom_of_quadric()),
+                                                                bent * all.left_by_plane());
+        if (!accepted) return surface;
+        surface = fits.curved();
+        left = all.left_by_quadric() / all.freedom_of_quadric();
+    }
+    surface.settled = deviation_of_slope(std::sqrt(left), around.radius(k), k) < sure;
+    return surface;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/detail/weighted_moments.hpp ------------------------------------------------
 
 /// @file
@@ -8280,45 +8640,14 @@ struct weighted_moments {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/normals/detail/shifted_plane.hpp ------------------------------------------------
+// -------- gnomon/normals/detail/shifted_surface.hpp ----------------------------------------------
 
 /// @file
-/// The two steps of `feature_preserving` that use the planes of the neighbors: the selection of the
-/// plane that fits a point best, its own or a neighbor's, and the bilateral mean of the normals of
-/// the neighbors.
+/// The two steps of `feature_preserving` that use the surfaces of the neighbors: the selection of
+/// the surface that fits a point best, its own or a neighbor's, and the bilateral mean of the
+/// normals that the neighbors' surfaces have at the point.
 
 namespace gnomon::detail {
-
-/// A plane fitted at a point p: {p + x : <normal, x> = offset}.
-struct local_plane {
-    plane_fit fit;
-    double offset = 0.0;         ///< from the point along the normal [m]
-    point_index neighbors = 0;   ///< the number of neighbors, chosen by the noise
-    double mean_distance = 0.0;  ///< to them [m]
-
-    /// The signed distance [m] of the position p + x from the plane.
-    [[nodiscard]] double residual(const Eigen::Vector3d& x) const {
-        return dot(fit.normal, x) - offset;
-    }
-};
-
-/// The neighborhood of a point: the point itself, then its neighbors, nearest first, with their
-/// offsets from the point.
-struct surroundings {
-    std::vector<point_index> index;
-    std::vector<Eigen::Vector3d> way;  ///< from the point to it [m]
-
-    [[nodiscard]] std::size_t size() const { return index.size(); }
-    [[nodiscard]] double radius() const { return length(way.back()); }
-
-    /// The plane of member a, with its offset from the point.
-    [[nodiscard]] local_plane plane_of(std::size_t a,
-                                       const std::vector<local_plane>& planes) const {
-        local_plane plane = planes[index[a]];
-        plane.offset += dot(plane.fit.normal, way[a]);
-        return plane;
-    }
-};
 
 /// exp(-x), or 0 for x of 12 and more, where it is below 1e-5: performance only.
 [[nodiscard]] inline double decay(double x) { return x < 12.0 ? std::exp(-x) : 0.0; }
@@ -8326,78 +8655,98 @@ struct surroundings {
 /// exp(-d^2 / 2) of a distance d in standard deviations.
 [[nodiscard]] inline double gaussian(double d) { return decay(0.5 * d * d); }
 
-/// Among the planes of the neighborhood, the one that the point and most of its neighbors lie on.
-/// Near an edge it is the plane of a neighbor whose own neighborhood does not cross the edge: a
-/// shifted neighborhood (Cao et al. 2018). Precondition: the plane of the point itself is usable.
-/// @param deviation  standard deviation of points from their plane [m]
-[[nodiscard]] inline local_plane best_plane(const surroundings& neighbors,
-                                            const std::vector<local_plane>& planes,
-                                            double deviation) {
+/// Among the surfaces of a point and of its first k neighbors, the one that the point and most of
+/// its neighbors lie on. Near an edge it is the surface of a neighbor whose own neighborhood does
+/// not cross the edge: a shifted neighborhood (Cao et al. 2018). Precondition: that of the point
+/// itself is usable.
+/// @param deviation  standard deviation of points from their surface [m]
+[[nodiscard]] inline local_surface best_surface(const surroundings& around, std::size_t k,
+                                                const std::vector<local_surface>& surfaces,
+                                                double deviation) {
     constexpr std::size_t candidates = 24,
                           samples = 32;  // of a large neighborhood: performance only
-    const std::size_t each_candidate =
-        std::max<std::size_t>(1, (neighbors.size() - 1) / candidates);
-    const std::size_t each_sample = std::max<std::size_t>(1, (neighbors.size() - 1) / samples);
-    const auto most = static_cast<double>((neighbors.size() - 1) / each_sample + 1);
-    local_plane best = planes[neighbors.index[0]];
+    const std::size_t each_candidate = std::max<std::size_t>(1, k / candidates);
+    const std::size_t each_sample = std::max<std::size_t>(1, k / samples);
+    const auto most = static_cast<double>(k / each_sample + 1);
+    std::size_t best = 0;
     double best_score = -1.0;
-    for (std::size_t a = 0; a < neighbors.size(); a += each_candidate) {
-        if (!usable(planes[neighbors.index[a]].fit.trust)) continue;
-        const local_plane plane = neighbors.plane_of(a, planes);
-        const double own = gaussian(plane.offset / deviation);
+    for (std::size_t a = 0; a <= k; a += each_candidate) {
+        const local_surface& s = surfaces[around.index[a]];
+        if (!usable(s.fit.trust)) continue;
+        const Eigen::Vector3d& at = around.offset[a];
+        const double own = gaussian(s.residual(scaled(-1.0, at)) / deviation);
         if (own * most <= best_score) continue;
         double all = 0.0;
-        for (std::size_t l = 0; l < neighbors.size(); l += each_sample)
-            all += gaussian(plane.residual(neighbors.way[l]) / deviation);
+        for (std::size_t l = 0; l <= k; l += each_sample)
+            all += gaussian(s.residual(difference(around.offset[l], at)) / deviation);
         if (own * all > best_score) {
             best_score = own * all;
-            best = plane;
+            best = a;
         }
     }
-    return best;
+    return surfaces[around.index[best]].seen_from(scaled(-1.0, around.offset[best]));
 }
 
-/// The plane refitted to the neighborhood by iteratively reweighted least squares.
-/// @param deviation  distance from the plane at which the weight is exp(-1/2) [m]
-[[nodiscard]] inline local_plane refitted(const surroundings& neighbors, local_plane plane,
-                                          double deviation, double min_aspect_ratio) {
-    constexpr int rounds = 4;
+/// The surface refitted to the first k neighbors by iteratively reweighted least squares.
+/// @param deviation  distance from the surface at which the weight is exp(-1/2) [m]
+[[nodiscard]] inline local_surface refitted(const surroundings& around, std::size_t k,
+                                            local_surface surface, double deviation,
+                                            double min_aspect_ratio) {
+    constexpr int rounds = 3;
+    const double scale = 1.0 / around.radius(k);
     for (int i = 0; i < rounds; ++i) {
         weighted_moments m;
-        for (const Eigen::Vector3d& x : neighbors.way)
-            m.add(x, gaussian(plane.residual(x) / deviation));
+        least_squares_quadric heights;
+        const tangent_basis& base = surface.base;
+        for (std::size_t l = 0; l <= k; ++l) {
+            const Eigen::Vector3d& x = around.offset[l];
+            const double weight = gaussian(surface.residual(x) / deviation);
+            m.add(x, weight);
+            if (surface.curved)
+                heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x),
+                            weight);
+        }
         if (!(m.weight > 0.0)) break;
         const plane_fit fit = plane_of_least_spread(m.covariance(), min_aspect_ratio);
         if (!usable(fit.trust)) break;
-        plane.fit = fit;
-        plane.offset = dot(fit.normal, m.mean());
+        if (surface.curved) {
+            if (!(heights.solve() > local_fits::least_independence)) break;
+            surface.fit = fit;
+            surface.become(heights.solution(scale, scale));
+        } else {
+            surface.become(fit, dot(fit.normal, m.mean()));
+        }
     }
-    return plane;
+    return surface;
 }
 
-/// The mean of the normals of a neighborhood, as axes without sign: a bilateral filter. The weights
-/// decrease with the distance, with the angle between the normals, and with the distances of the
-/// points from each other's planes, so that normals beyond an edge or on a parallel wall have
-/// almost no weight. Precondition: the plane of the point itself is usable.
-/// @param deviation  standard deviation of points from each other's planes [m]
-[[nodiscard]] inline Eigen::Vector3d filtered_normal(const surroundings& neighbors,
-                                                     const std::vector<local_plane>& planes,
+/// The mean of the normals that the surfaces of a point and of its first k neighbors have at the
+/// point, as axes without sign: a bilateral filter. The weights decrease with the distance, with
+/// the angle between the normals, and with the distances of the points from each other's surfaces,
+/// so that normals beyond an edge or on a parallel wall have almost no weight. Precondition: the
+/// surface of the point itself is usable.
+/// @param deviation  standard deviation of points from each other's surfaces [m]
+[[nodiscard]] inline Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
+                                                     const std::vector<local_surface>& surfaces,
                                                      double deviation) {
-    constexpr double agreement = 0.8;  // standard deviation of the sine of the angle
+    constexpr double agreement = 0.6;  // standard deviation of the sine of the angle
     constexpr double nearness = 0.5;   // standard deviation of the distance, in radii
-    const local_plane& own = planes[neighbors.index[0]];
-    const double radius = neighbors.radius();
+    const local_surface& own = surfaces[around.index[0]];
+    const double radius = around.radius(k);
     weighted_moments axes;
-    for (std::size_t l = 0; l < neighbors.size(); ++l) {
-        const local_plane& other = planes[neighbors.index[l]];
+    for (std::size_t l = 0; l <= k; ++l) {
+        const local_surface& other = surfaces[around.index[l]];
         if (!usable(other.fit.trust)) continue;
-        const double cosine = dot(own.fit.normal, other.fit.normal);
-        const double here = own.residual(neighbors.way[l]) / deviation;
-        const double there = neighbors.plane_of(l, planes).offset / deviation;
-        const double far = length(neighbors.way[l]) / (nearness * radius);
+        const Eigen::Vector3d& x = around.offset[l];
+        const Eigen::Vector3d back = scaled(-1.0, x);
+        const Eigen::Vector3d normal = other.normal_at(back);
+        const double cosine = dot(own.fit.normal, normal);
+        const double here = own.residual(x) / deviation;
+        const double there = other.residual(back) / deviation;
+        const double far = length(x) / (nearness * radius);
         const double unlike = (1.0 - cosine * cosine) / (agreement * agreement) +
                               0.5 * (here * here + there * there) + far * far;
-        axes.add(other.fit.normal, decay(0.5 * unlike));
+        axes.add(normal, decay(0.5 * unlike));
     }
     if (!(axes.weight > 0.0)) return own.fit.normal;  // an outlier
     return column(symmetric_eigen(axes.second_moments()).vectors, 0);
@@ -8429,28 +8778,19 @@ namespace gnomon::detail {
 /// to know it (`prefer_small_error`, `plane_ekf`, `feature_preserving`) when the data sheet is
 /// lost.
 ///
-/// The residual of a fitted plane is noise only if the neighborhood is much wider than the noise:
-/// a ball of radius r that noise fills reads r / sqrt(5). So neighborhoods grow until their radius
-/// is four times what they read; and they must be flat, so that the value is one that 70 % of
-/// them exceed: bends and edges count only where they are nearly everywhere.
+/// The residual of a fitted plane or quadric is noise only if the neighborhood is much wider than
+/// the noise: a ball of radius r that noise fills reads r / sqrt(5). So neighborhoods grow until
+/// their radius is four times what they read; and they must be smooth, so that the value is one
+/// that 70 % of them exceed: edges count only where they are nearly everywhere.
 
 namespace gnomon {
 namespace detail {
-
-/// The moments of the first k neighbors about p.
-template <class Points>
-[[nodiscard]] moments moments_of_first(std::size_t k, const std::vector<neighbor>& neighbors,
-                                       const Points& points, const Eigen::Vector3d& p) {
-    moments m;
-    for (std::size_t l = 0; l < k; ++l) m.add(difference(points[neighbors[l].index], p));
-    return m;
-}
 
 /// `noise_level` of an index, from neighborhoods of up to max_k points.
 template <class Index>
 [[nodiscard]] double noise_level_in(const Index& points, std::size_t max_k) {
     constexpr std::size_t samples = 500;
-    constexpr double flat_part = 0.3, clearance = 4.0;
+    constexpr double smooth_part = 0.3, clearance = 4.0;
     std::vector<std::size_t> chosen;  // evenly from the finite points
     const std::size_t step = std::max<std::size_t>(1, points.finite() / samples);
     for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
@@ -8458,23 +8798,24 @@ template <class Index>
 
     double sigma = 0.0;
     std::vector<neighbor> neighbors;
+    surroundings around;
     std::vector<double> spread, radius;
     for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
         spread.clear();
         radius.clear();
         for (const std::size_t i : chosen) {
-            const Eigen::Vector3d p = points[i];
             knn{.k = k}.find(points, i, neighbors);
             if (neighbors.size() < 3) return 0.0;  // at most three points are always coplanar
-            const auto n = static_cast<double>(neighbors.size());
-            const moments m = moments_of_first(neighbors.size(), neighbors, points, p);
-            const plane_fit fit = plane_of_least_spread(m.covariance_with_point(), 0.0);
-            // k + 1 points, less the three parameters of a plane
-            spread.push_back(std::sqrt(fit.spectrum.lambda[2] * (n + 1.0) / (n - 2.0)));
-            radius.push_back(std::sqrt(neighbors.back().squared_distance));
+            around.assign(points, i, neighbors);
+            const local_fits fits(around, around.last(), 0.0);
+            double variance = fits.left_by_plane() / fits.freedom_of_plane();
+            if (fits.has_quadric())
+                variance = std::min(variance, fits.left_by_quadric() / fits.freedom_of_quadric());
+            spread.push_back(std::sqrt(variance));
+            radius.push_back(around.radius(around.last()));
         }
         if (chosen.empty()) return 0.0;
-        sigma = quantile(spread, flat_part);
+        sigma = quantile(spread, smooth_part);
         if (k >= max_k || quantile(radius, 0.5) >= clearance * sigma) return sigma;
     }
 }
@@ -8506,17 +8847,19 @@ template <class R, execution X = sequential, class Proj = std::identity>
 /// noisy clouds, dense and thin ones. Estimators see one neighborhood; this method sees the cloud,
 /// in three sweeps over it:
 ///
-///  1. fit     PlanePCA of the fewest neighbors with which the noise tilts the normal by no more
-///             than `tilt` (Mitra, Nguyen and Guibas 2004).
-///  2. shift   Each point selects, among its own plane and those of its neighbors, the plane that
+///  1. fit     The simplest surface, a plane or else a quadric, that the noise does not reject, of
+///             the fewest neighbors with which the noise tilts the normal by no more than `tilt`
+///             (Mitra, Nguyen and Guibas 2004). Where the noise hardly tilts it, as on clean smooth
+///             surfaces, that is all.
+///  2. shift   Each point selects, among its own surface and those of its neighbors, the one that
 ///             fits the point and its neighbors best; near an edge, that of a neighbor whose
 ///             neighborhood does not cross the edge (shifted neighborhoods, Cao et al. 2018). The
-///             plane is then fitted again to its inliers.
-///  3. filter  A bilateral filter of the normals, weighted by the angle between them and by the
-///             distances of the points to each other's planes (Zheng et al. 2011, for meshes).
+///             surface is then fitted again to its inliers.
+///  3. filter  A bilateral filter of the normals that the surfaces of the neighbors have at the
+///             point, weighted by the angle between them and by the distances of the points from
+///             each other's surfaces (Zheng et al. 2011, for meshes).
 ///
-/// Not suitable for smooth surfaces without noise, where planes are biased and jets are not, and
-/// for clouds whose noise varies strongly, since one `noise` is used for all points.
+/// Not suitable for clouds whose noise varies strongly, since one `noise` is used for all points.
 
 namespace gnomon {
 
@@ -8526,7 +8869,7 @@ struct feature_preserving {
     std::optional<double> noise = {};  ///< across the surface [m]; else what `noise_level` finds
     double tilt = 0.05;             ///< standard deviation of a first normal that is allowed [rad]
     std::size_t min_k = 8;          ///< fewest neighbors of a first fit
-    std::size_t max_k = 255;        ///< most neighbors, for the sake of time
+    std::size_t max_k = 128;        ///< most neighbors, for the sake of time
     double min_aspect_ratio = 0.1;  ///< sigma_ar below which the normal is weak
 };
 
@@ -8540,84 +8883,95 @@ class feature_preserving_sweeps {
     feature_preserving_sweeps(const feature_preserving& options, const Index& points, double noise)
         : options_(options), points_(points), noise_(noise) {}
 
-    /// Sweep 1, for point i. Searches as many neighbors as were enough for the last point first.
-    local_plane fitted(std::size_t i, std::vector<neighbor>& neighbors, std::size_t& enough) const {
-        const Eigen::Vector3d p = points_[i];
-        std::size_t k = options_.min_k;
-        enough = std::max(enough, k);
-        knn{.k = enough}.find(points_, i, neighbors);
-        // A plane over a disc of radius r: its slopes have the deviation 2 noise / (r sqrt(k)).
-        const auto too_tilted = [&] {
-            const double r2 = neighbors[k - 1].squared_distance;
-            return 2.0 * noise_ > options_.tilt * std::sqrt(r2 * static_cast<double>(k));
-        };
-        while (k <= neighbors.size() && k < options_.max_k && too_tilted()) {
-            k = std::min(options_.max_k, k + std::max<std::size_t>(1, k / 6));
-            if (k <= enough) continue;
-            enough = std::min(options_.max_k, k + k / 2);
-            knn{.k = enough}.find(points_, i, neighbors);
-        }
-        enough = k + k / 4;
-        k = std::min(k, neighbors.size());
-        local_plane plane;
-        plane.neighbors = static_cast<point_index>(k);
-        if (k < 2) return plane;
-        for (std::size_t l = 0; l < k; ++l)
-            plane.mean_distance += std::sqrt(neighbors[l].squared_distance);
-        plane.mean_distance /= static_cast<double>(k);
-        const moments m = moments_of_first(k, neighbors, points_, p);
-        plane.fit = plane_of_least_spread(m.covariance_with_point(), options_.min_aspect_ratio);
-        plane.offset = dot(plane.fit.normal, m.mean_with_point());
-        return plane;
+    /// The surfaces of sweep 1.
+    [[nodiscard]] std::vector<local_surface> fitted(const auto& run) const {
+        return made_by(run, [&](const surroundings& around) {
+            std::size_t k = std::min(options_.min_k, around.last());
+            const std::size_t most = std::min(options_.max_k, around.last());
+            const auto too_tilted = [&] {
+                return !(deviation_of_slope(noise_, around.radius(k), k) <= options_.tilt);
+            };
+            while (k < most && too_tilted())
+                k = std::min(most, k + std::max<std::size_t>(1, k / 6));
+            local_surface s;
+            if (k >= 2) s = simplest_surface(around, k, noise_, options_.min_aspect_ratio);
+            s.neighbors = static_cast<point_index>(k);
+            s.mean_distance = around.mean_distance(k);
+            return s;
+        });
     }
 
-    /// Sweep 2, for point i with the planes of sweep 1.
-    local_plane shifted(std::size_t i, const std::vector<local_plane>& planes,
-                        std::vector<neighbor>& found, surroundings& neighbors) const {
-        constexpr std::size_t sight = 32;  // neighbors, to see beyond an edge
-        constexpr double honest = 2.4;     // noise deviations that a point may be off its plane,
-        constexpr double bend = 0.004;  // and radii of the neighbors, for curvature that is no edge
-        constexpr double wider = 2.5;   // once the side is decided, more points make less noise
-        if (!usable(planes[i].fit.trust)) return planes[i];
-        look_around(i, std::max<std::size_t>(sight, planes[i].neighbors), found, neighbors);
-        const double deviation = std::hypot(honest * noise_, bend * neighbors.radius());
-        local_plane plane = planes[i];
-        const local_plane best = refitted(neighbors, best_plane(neighbors, planes, deviation),
-                                          wider * deviation, options_.min_aspect_ratio);
-        plane.fit = best.fit;
-        plane.offset = best.offset;
-        return plane;
+    /// The surfaces of sweep 2, from those of sweep 1.
+    [[nodiscard]] std::vector<local_surface> shifted(const std::vector<local_surface>& surfaces,
+                                                     const auto& run) const {
+        constexpr double honest = 2.4;  // noise deviations that a point may be off its surface,
+        constexpr double bend = 0.004;  // and radii of the neighbors, for bends of planes
+        constexpr double wider = 2.0;   // once the side is decided, more points make less noise
+        return made_by(run, [&](const surroundings& around) {
+            local_surface s = surfaces[around.index[0]];
+            if (!usable(s.fit.trust) || s.settled) return s;
+            const std::size_t k =
+                std::min(std::max<std::size_t>(sight, s.neighbors), around.last());
+            const double deviation = std::hypot(honest * noise_, bend * around.radius(k));
+            const local_surface best =
+                refitted(around, k, best_surface(around, k, surfaces, deviation), wider * deviation,
+                         options_.min_aspect_ratio);
+            s.fit = best.fit;
+            s.base = best.base;
+            s.height = best.height;
+            s.curved = best.curved;
+            return s;
+        });
     }
 
-    /// Sweep 3, for point i with the planes of sweep 2.
-    surfel<plane_fit> filtered(std::size_t i, const std::vector<local_plane>& planes,
-                               std::vector<neighbor>& found, surroundings& neighbors) const {
-        constexpr std::size_t fewest = 16, most = 128;
-        constexpr double honest = 2.0, bend = 0.05;
-        surfel<plane_fit> s;
-        static_cast<plane_fit&>(s) = planes[i].fit;
-        s.neighbors = planes[i].neighbors;
-        s.mean_distance = planes[i].mean_distance;
-        if (!usable(s.trust)) return s;
-        look_around(i, std::clamp<std::size_t>(s.neighbors, fewest, most), found, neighbors);
-        s.normal = filtered_normal(neighbors, planes,
-                                   std::hypot(honest * noise_, bend * neighbors.radius()));
-        const bool coarse = is_coarse(points_.epsilon(), points_[i], s.mean_distance);
-        if (coarse && s.trust == trust::good) s.trust = trust::weak;
-        return s;
+    /// The normals of sweep 3, from the surfaces of sweep 2.
+    [[nodiscard]] std::vector<surfel<plane_fit>> filtered(
+        const std::vector<local_surface>& surfaces, const auto& run) const {
+        constexpr std::size_t fewest = 16;
+        constexpr double honest = 2.0, bend = 0.05;  // as in sweep 2, for normals
+        std::vector<surfel<plane_fit>> result(points_.size());
+        for (std::size_t i = 0; i < points_.size(); ++i)
+            if (!points_.is_finite(i)) result[i].trust = trust::not_finite;
+        for_each_point(run, [&](std::size_t i, const surroundings& around) {
+            const local_surface& own = surfaces[i];
+            surfel<plane_fit>& s = result[i];
+            static_cast<plane_fit&>(s) = own.fit;
+            s.neighbors = own.neighbors;
+            s.mean_distance = own.mean_distance;
+            if (!usable(s.trust)) return;
+            if (!own.settled) {
+                const std::size_t k =
+                    std::min(std::max<std::size_t>(fewest, own.neighbors), around.last());
+                s.normal = filtered_normal(around, k, surfaces,
+                                           std::hypot(honest * noise_, bend * around.radius(k)));
+            }
+            const bool coarse = is_coarse(points_.epsilon(), points_[i], s.mean_distance);
+            if (coarse && s.trust == trust::good) s.trust = trust::weak;
+        });
+        return result;
     }
 
   private:
-    void look_around(std::size_t i, std::size_t k, std::vector<neighbor>& found,
-                     surroundings& neighbors) const {
-        const Eigen::Vector3d p = points_[i];
-        knn{.k = k}.find(points_, i, found);
-        neighbors.index.assign(1, static_cast<point_index>(i));
-        neighbors.way.assign(1, {0.0, 0.0, 0.0});
-        for (const neighbor& q : found) {
-            neighbors.index.push_back(q.index);
-            neighbors.way.push_back(difference(points_[q.index], p));
-        }
+    static constexpr std::size_t sight = 32;  // neighbors, to see beyond an edge
+
+    /// each(i, around) for every finite point.
+    void for_each_point(const auto& run, const auto& each) const {
+        const auto make_visitor = [&] {
+            return [this, &each, sorted = std::vector<neighbor>(), around = surroundings()](
+                       std::size_t i, const auto& found) mutable {
+                found.sort_into(sorted);
+                around.assign(points_, i, sorted);
+                each(i, around);
+            };
+        };
+        knn{.k = std::max(sight, options_.max_k)}.sweep(points_, run, make_visitor);
+    }
+
+    [[nodiscard]] std::vector<local_surface> made_by(const auto& run, const auto& make) const {
+        std::vector<local_surface> surfaces(points_.size());
+        for_each_point(
+            run, [&](std::size_t i, const surroundings& around) { surfaces[i] = make(around); });
+        return surfaces;
     }
 
     const feature_preserving& options_;
@@ -8635,10 +8989,10 @@ class feature_preserving_sweeps {
 /// @param run         `sequential{}` or `threads{n}`; the result is the same bytes
 /// @param projection  makes a point of an element of the range
 /// @return n surface elements, as an estimator that returns `plane_fit` gives them; the spectrum is
-///         that of the weighted neighbors after the last sweep, `neighbors` the k of the first
+///         that of the points that the surface was last fitted to, `neighbors` the k of the first
 /// @throws std::invalid_argument  unless 2 <= min_k <= max_k, tilt > 0 and noise >= 0, both finite
-/// Complexity: three searches and about 2,000 exponentials per point; 250 bytes per point.
-/// Accuracy and limits: docs/normals.md.
+/// Complexity: three searches and, near edges and where there is noise, about 1,500 exponentials
+/// per point; 500 bytes per point. Accuracy and limits: docs/normals.md.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] auto estimate_normals(const R& points, const feature_preserving& options,
@@ -8655,31 +9009,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const double noise = options.noise ? *options.noise : detail::noise_level_in(p, options.max_k);
     const detail::feature_preserving_sweeps sweeps(options, p, noise);
 
-    std::vector<detail::local_plane> first(p.size()), second(p.size());
-    std::vector<surfel<plane_fit>> surface(p.size());
-    detail::for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<neighbor> found;
-        std::size_t enough = 0;
-        for (std::size_t i = begin; i < end; ++i) {
-            if (p.is_finite(i))
-                first[i] = sweeps.fitted(i, found, enough);
-            else
-                first[i].fit.trust = trust::not_finite;
-        }
-    });
-    detail::for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<neighbor> found;
-        detail::surroundings neighbors;
-        for (std::size_t i = begin; i < end; ++i)
-            second[i] = sweeps.shifted(i, first, found, neighbors);
-    });
-    detail::for_each_chunk(team, p.size(), [&](std::size_t begin, std::size_t end) {
-        std::vector<neighbor> found;
-        detail::surroundings neighbors;
-        for (std::size_t i = begin; i < end; ++i)
-            surface[i] = sweeps.filtered(i, second, found, neighbors);
-    });
-    return surface;
+    return sweeps.filtered(sweeps.shifted(sweeps.fitted(team), team), team);
 }
 
 }  // namespace gnomon
@@ -8759,84 +9089,6 @@ namespace gnomon::detail {
 inline void require_noise(const noise_curve& noise) {
     require(!noise.is_zero(), "the noise must be greater than 0");
 }
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/normals/detail/tangent_basis.hpp ------------------------------------------------
-
-/// @file
-/// Coordinates of directions near a unit normal: an orthonormal basis of the tangent plane, the
-/// exponential and the logarithm of the unit sphere, and symmetric matrices of the tangent plane.
-
-namespace gnomon::detail {
-
-/// A symmetric 2 x 2 matrix in the coordinates (b1, b2) of a tangent basis.
-struct tangent_matrix {
-    double p11, p12, p22;
-
-    /// x^2 p11 + 2 x y p12 + y^2 p22
-    [[nodiscard]] double along(double x, double y) const {
-        return x * x * p11 + 2.0 * x * y * p12 + y * y * p22;
-    }
-    /// Adds the outer product of (x, y) with itself, times a weight.
-    void add(double weight, double x, double y) {
-        p11 += weight * x * x;
-        p12 += weight * x * y;
-        p22 += weight * y * y;
-    }
-};
-
-/// A unit normal and an orthonormal basis (b1, b2) of its tangent plane.
-struct tangent_basis {
-    Eigen::Vector3d normal, b1, b2;
-
-    explicit tangent_basis(const Eigen::Vector3d& n)
-        : normal(n), b1(orthogonal(n)), b2(cross(n, b1)) {}
-
-    /// The basis at n that is rotated least against a nearby one, so that coordinates keep their
-    /// meaning.
-    tangent_basis(const Eigen::Vector3d& n, const tangent_basis& nearby) : normal(n) {
-        const Eigen::Vector3d e = combined(1.0, nearby.b1, -dot(n, nearby.b1), n);
-        b1 = scaled(1.0 / length(e), e);
-        b2 = cross(n, b1);
-    }
-
-    /// The exponential map: the normal rotated by the angles (d1, d2) [rad].
-    [[nodiscard]] Eigen::Vector3d moved(double d1, double d2) const {
-        const double angle = std::hypot(d1, d2);
-        if (angle == 0.0) return normal;
-        const double s = std::sin(angle) / angle;
-        return combined(std::cos(angle), normal, s * d1, b1, s * d2, b2);
-    }
-
-    /// The logarithm map: the rotation (d1, d2, 0) [rad] from the normal to n or -n, whichever is
-    /// nearer.
-    [[nodiscard]] Eigen::Vector3d towards(const Eigen::Vector3d& n) const {
-        const double along = dot(n, normal);
-        const double x = dot(n, b1);
-        const double y = dot(n, b2);
-        const double across = std::hypot(x, y);
-        if (across == 0.0) return {0.0, 0.0, 0.0};
-        const double s = std::copysign(std::atan2(across, std::abs(along)) / across, along);
-        return {s * x, s * y, 0.0};
-    }
-
-    /// The restriction of a symmetric 3 x 3 matrix to the tangent plane.
-    [[nodiscard]] tangent_matrix restricted(const Eigen::Matrix3d& m) const {
-        const Eigen::Vector3d m1 = product(m, b1);
-        return {dot(b1, m1), dot(b2, m1), dot(b2, product(m, b2))};
-    }
-
-    /// The 3 x 3 matrix of a matrix of the tangent plane; the normal is in its null space.
-    [[nodiscard]] Eigen::Matrix3d in_space(const tangent_matrix& p) const {
-        Eigen::Matrix3d m = diagonal(0.0, 0.0, 0.0);
-        add_outer(m, p.p11, b1, b1);
-        add_outer(m, p.p12, b1, b2);
-        add_outer(m, p.p12, b2, b1);
-        add_outer(m, p.p22, b2, b2);
-        return m;
-    }
-};
 
 }  // namespace gnomon::detail
 
@@ -12005,73 +12257,9 @@ struct height_frame {
 // -------- gnomon/features/detail/quadric_fit.hpp -------------------------------------------------
 
 /// @file
-/// Fits quadrics to heights z over a plane, by normal equations in fixed-size arrays. Plain arrays
-/// take a tenth of the compile time of Eigen expressions.
+/// The fit of a quadric to heights z over a plane as the thesis has it, without slopes.
 
 namespace gnomon::detail {
-
-/// The quadric z = a x^2 + b x y + c y^2 + e x + f y + constant. Units: a, b, c [1/m]; e, f [1].
-struct quadric {
-    double a = 0.0;
-    double b = 0.0;
-    double c = 0.0;
-    double e = 0.0;
-    double f = 0.0;
-};
-
-/// Least-squares fit of all six coefficients. Solves the normal equations, so x and y should be of
-/// order 1. Needs six points.
-class least_squares_quadric {
-  public:
-    /// Adds the point (x, y, z). O(1).
-    void add(double x, double y, double z) {
-        const std::array<double, 6> row{1.0, x, y, x * x, x * y, y * y};
-        for (std::size_t i = 0; i < 6; ++i) {
-            right_[i] += row[i] * z;
-            for (std::size_t j = 0; j <= i; ++j) left_[i][j] += row[i] * row[j];
-        }
-    }
-
-    /// Solves the normal equations A c = r by the decomposition A = L D L^T, in place. O(1).
-    /// @return the minimum of D_j / A_jj over all columns j, in [0, 1]: the fraction of a column
-    ///         that the preceding columns do not explain. The system is singular if it is zero up
-    ///         to rounding.
-    double solve() {
-        double least = 1.0;
-        for (std::size_t j = 0; j < 6; ++j) {
-            const double all = left_[j][j];
-            for (std::size_t k = 0; k < j; ++k) {
-                left_[j][j] -= left_[j][k] * left_[j][k] * left_[k][k];
-            }
-            if (!(left_[j][j] > 0.0)) return 0.0;
-            least = std::min(least, left_[j][j] / all);
-            for (std::size_t i = j + 1; i < 6; ++i) {
-                for (std::size_t k = 0; k < j; ++k) {
-                    left_[i][j] -= left_[i][k] * left_[j][k] * left_[k][k];
-                }
-                left_[i][j] /= left_[j][j];
-            }
-        }
-        for (std::size_t i = 0; i < 6; ++i) {
-            for (std::size_t k = 0; k < i; ++k) right_[i] -= left_[i][k] * right_[k];
-        }
-        for (std::size_t i = 6; i-- > 0;) {
-            right_[i] /= left_[i][i];
-            for (std::size_t k = i + 1; k < 6; ++k) right_[i] -= left_[k][i] * right_[k];
-        }
-        return least;
-    }
-
-    /// The quadric in coordinates x, y if (sx x, sy y, z) were added. Precondition: solved.
-    [[nodiscard]] quadric solution(double sx, double sy) const {
-        return {right_[3] * sx * sx, right_[4] * sx * sy, right_[5] * sy * sy, right_[1] * sx,
-                right_[2] * sy};
-    }
-
-  private:
-    square_array<6> left_ = {};         // A, then L and D; lower triangle
-    std::array<double, 6> right_ = {};  // r, then the coefficients
-};
 
 /// Fit by the unit vector [a' b' c' d'] that minimizes the sum of squares of
 /// a' x^2 + b' x y + c' y^2 + d' z, Klasing 2010, Eq. (3.25). Needs three points.

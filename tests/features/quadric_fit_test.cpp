@@ -12,8 +12,9 @@
 #include "features/patches.hpp"
 #include "laws/clouds.hpp"
 #include "laws/curvature_laws.hpp"
+#include <gnomon/core/detail/least_squares_quadric.hpp>
 #include <gnomon/features/curvature.hpp>
-#include <gnomon/core/detail/quadric_fit.hpp>
+#include <gnomon/features/detail/quadric_fit.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 
 namespace {

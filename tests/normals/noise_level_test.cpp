@@ -40,6 +40,14 @@ TEST(noise_level, is_zero_for_clean_flat_pieces_with_edges) {
     EXPECT_LT(noise_level(points), 1e-9);
 }
 
+/// A plane would read the bend of a ball of points as noise of 1 % of its radius and more.
+TEST(noise_level, is_nearly_zero_on_clean_bends) {
+    gnomon::random_stream random(11);
+    clouds::cloud points;
+    for (int i = 0; i < 2000; ++i) points.push_back(clouds::gaussian_vector(random).normalized());
+    EXPECT_LT(noise_level(points), 2e-4);
+}
+
 /// Edges add nothing.
 TEST(noise_level, is_not_fooled_by_an_edge) {
     clouds::cloud points = noisy_square(20000, 5e-3, 7);

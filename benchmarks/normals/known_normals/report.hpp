@@ -29,6 +29,7 @@ struct cloud_report {
     const shape* of;
     std::size_t column;  ///< number in `columns`
     std::vector<measurement> measured;
+    double time_ratio;  ///< of our method to knn{30} and plane_pca, in one thread
 };
 
 /// What a method reaches on average over shapes, with one k for all columns.
@@ -136,6 +137,36 @@ inline void print_duel(const std::vector<const cloud_report*>& clouds, const std
     }
     std::printf("\n\n%s is behind %s on: %s\n", ours.c_str(), rival.c_str(),
                 losses.empty() ? "no cloud" : losses.c_str());
+}
+
+/// `ours` in units of the rival, which has the k that is best for each cloud.
+inline void print_own_k(const char* title, const std::vector<const cloud_report*>& clouds,
+                        const std::string& ours, const std::string& rival) {
+    double sum = 0.0, sum_of_rival = 0.0, ratios = 0.0;
+    for (const cloud_report* c : clouds) {
+        double own = 0.0, best = 90.0;
+        for (const measurement& m : c->measured) {
+            if (m.method == ours) own = m.rms;
+            if (m.method == rival) best = std::min(best, m.rms);
+        }
+        sum += own;
+        sum_of_rival += best;
+        ratios += own / best / static_cast<double>(clouds.size());
+    }
+    if (clouds.empty() || sum_of_rival >= 90.0 * static_cast<double>(clouds.size())) return;
+    std::printf("%s: %s / %s with the best k of each cloud: %.3f (mean of ratios %.3f)\n", title,
+                ours.c_str(), rival.c_str(), sum / sum_of_rival, ratios);
+}
+
+/// How long `ours` takes.
+inline void print_times(const std::vector<const cloud_report*>& clouds, const std::string& ours) {
+    const auto [least, most] = std::minmax_element(
+        clouds.begin(), clouds.end(),
+        [](const auto* a, const auto* b) { return a->time_ratio < b->time_ratio; });
+    std::printf("\n%s takes %.1f (%s, %s) to %.1f (%s, %s) times as long as knn{30} + plane_pca\n",
+                ours.c_str(), (*least)->time_ratio, (*least)->of->name,
+                columns[(*least)->column].name, (*most)->time_ratio, (*most)->of->name,
+                columns[(*most)->column].name);
 }
 
 }  // namespace known_normals

@@ -28,10 +28,11 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/least_squares_quadric.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/detail/eigen_2x2.hpp>
 #include <gnomon/features/detail/height_frame.hpp>
-#include <gnomon/core/detail/quadric_fit.hpp>
+#include <gnomon/features/detail/quadric_fit.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon {

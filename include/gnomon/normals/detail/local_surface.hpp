@@ -12,7 +12,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/quadric_fit.hpp>
+#include <gnomon/core/detail/least_squares_quadric.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
@@ -173,7 +173,7 @@ class local_fits {
                                                     double noise, double min_aspect_ratio) {
     constexpr std::size_t judged = 16;
     constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
-    constexpr double bent = 0.01;      // of what a plane leaves, a quadric may leave on bends
+    constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves
     constexpr double digits = 1e-6;    // of the radius, that count as noise
     constexpr double sure = 0.01;      // standard deviation of the slopes [rad]
     const std::size_t wide = std::min(std::max(k, judged), around.last());
@@ -184,7 +184,7 @@ class local_fits {
     const local_fits all = k < wide ? local_fits(around, wide, min_aspect_ratio) : fits;
     if (!usable(all.plane().fit.trust)) return surface;
     const double least = std::max(noise, digits * around.radius(wide));
-    // Sums of squares of so many degrees of freedom are larger once in a thousand times.
+    // Three standard deviations of a sum of squares above its mean.
     const auto limit = [&](double freedom) {
         return least * least * (freedom + 3.0 * std::sqrt(2.0 * freedom));
     };
