@@ -14578,12 +14578,15 @@ class agglomeration {
     /// @param dissimilarity  dissimilarity(region, region); pairs up to 1 are merged
     /// @param accepts        accepts(a, b): last condition, called with the regions as they were
     ///                       when the round began
-    /// @param gather         gather(sets), after each round that merged any
+    /// @param renew          renew(sets), after each round that merged any: the pairs of regions
+    ///                       that are to be compared as well; it may fit the regions again that
+    ///                       have grown
     /// @return the sets of merged regions
     [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& dissimilarity,
-                                        auto&& accepts, auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, dissimilarity, accepts)) {
-            gather(sets_);
+                                        auto&& accepts, auto&& renew) {
+        std::size_t known = 0;
+        while (!pairs.empty() && merge_once(pairs, known, dissimilarity, accepts)) {
+            const scratch<region_pair> more = renew(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
                 a = std::min(root_of_a, root_of_b);
@@ -14591,6 +14594,11 @@ class agglomeration {
             }
             std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
             make_unique(pairs);
+            known = pairs.size();
+            for (const region_pair& p : more) {
+                const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(known);
+                if (!std::binary_search(pairs.begin(), end, p)) pairs.push_back(p);
+            }
         }
         return std::move(sets_);
     }
@@ -14606,11 +14614,14 @@ class agglomeration {
     };
 
     /// One round.
+    /// @param known  the number of pairs, the first ones, that were in the rounds before
     /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& dissimilarity, auto&& accepts) {
+    bool merge_once(const scratch<region_pair>& pairs, std::size_t known, auto&& dissimilarity,
+                    auto&& accepts) {
         scratch<candidate> candidates;
-        for (const auto& pair : pairs) {
-            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const region_pair& pair = pairs[p];
+            if (p < known && is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
             const double d = dissimilarity(regions_[pair.first], regions_[pair.second]);
             if (d <= 1.0) candidates.push_back({d, pair});
         }
@@ -14853,7 +14864,8 @@ class plane_regions {
             [](const planar_region& a, const planar_region& b) {
                 return dissimilarity_of_neighbors(a, b);
             },
-            [](point_index, point_index) { return true; }, [](union_find&) {});
+            [](point_index, point_index) { return true; },
+            [](union_find&) { return scratch<region_pair>(); });
         bool any = false;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             if (sets.find(static_cast<point_index>(r)) == r) continue;
@@ -16142,25 +16154,23 @@ struct examined_gap {
 
 /// One run of the algorithm.
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <merge_policy M, class Options>
+template <merge_policy M, class Options, execution X>
 class occlusion_merger {
   public:
-    template <execution X>
     occlusion_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
                      const visibility& visible, const M& policy, const Options& options,
                      const X& run)
         : points_(points),
+          cloud_(cloud),
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(regions_of(cloud, parts, run)),
-          labels_(parts.labels().size(), unlabeled),
+          run_(run),
+          regions_(parts.size()),
+          wholes_(parts.labels().begin(), parts.labels().end()),
+          labels_(wholes_.size(), unlabeled),
           members_(labels_) {
-        run(parts.size(), [&](std::size_t s) {
-            for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
-                    labels_[i] = static_cast<std::int32_t>(s);
-        });
+        run(parts.size(), [&](std::size_t s) { fit(s, parts[s]); });
         members_ = label_groups(labels_);
     }
 
@@ -16171,8 +16181,8 @@ class occlusion_merger {
             [this](const planar_region& a, const planar_region& b) { return dissimilarity(a, b); },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                unite_labels(labels_, merged);
-                members_ = label_groups(labels_);
+                fit_again(merged);
+                return pairs();
             });
         for (examined_gap& gap : gaps_)
             gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
@@ -16183,6 +16193,33 @@ class occlusion_merger {
     [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
 
   private:
+    /// The plane of a segment, and which of its points are on it.
+    void fit(std::size_t s, std::span<const point_index> points) {
+        regions_[s] = region_of(cloud_, points);
+        for (const point_index i : points) {
+            const bool is_on = cloud_.is_finite(i) && cloud_.is_on(i, regions_[s].fit);
+            labels_[i] = is_on ? static_cast<std::int32_t>(s) : unlabeled;
+        }
+    }
+
+    /// Fits the planes of the segments that have grown to all of their points, as another run on
+    /// the result would: it finds nothing to merge.
+    void fit_again(union_find& sets) {
+        scratch<char> has_grown(regions_.size(), false);
+        for (std::size_t s = 0; s < regions_.size(); ++s) {
+            const point_index whole = sets.find(static_cast<point_index>(s));
+            if (whole == s) continue;
+            has_grown[whole] = has_grown[whole] != 0 || regions_[s].is_planar;
+            regions_[s].is_planar = false;
+        }
+        unite_labels(wholes_, sets);
+        const label_groups wholes(wholes_);
+        run_(wholes.size(), [&](std::size_t s) {
+            if (has_grown[s] != 0) fit(s, wholes[s]);
+        });
+        members_ = label_groups(labels_);
+    }
+
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
         return pairs_to_compare(
@@ -16194,10 +16231,12 @@ class occlusion_merger {
             });
     }
 
-    /// As dissimilarity_of_apart; infinite if the planes are too far from each other.
+    /// As dissimilarity_of_apart; infinite if one is not flat, or the planes are too far from each
+    /// other.
     [[nodiscard]] double dissimilarity(const planar_region& a, const planar_region& b) const {
-        return is_near(a, b) ? dissimilarity_of_apart(a, b)
-                             : std::numeric_limits<double>::infinity();
+        return a.is_planar && b.is_planar && is_near(a, b)
+                   ? dissimilarity_of_apart(a, b)
+                   : std::numeric_limits<double>::infinity();
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
@@ -16241,10 +16280,13 @@ class occlusion_merger {
     }
 
     const spatial_index& points_;
+    const planar_cloud& cloud_;
     const visibility& visible_;
     const M& policy_;
     const Options& options_;
+    const X& run_;
     scratch<planar_region> regions_;
+    scratch<std::int32_t> wholes_;  // of all points
     scratch<std::int32_t> labels_;  // of the points on the planes
     label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;
@@ -16258,11 +16300,12 @@ class occlusion_merger {
 /// Merging of occluded segments: flat coplanar segments are merged where the observations in the
 /// gap between them are evidence for one surface.
 ///
-/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: the most alike
-/// first, until no two are alike. Coplanarity is a test of all points of both (Chow 1960), so that
-/// two planes are not joined through a third segment that would be of either. A narrow gap, which
-/// the thesis always closes, stays open where free space was observed (docs/thesis-notes.md, A18).
-/// merge_occluded_literally is the algorithm as printed.
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: in rounds, the
+/// most alike first, until no two are alike. After each round the planes are those of the merged
+/// segments, so that merging the result again changes nothing. Coplanarity is a test of all points
+/// of both (Chow 1960), so that two planes are not joined through a third segment that would be of
+/// either. A narrow gap, which the thesis always closes, stays open where free space was observed
+/// (docs/thesis-notes.md, A18). merge_occluded_literally is the algorithm as printed.
 
 namespace gnomon {
 
@@ -16343,8 +16386,8 @@ template <merge_policy M, execution X>
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, no candidate, or a
 ///                                negative or NaN threshold
-/// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
-/// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
+/// Complexity: per round, which are few, O(m log m) for the pairs of m segments, or O(m^2) if all
+/// are compared, and O(candidates * (n + pixels of the gaps * images)); and an index if `points` is
 /// none.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>
