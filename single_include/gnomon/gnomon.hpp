@@ -14766,12 +14766,15 @@ class agglomeration {
     /// @param dissimilarity  dissimilarity(region, region); pairs up to 1 are merged
     /// @param accepts        accepts(a, b): last condition, called with the regions as they were
     ///                       when the round began
-    /// @param gather         gather(sets), after each round that merged any
+    /// @param renew          renew(sets), after each round that merged any: the pairs of regions
+    ///                       that are to be compared as well; it may fit the regions again that
+    ///                       have grown
     /// @return the sets of merged regions
     [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& dissimilarity,
-                                        auto&& accepts, auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, dissimilarity, accepts)) {
-            gather(sets_);
+                                        auto&& accepts, auto&& renew) {
+        std::size_t known = 0;
+        while (!pairs.empty() && merge_once(pairs, known, dissimilarity, accepts)) {
+            const scratch<region_pair> more = renew(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
                 a = std::min(root_of_a, root_of_b);
@@ -14779,6 +14782,11 @@ class agglomeration {
             }
             std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
             make_unique(pairs);
+            known = pairs.size();
+            for (const region_pair& p : more) {
+                const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(known);
+                if (!std::binary_search(pairs.begin(), end, p)) pairs.push_back(p);
+            }
         }
         return std::move(sets_);
     }
@@ -14794,11 +14802,14 @@ class agglomeration {
     };
 
     /// One round.
+    /// @param known  the number of pairs, the first ones, that were in the rounds before
     /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& dissimilarity, auto&& accepts) {
+    bool merge_once(const scratch<region_pair>& pairs, std::size_t known, auto&& dissimilarity,
+                    auto&& accepts) {
         scratch<candidate> candidates;
-        for (const auto& pair : pairs) {
-            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const region_pair& pair = pairs[p];
+            if (p < known && is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
             const double d = dissimilarity(regions_[pair.first], regions_[pair.second]);
             if (d <= 1.0) candidates.push_back({d, pair});
         }
@@ -15041,7 +15052,8 @@ class plane_regions {
             [](const planar_region& a, const planar_region& b) {
                 return dissimilarity_of_neighbors(a, b);
             },
-            [](point_index, point_index) { return true; }, [](union_find&) {});
+            [](point_index, point_index) { return true; },
+            [](union_find&) { return scratch<region_pair>(); });
         bool any = false;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             if (sets.find(static_cast<point_index>(r)) == r) continue;
@@ -15868,12 +15880,6 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
-    /// The sine of the lowest elevation in which something is seen, less two pixels; more than that
-    /// of the highest one if nothing is.
-    [[nodiscard]] double lowest_sine() const { return lowest_sine_; }
-    /// The sine of the highest elevation in which something is seen, and two pixels more.
-    [[nodiscard]] double highest_sine() const { return highest_sine_; }
-
     /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);
@@ -16155,10 +16161,7 @@ class visibility {
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
-            pole_ = detail::image_axes::with_pole(options.pole ? *options.pole
-                                                               : common_pole(p, viewpoints))
-                        .z;
-            const range_image_options format{2 * rows, rows, pole_};
+            const range_image_options format{2 * rows, rows, options.pole};
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
@@ -16167,11 +16170,8 @@ class visibility {
                                   projection);
             });
             images_.reserve(images.size());
-            for (std::optional<range_image>& image : images) {
-                lowest_sine_ = std::min(lowest_sine_, image->lowest_sine());
-                highest_sine_ = std::max(highest_sine_, image->highest_sine());
-                images_.push_back(*std::move(image));
-            }
+            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
+            find_limits(p, viewpoints, options.pole);
         });
     }
 
@@ -16191,9 +16191,11 @@ class visibility {
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        return count[observation::out_of_view] > count[observation::unobserved]
-                   ? observation::out_of_view
-                   : observation::unobserved;
+        const auto blind = std::count_if(
+            images_.begin(), images_.end(),
+            [&](const range_image& image) { return is_out_of_view(place, image.viewpoint()); });
+        return 2 * static_cast<std::size_t>(blind) > images_.size() ? observation::out_of_view
+                                                                    : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -16220,22 +16222,34 @@ class visibility {
     }
 
   private:
-    /// The direction in which the rays of all view points see least.
-    [[nodiscard]] static Eigen::Vector3d common_pole(const auto& p,
-                                                     const viewpoint_table& viewpoints) {
+    /// The elevations in which something is seen, and two pixels more, about the given pole or the
+    /// axis along which all rays vary least, which may lie amid those of an image: it has its own.
+    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
                 detail::has_length(way))
                 ways.push_back(way);
-        return detail::least_observed_axis(ways, std::identity());
+        pole_ =
+            detail::direction_of(pole ? *pole : detail::least_observed_axis(ways, std::identity()));
+        for (const Eigen::Vector3d& way : ways) {
+            const double sine = detail::dot(pole_, way) / detail::length(way);
+            lowest_sine_ = std::min(lowest_sine_, sine);
+            highest_sine_ = std::max(highest_sine_, sine);
+        }
+        const auto turned = [](double sine, double by) {
+            const double up = std::asin(std::clamp(sine, -1.0, 1.0)) + by;
+            return std::sin(std::clamp(up, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi));
+        };
+        lowest_sine_ = turned(lowest_sine_, -2.0 * pixel_);
+        highest_sine_ = turned(highest_sine_, 2.0 * pixel_);
     }
 
     /// Whether a place is below or above all that was seen from anywhere.
     [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
-                                      const range_image& image) const {
+                                      const Eigen::Vector3d& viewpoint) const {
         if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
-        const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
+        const Eigen::Vector3d way = detail::difference(place, viewpoint);
         const double up = detail::dot(pole_, way), distance = detail::length(way);
         return up < lowest_sine_ * distance || up > highest_sine_ * distance;
     }
@@ -16256,10 +16270,7 @@ class visibility {
     /// What one view point has seen there.
     [[nodiscard]] observation towards(const auto& place, const range_image& image) const {
         const double expected = image.distance_to(place);
-        if (!std::isfinite(expected)) return observation::unobserved;
-        if (!image.may_show(place))
-            return is_out_of_view(place, image) ? observation::out_of_view
-                                                : observation::unobserved;
+        if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
@@ -16306,7 +16317,7 @@ class visibility {
 
     noise_curve noise_;
     double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;                            // of all images
+    Eigen::Vector3d pole_;                            // of the limits
     double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };
@@ -16330,25 +16341,23 @@ struct examined_gap {
 
 /// One run of the algorithm.
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <merge_policy M, class Options>
+template <merge_policy M, class Options, execution X>
 class occlusion_merger {
   public:
-    template <execution X>
     occlusion_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
                      const visibility& visible, const M& policy, const Options& options,
                      const X& run)
         : points_(points),
+          cloud_(cloud),
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(regions_of(cloud, parts, run)),
-          labels_(parts.labels().size(), unlabeled),
+          run_(run),
+          regions_(parts.size()),
+          wholes_(parts.labels().begin(), parts.labels().end()),
+          labels_(wholes_.size(), unlabeled),
           members_(labels_) {
-        run(parts.size(), [&](std::size_t s) {
-            for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
-                    labels_[i] = static_cast<std::int32_t>(s);
-        });
+        run(parts.size(), [&](std::size_t s) { fit(s, parts[s]); });
         members_ = label_groups(labels_);
     }
 
@@ -16359,8 +16368,8 @@ class occlusion_merger {
             [this](const planar_region& a, const planar_region& b) { return dissimilarity(a, b); },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                unite_labels(labels_, merged);
-                members_ = label_groups(labels_);
+                fit_again(merged);
+                return pairs();
             });
         for (examined_gap& gap : gaps_)
             gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
@@ -16371,6 +16380,33 @@ class occlusion_merger {
     [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
 
   private:
+    /// The plane of a segment, and which of its points are on it.
+    void fit(std::size_t s, std::span<const point_index> points) {
+        regions_[s] = region_of(cloud_, points);
+        for (const point_index i : points) {
+            const bool is_on = cloud_.is_finite(i) && cloud_.is_on(i, regions_[s].fit);
+            labels_[i] = is_on ? static_cast<std::int32_t>(s) : unlabeled;
+        }
+    }
+
+    /// Fits the planes of the segments that have grown to all of their points, as another run on
+    /// the result would: it finds nothing to merge.
+    void fit_again(union_find& sets) {
+        scratch<char> has_grown(regions_.size(), false);
+        for (std::size_t s = 0; s < regions_.size(); ++s) {
+            const point_index whole = sets.find(static_cast<point_index>(s));
+            if (whole == s) continue;
+            has_grown[whole] = has_grown[whole] != 0 || regions_[s].is_planar;
+            regions_[s].is_planar = false;
+        }
+        unite_labels(wholes_, sets);
+        const label_groups wholes(wholes_);
+        run_(wholes.size(), [&](std::size_t s) {
+            if (has_grown[s] != 0) fit(s, wholes[s]);
+        });
+        members_ = label_groups(labels_);
+    }
+
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
         return pairs_to_compare(
@@ -16382,10 +16418,12 @@ class occlusion_merger {
             });
     }
 
-    /// As dissimilarity_of_apart; infinite if the planes are too far from each other.
+    /// As dissimilarity_of_apart; infinite if one is not flat, or the planes are too far from each
+    /// other.
     [[nodiscard]] double dissimilarity(const planar_region& a, const planar_region& b) const {
-        return is_near(a, b) ? dissimilarity_of_apart(a, b)
-                             : std::numeric_limits<double>::infinity();
+        return a.is_planar && b.is_planar && is_near(a, b)
+                   ? dissimilarity_of_apart(a, b)
+                   : std::numeric_limits<double>::infinity();
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
@@ -16429,10 +16467,13 @@ class occlusion_merger {
     }
 
     const spatial_index& points_;
+    const planar_cloud& cloud_;
     const visibility& visible_;
     const M& policy_;
     const Options& options_;
+    const X& run_;
     scratch<planar_region> regions_;
+    scratch<std::int32_t> wholes_;  // of all points
     scratch<std::int32_t> labels_;  // of the points on the planes
     label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;
@@ -16446,11 +16487,12 @@ class occlusion_merger {
 /// Merging of occluded segments: flat coplanar segments are merged where the observations in the
 /// gap between them are evidence for one surface.
 ///
-/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: the most alike
-/// first, until no two are alike. Coplanarity is a test of all points of both (Chow 1960), so that
-/// two planes are not joined through a third segment that would be of either. A narrow gap, which
-/// the thesis always closes, stays open where free space was observed (docs/thesis-notes.md, A18).
-/// merge_occluded_literally is the algorithm as printed.
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: in rounds, the
+/// most alike first, until no two are alike. After each round the planes are those of the merged
+/// segments, so that merging the result again changes nothing. Coplanarity is a test of all points
+/// of both (Chow 1960), so that two planes are not joined through a third segment that would be of
+/// either. A narrow gap, which the thesis always closes, stays open where free space was observed
+/// (docs/thesis-notes.md, A18). merge_occluded_literally is the algorithm as printed.
 
 namespace gnomon {
 
@@ -16531,8 +16573,8 @@ template <merge_policy M, execution X>
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, no candidate, or a
 ///                                negative or NaN threshold
-/// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
-/// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
+/// Complexity: per round, which are few, O(m log m) for the pairs of m segments, or O(m^2) if all
+/// are compared, and O(candidates * (n + pixels of the gaps * images)); and an index if `points` is
 /// none.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>

@@ -234,6 +234,33 @@ TEST(visibility, let_view_points_vote) {
     EXPECT_EQ(told(3), observation::free_space);
 }
 
+/// Upright scan lines, each from a place of its own, and a column in front of a wall. About the
+/// axis along which all of them vary least, the pixels there are narrower than the spacing of the
+/// rays.
+TEST(visibility, have_a_pole_for_each_view_point) {
+    clouds::cloud points, from;
+    const auto towards = [](double azimuth, double elevation) {
+        const gnomon::angle a = gnomon::degrees(azimuth), e = gnomon::degrees(elevation);
+        return Eigen::Vector3d(cos(e) * cos(a), cos(e) * sin(a), sin(e));
+    };
+    for (int column = -85; column <= 85; ++column) {
+        for (int elevation = -85; elevation <= 85; ++elevation) {
+            from.emplace_back(0.001 * column, 0.0, 0.0);
+            const double range = column >= 78 && column <= 83 ? 2.5 : 5.0;
+            points.push_back(from.back() + range * towards(column, elevation));
+        }
+    }
+    const visibility visible(gnomon::with_viewpoints(points, gnomon::viewpoint_table(from)),
+                             {.noise = constant_noise{0.0005}});
+    ASSERT_EQ(visible.images().size(), 171u);
+    for (const double elevation : {-30.5, -0.5, 0.5, 30.5}) {
+        const auto seen =
+            visible.between(5.0 * towards(77, elevation), 5.0 * towards(84, elevation), origin);
+        EXPECT_GE(seen[observation::occluded], 5u) << elevation;
+        EXPECT_EQ(seen[observation::unobserved], 0u) << elevation;
+    }
+}
+
 /// A lidar that spins sees neither what is below it nor the sky; whether it stands or moves.
 TEST(visibility, end_below_and_above_all_that_was_seen) {
     for (const double step : {0.0, 0.001}) {

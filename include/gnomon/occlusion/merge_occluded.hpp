@@ -3,11 +3,12 @@
 /// Merging of occluded segments: flat coplanar segments are merged where the observations in the
 /// gap between them are evidence for one surface.
 ///
-/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: the most alike
-/// first, until no two are alike. Coplanarity is a test of all points of both (Chow 1960), so that
-/// two planes are not joined through a third segment that would be of either. A narrow gap, which
-/// the thesis always closes, stays open where free space was observed (docs/thesis-notes.md, A18).
-/// merge_occluded_literally is the algorithm as printed.
+/// Klasing 2010, Sec. 4.3, Alg. 4.3, in a form that does not depend on the order: in rounds, the
+/// most alike first, until no two are alike. After each round the planes are those of the merged
+/// segments, so that merging the result again changes nothing. Coplanarity is a test of all points
+/// of both (Chow 1960), so that two planes are not joined through a third segment that would be of
+/// either. A narrow gap, which the thesis always closes, stays open where free space was observed
+/// (docs/thesis-notes.md, A18). merge_occluded_literally is the algorithm as printed.
 #pragma once
 
 #include <cstddef>
@@ -106,8 +107,8 @@ template <merge_policy M, execution X>
 /// @throws std::invalid_argument  if the segments or view points are of another number of points,
 ///                                for an odd or no number of boundary pairs, no candidate, or a
 ///                                negative or NaN threshold
-/// Complexity: O(m log m) for the pairs of m segments, or O(m^2) if all are compared; per round
-/// O(candidates * (n + pixels of the gaps * images)), rounds are few; and an index if `points` is
+/// Complexity: per round, which are few, O(m log m) for the pairs of m segments, or O(m^2) if all
+/// are compared, and O(candidates * (n + pixels of the gaps * images)); and an index if `points` is
 /// none.
 template <class R, merge_policy M = conservative, execution X = sequential,
           class Proj = std::identity>

@@ -108,12 +108,6 @@ class range_image {
         return detail::length(detail::difference(p, viewpoint_));
     }
 
-    /// The sine of the lowest elevation in which something is seen, less two pixels; more than that
-    /// of the highest one if nothing is.
-    [[nodiscard]] double lowest_sine() const { return lowest_sine_; }
-    /// The sine of the highest elevation in which something is seen, and two pixels more.
-    [[nodiscard]] double highest_sine() const { return highest_sine_; }
-
     /// False only if the pixel of a place and its neighbors up to two pixels away are empty. O(1).
     [[nodiscard]] bool may_show(const Eigen::Vector3d& p) const {
         const Eigen::Vector3d d = detail::difference(p, viewpoint_);

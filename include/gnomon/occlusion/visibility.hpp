@@ -86,10 +86,7 @@ class visibility {
             const double height = std::max(1.0, std::round(std::numbers::pi / wanted));
             pixel_ = std::numbers::pi / height;
             const auto rows = static_cast<std::size_t>(height);
-            pole_ = detail::image_axes::with_pole(options.pole ? *options.pole
-                                                               : common_pole(p, viewpoints))
-                        .z;
-            const range_image_options format{2 * rows, rows, pole_};
+            const range_image_options format{2 * rows, rows, options.pole};
             const auto places =
                 detail::places_of_sensor(p, viewpoints, typical_noise(p, viewpoints));
             detail::scratch<std::optional<range_image>> images(places.size());
@@ -98,11 +95,8 @@ class visibility {
                                   projection);
             });
             images_.reserve(images.size());
-            for (std::optional<range_image>& image : images) {
-                lowest_sine_ = std::min(lowest_sine_, image->lowest_sine());
-                highest_sine_ = std::max(highest_sine_, image->highest_sine());
-                images_.push_back(*std::move(image));
-            }
+            for (std::optional<range_image>& image : images) images_.push_back(*std::move(image));
+            find_limits(p, viewpoints, options.pole);
         });
     }
 
@@ -122,9 +116,11 @@ class visibility {
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        return count[observation::out_of_view] > count[observation::unobserved]
-                   ? observation::out_of_view
-                   : observation::unobserved;
+        const auto blind = std::count_if(
+            images_.begin(), images_.end(),
+            [&](const range_image& image) { return is_out_of_view(place, image.viewpoint()); });
+        return 2 * static_cast<std::size_t>(blind) > images_.size() ? observation::out_of_view
+                                                                    : observation::unobserved;
     }
 
     /// What was seen along the straight line between two places, as `viewpoint` sees it, all [m]:
@@ -151,22 +147,34 @@ class visibility {
     }
 
   private:
-    /// The direction in which the rays of all view points see least.
-    [[nodiscard]] static Eigen::Vector3d common_pole(const auto& p,
-                                                     const viewpoint_table& viewpoints) {
+    /// The elevations in which something is seen, and two pixels more, about the given pole or the
+    /// axis along which all rays vary least, which may lie amid those of an image: it has its own.
+    void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
                 detail::has_length(way))
                 ways.push_back(way);
-        return detail::least_observed_axis(ways, std::identity());
+        pole_ =
+            detail::direction_of(pole ? *pole : detail::least_observed_axis(ways, std::identity()));
+        for (const Eigen::Vector3d& way : ways) {
+            const double sine = detail::dot(pole_, way) / detail::length(way);
+            lowest_sine_ = std::min(lowest_sine_, sine);
+            highest_sine_ = std::max(highest_sine_, sine);
+        }
+        const auto turned = [](double sine, double by) {
+            const double up = std::asin(std::clamp(sine, -1.0, 1.0)) + by;
+            return std::sin(std::clamp(up, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi));
+        };
+        lowest_sine_ = turned(lowest_sine_, -2.0 * pixel_);
+        highest_sine_ = turned(highest_sine_, 2.0 * pixel_);
     }
 
     /// Whether a place is below or above all that was seen from anywhere.
     [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
-                                      const range_image& image) const {
+                                      const Eigen::Vector3d& viewpoint) const {
         if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
-        const Eigen::Vector3d way = detail::difference(place, image.viewpoint());
+        const Eigen::Vector3d way = detail::difference(place, viewpoint);
         const double up = detail::dot(pole_, way), distance = detail::length(way);
         return up < lowest_sine_ * distance || up > highest_sine_ * distance;
     }
@@ -187,10 +195,7 @@ class visibility {
     /// What one view point has seen there.
     [[nodiscard]] observation towards(const auto& place, const range_image& image) const {
         const double expected = image.distance_to(place);
-        if (!std::isfinite(expected)) return observation::unobserved;
-        if (!image.may_show(place))
-            return is_out_of_view(place, image) ? observation::out_of_view
-                                                : observation::unobserved;
+        if (!std::isfinite(expected) || !image.may_show(place)) return observation::unobserved;
         constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
         const double margin =
             deviations * noise_.along(detail::difference(place, image.viewpoint())) +
@@ -237,7 +242,7 @@ class visibility {
 
     noise_curve noise_;
     double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;                            // of all images
+    Eigen::Vector3d pole_;                            // of the limits
     double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
     detail::scratch<range_image> images_;
 };

@@ -42,25 +42,23 @@ struct examined_gap {
 
 /// One run of the algorithm.
 /// @tparam Options  `merge_occluded_options`, which are valid
-template <merge_policy M, class Options>
+template <merge_policy M, class Options, execution X>
 class occlusion_merger {
   public:
-    template <execution X>
     occlusion_merger(const spatial_index& points, const planar_cloud& cloud, const segments& parts,
                      const visibility& visible, const M& policy, const Options& options,
                      const X& run)
         : points_(points),
+          cloud_(cloud),
           visible_(visible),
           policy_(policy),
           options_(options),
-          regions_(regions_of(cloud, parts, run)),
-          labels_(parts.labels().size(), unlabeled),
+          run_(run),
+          regions_(parts.size()),
+          wholes_(parts.labels().begin(), parts.labels().end()),
+          labels_(wholes_.size(), unlabeled),
           members_(labels_) {
-        run(parts.size(), [&](std::size_t s) {
-            for (const point_index i : parts[s])
-                if (cloud.is_finite(i) && cloud.is_on(i, regions_[s].fit))
-                    labels_[i] = static_cast<std::int32_t>(s);
-        });
+        run(parts.size(), [&](std::size_t s) { fit(s, parts[s]); });
         members_ = label_groups(labels_);
     }
 
@@ -71,8 +69,8 @@ class occlusion_merger {
             [this](const planar_region& a, const planar_region& b) { return dissimilarity(a, b); },
             [this](point_index a, point_index b) { return is_closed(a, b); },
             [this](union_find& merged) {
-                unite_labels(labels_, merged);
-                members_ = label_groups(labels_);
+                fit_again(merged);
+                return pairs();
             });
         for (examined_gap& gap : gaps_)
             gap.merged = sets.find(gap.sides.first) == sets.find(gap.sides.second);
@@ -83,6 +81,33 @@ class occlusion_merger {
     [[nodiscard]] std::span<const examined_gap> gaps() const { return gaps_; }
 
   private:
+    /// The plane of a segment, and which of its points are on it.
+    void fit(std::size_t s, std::span<const point_index> points) {
+        regions_[s] = region_of(cloud_, points);
+        for (const point_index i : points) {
+            const bool is_on = cloud_.is_finite(i) && cloud_.is_on(i, regions_[s].fit);
+            labels_[i] = is_on ? static_cast<std::int32_t>(s) : unlabeled;
+        }
+    }
+
+    /// Fits the planes of the segments that have grown to all of their points, as another run on
+    /// the result would: it finds nothing to merge.
+    void fit_again(union_find& sets) {
+        scratch<char> has_grown(regions_.size(), false);
+        for (std::size_t s = 0; s < regions_.size(); ++s) {
+            const point_index whole = sets.find(static_cast<point_index>(s));
+            if (whole == s) continue;
+            has_grown[whole] = has_grown[whole] != 0 || regions_[s].is_planar;
+            regions_[s].is_planar = false;
+        }
+        unite_labels(wholes_, sets);
+        const label_groups wholes(wholes_);
+        run_(wholes.size(), [&](std::size_t s) {
+            if (has_grown[s] != 0) fit(s, wholes[s]);
+        });
+        members_ = label_groups(labels_);
+    }
+
     /// Pairs of flat segments that may be one.
     [[nodiscard]] scratch<region_pair> pairs() const {
         return pairs_to_compare(
@@ -94,10 +119,12 @@ class occlusion_merger {
             });
     }
 
-    /// As dissimilarity_of_apart; infinite if the planes are too far from each other.
+    /// As dissimilarity_of_apart; infinite if one is not flat, or the planes are too far from each
+    /// other.
     [[nodiscard]] double dissimilarity(const planar_region& a, const planar_region& b) const {
-        return is_near(a, b) ? dissimilarity_of_apart(a, b)
-                             : std::numeric_limits<double>::infinity();
+        return a.is_planar && b.is_planar && is_near(a, b)
+                   ? dissimilarity_of_apart(a, b)
+                   : std::numeric_limits<double>::infinity();
     }
 
     /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
@@ -141,10 +168,13 @@ class occlusion_merger {
     }
 
     const spatial_index& points_;
+    const planar_cloud& cloud_;
     const visibility& visible_;
     const M& policy_;
     const Options& options_;
+    const X& run_;
     scratch<planar_region> regions_;
+    scratch<std::int32_t> wholes_;  // of all points
     scratch<std::int32_t> labels_;  // of the points on the planes
     label_groups members_;          // at the beginning of the round
     scratch<examined_gap> gaps_;

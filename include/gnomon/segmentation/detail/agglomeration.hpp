@@ -5,6 +5,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cstddef>
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>
@@ -28,12 +29,15 @@ class agglomeration {
     /// @param dissimilarity  dissimilarity(region, region); pairs up to 1 are merged
     /// @param accepts        accepts(a, b): last condition, called with the regions as they were
     ///                       when the round began
-    /// @param gather         gather(sets), after each round that merged any
+    /// @param renew          renew(sets), after each round that merged any: the pairs of regions
+    ///                       that are to be compared as well; it may fit the regions again that
+    ///                       have grown
     /// @return the sets of merged regions
     [[nodiscard]] union_find operator()(scratch<region_pair> pairs, auto&& dissimilarity,
-                                        auto&& accepts, auto&& gather) {
-        while (!pairs.empty() && merge_once(pairs, dissimilarity, accepts)) {
-            gather(sets_);
+                                        auto&& accepts, auto&& renew) {
+        std::size_t known = 0;
+        while (!pairs.empty() && merge_once(pairs, known, dissimilarity, accepts)) {
+            const scratch<region_pair> more = renew(sets_);
             for (auto& [a, b] : pairs) {
                 const point_index root_of_a = sets_.find(a), root_of_b = sets_.find(b);
                 a = std::min(root_of_a, root_of_b);
@@ -41,6 +45,11 @@ class agglomeration {
             }
             std::erase_if(pairs, [](const region_pair& p) { return p.first == p.second; });
             make_unique(pairs);
+            known = pairs.size();
+            for (const region_pair& p : more) {
+                const auto end = pairs.begin() + static_cast<std::ptrdiff_t>(known);
+                if (!std::binary_search(pairs.begin(), end, p)) pairs.push_back(p);
+            }
         }
         return std::move(sets_);
     }
@@ -56,11 +65,14 @@ class agglomeration {
     };
 
     /// One round.
+    /// @param known  the number of pairs, the first ones, that were in the rounds before
     /// @return whether it merged any
-    bool merge_once(const scratch<region_pair>& pairs, auto&& dissimilarity, auto&& accepts) {
+    bool merge_once(const scratch<region_pair>& pairs, std::size_t known, auto&& dissimilarity,
+                    auto&& accepts) {
         scratch<candidate> candidates;
-        for (const auto& pair : pairs) {
-            if (is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
+        for (std::size_t p = 0; p < pairs.size(); ++p) {
+            const region_pair& pair = pairs[p];
+            if (p < known && is_new_[pair.first] == 0 && is_new_[pair.second] == 0) continue;
             const double d = dissimilarity(regions_[pair.first], regions_[pair.second]);
             if (d <= 1.0) candidates.push_back({d, pair});
         }

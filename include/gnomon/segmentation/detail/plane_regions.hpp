@@ -104,7 +104,8 @@ class plane_regions {
             [](const planar_region& a, const planar_region& b) {
                 return dissimilarity_of_neighbors(a, b);
             },
-            [](point_index, point_index) { return true; }, [](union_find&) {});
+            [](point_index, point_index) { return true; },
+            [](union_find&) { return scratch<region_pair>(); });
         bool any = false;
         for (std::size_t r = 0; r < regions_.size(); ++r) {
             if (sets.find(static_cast<point_index>(r)) == r) continue;
