@@ -76,14 +76,19 @@ class seen_points {
 
     /// The plane of least cost through the point and two of its neighbors; without a normal, if no
     /// pair determines one. Of more than 256 neighbors, those at even distances in their order
-    /// count.
+    /// count. Ends when all pairs so far would contain an outlier in 1 of 1,000 cases at most, if
+    /// the best plane's share of inliers is the true one.
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
+        constexpr double missed = 1e-3;
         const std::size_t step = (size() + most_counted - 1) / most_counted;
         const weights weight = weights_by_quadrant(step);
+        double whole = 0.0;
+        for (std::size_t j = 0; j * step < size(); ++j) whole += weight[j];
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
-        for (int trial = 0; trial < trials; ++trial) {
+        auto needed = static_cast<double>(trials);
+        for (int trial = 0; trial < needed; ++trial) {
             const Vector a = difference(at(random.bits() % size()), x_);
             const Vector b = difference(at(random.bits() % size()), x_);
             const Vector n = cross(a, b);
@@ -95,7 +100,11 @@ class seen_points {
             double cost = 0.0;
             for (std::size_t j = 0; j * step < size() && cost < least; ++j)
                 cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
-            if (cost < least) least = cost, best = candidate;
+            if (!(cost < least)) continue;
+            least = cost;
+            best = candidate;
+            const double share = std::max(0.0, 1.0 - least / whole);
+            needed = std::min(needed, std::log(missed) / std::log1p(-share * share));
         }
         return best;
     }
@@ -152,8 +161,8 @@ struct robust_ray_ls {
     static constexpr auto sensitive_to = sensitivity::order | sensitivity::units;
 
     noise_curve noise = constant_noise{};  ///< along the rays
-    /// The number of pairs; with two thirds of the neighbors outliers, all of them contain one in
-    /// (1 - 1/9)^60, 1 of 1,000 cases.
+    /// The number of pairs at most; with two thirds of the neighbors outliers, all of them contain
+    /// one in (1 - 1/9)^60, 1 of 1,000 cases.
     int trials = 60;
     std::uint64_t seed = 1;          ///< of the pairs; every point uses the same sequence
     double min_aspect_ratio = 0.05;  ///< of the rays of the inliers, below which the normal is weak
