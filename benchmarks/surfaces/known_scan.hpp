@@ -110,11 +110,11 @@ inline known_scan image(std::uint64_t seed) {
                                {.seed = 1000 * seed + 2}));
 }
 
-/// The road of a street, seen by a lidar of 32 beams.
-inline known_scan street() {
-    const sim::scene world = sim::scenes::street({.seed = 10'001});
+/// The road of a street, seen by a lidar of 32 beams, which may stand on a car.
+inline known_scan street(bool own_car) {
+    const sim::scene world = sim::scenes::street({.own_car = own_car, .seed = 10'001});
     const sim::spinning_lidar lidar = sim::scanners::velodyne_hdl_32e();
-    known_scan s = known("street, ground", 20.0,
+    known_scan s = known(own_car ? "street, own car" : "street, ground", 20.0,
                          sim::simulate(world,
                                        sim::driving{.mount = world.sensor,
                                                     .duration = lidar.revolution(),

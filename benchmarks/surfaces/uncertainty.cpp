@@ -210,10 +210,9 @@ void add_normals_of(const known_scan& s, bool quick, json& rows) {
     };
     const gnomon::plane_pca pca;
     const double unit = timed(gnomon::knn{.k = 30}, pca);
-    const auto add = [&](const char* name, const auto& neighborhood, const auto& estimator) {
+    const auto errors_of = [&](const char* name, const auto& surface) {
         std::vector<double> errors;  // [degrees]
         double squares = 0.0;
-        const auto surface = gnomon::estimate_normals(index, neighborhood, estimator);
         for (std::size_t i = 0; i < surface.size(); ++i) {
             if (!(s.normals[i].squaredNorm() > 0.5)) continue;
             errors.push_back(
@@ -222,27 +221,36 @@ void add_normals_of(const known_scan& s, bool quick, json& rows) {
                     : 90.0);
             squares += errors.back() * errors.back();
         }
+        const double rms = std::sqrt(squares / static_cast<double>(errors.size()));
+        return json{{"scan", s.scene},
+                    {"method", name},
+                    {"median [deg]", rounded(median_of(errors), 2)},
+                    {"RMS [deg]", rounded(rms, 2)}};
+    };
+    const auto add = [&](const char* name, const auto& neighborhood, const auto& estimator) {
+        json row = errors_of(name, gnomon::estimate_normals(index, neighborhood, estimator));
         const double found = timed(neighborhood, pca), all = timed(neighborhood, estimator);
-        rows.push_back(
-            {{"scan", s.scene},
-             {"method", name},
-             {"median [deg]", rounded(median_of(errors), 2)},
-             {"RMS [deg]", rounded(std::sqrt(squares / static_cast<double>(errors.size())), 2)},
-             {"neighborhood [us]", rounded(found, 2)},
-             {"fit [us]", rounded(std::max(0.0, all - found), 2)},
-             {"neighborhood / knn", rounded(found / unit, 1)},
-             {"fit / knn", rounded(std::max(0.0, all - found) / unit, 1)}});
+        row.update({{"neighborhood [us]", rounded(found, 2)},
+                    {"fit [us]", rounded(std::max(0.0, all - found), 2)},
+                    {"neighborhood / knn", rounded(found / unit, 1)},
+                    {"fit / knn", rounded(std::max(0.0, all - found) / unit, 1)}});
+        rows.push_back(row);
     };
     const gnomon::ray_knn along_rays{.k = 30, .noise = noise};
     add("plane_pca on knn", gnomon::knn{.k = 30}, pca);
     add("plane_eif on ray_knn", along_rays, gnomon::plane_eif{.noise = noise});
-    add("robust_ray_ls on ray_knn", along_rays, gnomon::robust_ray_ls{.noise = noise});
+    const gnomon::robust_ray_ls robust{.noise = noise};
+    add("robust_ray_ls on ray_knn", along_rays, robust);
+    rows.push_back(
+        errors_of("the same, wanted_precision of 1.5 degrees",
+                  gnomon::estimate_normals(index, along_rays, robust,
+                                           gnomon::wanted_precision{gnomon::degrees(1.5)})));
 }
 
 json measure(const effort& much) {
     json normals = json::array();  // first, while no other thread runs
     add_normals_of(kitchen(15.0), much.quick, normals);
-    add_normals_of(street(), much.quick, normals);
+    for (const bool own_car : {false, true}) add_normals_of(street(own_car), much.quick, normals);
 
     std::vector<known_scan> scans;
     const std::uint64_t first = 10'001, rooms = much.quick ? 1 : 10, convex = much.quick ? 1 : 3;
