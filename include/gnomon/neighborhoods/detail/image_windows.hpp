@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Windows around the pixels of an organized image that end where its surface does. The window of a
+/// pixel goes up and down its column, and from each of these pixels along its row, over links, as
+/// far as the radius (the cross-based support of Zhang, Lu and Lafruit 2009).
+///
+/// The radius is the least by which noise turns the normal of a plane by no more than a given
+/// angle. The slope of a plane fit to the depths of n = (2 r + 1)^2 pixels at a spacing h has the
+/// variance sigma^2 / S, where S = n h^2 r (r + 1) / 3 is the sum of their squared offsets.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/neighborhoods/detail/image_links.hpp>
+#include <gnomon/neighborhoods/detail/vector_sums.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// The pixels in the window of another one; refers to the windows.
+template <class Windows>
+class window_neighbors {
+  public:
+    window_neighbors(const Windows& windows, std::size_t center)
+        : windows_(windows), center_(center) {
+        windows.for_each_row(center, [this](std::size_t begin, std::size_t end) {
+            count_ += windows_.returns(begin, end);
+        });
+        --count_;  // the pixel itself
+    }
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+
+    /// The moments [m], [m^2] of the neighbors about the pixel, and their mean distance. O(k).
+    [[nodiscard]] neighborhood_sums summed() const {
+        vector_sums all;
+        windows_.for_each_row(center_, [&](std::size_t begin, std::size_t end) {
+            if (windows_.returns(begin, end) == end - begin)
+                add_all(all, begin, end);
+            else
+                add_returns(all, begin, end);
+        });
+        return all.of(count_);
+    }
+
+    /// Replaces the content of `found` by the neighbors in the order of their pixels. O(k).
+    template <class Allocator>
+    void sort_into(std::vector<neighbor, Allocator>& found) const {
+        found.clear();
+        const auto& links = windows_.links();
+        windows_.for_each_row(center_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t l = begin; l < end; ++l) {
+                if (l == center_ || !links.has_return(l)) continue;
+                found.push_back({squared_distance(links[l], links[center_]),
+                                 static_cast<point_index>(links.part().index_of(l))});
+            }
+        });
+    }
+
+  private:
+    /// Adds the pixels from begin on, all of which have a return. The pixel itself adds zeros.
+    void add_all(vector_sums& all, std::size_t begin, std::size_t end) const {
+        for (; begin + slim_pack::size <= end; begin += slim_pack::size)
+            all.add(offset(0, begin), offset(1, begin), offset(2, begin));
+        add_returns(all, begin, end);
+    }
+
+    /// Adds those with a return, as many at a time as a vector has numbers.
+    void add_returns(vector_sums& all, std::size_t begin, std::size_t end) const {
+        std::array<std::uint32_t, slim_pack::size> some;
+        const auto restart = [&] { some.fill(static_cast<std::uint32_t>(center_)); };  // zeros
+        std::size_t many = 0;
+        restart();
+        for (std::size_t l = begin; l < end; ++l) {
+            if (!windows_.links().has_return(l)) continue;
+            some[many++] = static_cast<std::uint32_t>(l);
+            if (many < some.size()) continue;
+            add(all, some.data());
+            restart();
+            many = 0;
+        }
+        if (many > 0) add(all, some.data());
+    }
+
+    void add(vector_sums& all, const std::uint32_t* pixels) const {
+        all.add(offset(0, pixels), offset(1, pixels), offset(2, pixels));
+    }
+
+    /// The offsets along an axis [m] of the pixels from `first` on, or of listed ones.
+    [[nodiscard, gnu::always_inline]] slim_pack offset(std::size_t axis, std::size_t first) const {
+        const double* const at = windows_.links().at(axis);
+        return slim_pack(at + first) - at[center_];
+    }
+    [[nodiscard, gnu::always_inline]] slim_pack offset(std::size_t axis,
+                                                       const std::uint32_t* pixels) const {
+        const double* const at = windows_.links().at(axis);
+        return slim_pack(at, pixels) - at[center_];
+    }
+
+    const Windows& windows_;
+    std::size_t center_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace GNOMON_LANES
+
+/// The windows of all pixels of a rectangle. (A template, so that only its users compile it.)
+template <class Number = double, class Index = point_index>
+class image_windows {
+  public:
+    /// @param least, most  radii [pixels]
+    /// @param precision    the standard deviation of a normal from which on windows do not grow
+    ///                     [rad]
+    template <execution X>
+    image_windows(const auto& points, const viewpoint_table& viewpoints, const noise_curve& noise,
+                  const pixel_rectangle& part, std::size_t least, std::size_t most,
+                  double precision, const X& run)
+        : links_(points, viewpoints, noise, part, most, run) {
+        for (scratch<Index>* const each : {&left_, &right_, &up_, &down_, &radius_, &before_})
+            each->resize(part.size() + 1);
+        for (std::size_t l = 0; l < part.size(); ++l)
+            before_[l + 1] = before_[l] + (links_.has_return(l) ? 1 : 0);
+        for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t l = begin; l < end; ++l)
+                radius_[l] = static_cast<Index>(radius_of(l, least, most, precision));
+        });
+        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
+        links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
+            reach(y * part.width, 1, part.width, most, left_, right_,
+                  [&](std::size_t l) { return links_.in_row(l); });
+        });
+        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
+        links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
+            reach(x, part.width, part.height, most, up_, down_,
+                  [&](std::size_t l) { return links_.in_column(l); });
+        });
+    }
+
+    [[nodiscard]] const image_links<Number, Index>& links() const { return links_; }
+
+    /// The number of pixels from begin to end that have a return.
+    [[nodiscard]] std::size_t returns(std::size_t begin, std::size_t end) const {
+        return before_[end] - before_[begin];
+    }
+
+    /// Calls each(begin, end) for the pixels of each row of the window of l, which has a return.
+    void for_each_row(std::size_t l, auto&& each) const {
+        const std::size_t r = radius_[l], width = links_.part().width;
+        const std::size_t last = l + std::min<std::size_t>(r, down_[l]) * width;
+        for (std::size_t q = l - std::min<std::size_t>(r, up_[l]) * width; q <= last; q += width) {
+            if (!links_.has_return(q)) continue;
+            each(q - std::min<std::size_t>(r, left_[q]), q + std::min<std::size_t>(r, right_[q]) + 1);
+        }
+    }
+
+    /// The neighbors of pixel l, which has a return. Refers to the windows.
+    [[nodiscard]] auto neighbors_of(std::size_t l) const {
+        return window_neighbors<image_windows>(*this, l);
+    }
+
+  private:
+    [[nodiscard]] std::size_t radius_of(std::size_t l, std::size_t least, std::size_t most,
+                                        double precision) const {
+        std::size_t radius = least;
+        if (!links_.has_return(l) || least >= most) return radius;
+        const double turn = precision * links_.spacing(l) * length(links_.ray(l));
+        const double needed = links_.variance(l) / (turn * turn);
+        const auto gained = [](double r) {
+            return (2.0 * r + 1.0) * (2.0 * r + 1.0) * r * (r + 1.0) / 3.0;
+        };
+        while (radius < most && gained(static_cast<double>(radius)) < needed) ++radius;
+        return radius;
+    }
+
+    /// How far pixels first, first + step, ... reach over links [pixels], at most `most`, back to
+    /// the first and forward to the last one.
+    void reach(std::size_t first, std::size_t step, std::size_t count, std::size_t most,
+               scratch<Index>& back, scratch<Index>& forward, auto&& gap_of) const {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t l = first + k * step, gap = gap_of(l);
+            back[l] = forward[l] = Index{};
+            if (gap > 0) back[l] = static_cast<Index>(std::min(most, back[l - gap * step] + gap));
+        }
+        for (std::size_t k = count; k-- > 0;) {
+            const std::size_t l = first + k * step, gap = gap_of(l);
+            if (gap > 0)
+                forward[l - gap * step] = static_cast<Index>(std::min(most, forward[l] + gap));
+        }
+    }
+
+    image_links<Number, Index> links_;
+    scratch<Index> left_, right_, up_, down_;  // reach over links, at most the largest radius
+    scratch<Index> radius_;
+    scratch<Index> before_;  // the number of returns before each pixel
+};
+
+}  // namespace gnomon::detail
