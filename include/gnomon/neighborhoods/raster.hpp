@@ -4,7 +4,7 @@
 /// point per pixel, row by row, NaN where there was no return. They are found in the image, without
 /// a tree.
 ///
-///     const gnomon::raster pixels{.width = 640, .noise = noises::structured_light()};
+///     const gnomon::raster pixels{.noise = noises::structured_light()};
 ///     auto surface = gnomon::estimate_normals(scan, pixels, plane_pca{}, threads{});
 ///     auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads{});
 ///
@@ -17,6 +17,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <functional>
+#include <iterator>
 #include <utility>
 #include <vector>
 
@@ -41,7 +42,7 @@ namespace gnomon {
 /// Models `sweeping_neighborhood`, and sweeps over points that have no index, too. Neighbors come
 /// in the order of their pixels. Rays are those from the view points, or else from the origin.
 struct raster {
-    std::size_t width = 0;                 ///< of the image [pixels], at least 1
+    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the `scan`
     noise_curve noise = constant_noise{};  ///< along the rays
     std::size_t radius = 3;                ///< of a window [pixels], at least 1
     std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
@@ -52,9 +53,10 @@ struct raster {
     static constexpr bool needs_no_index = true;
 
     /// The stored graph of the points of an image. O(n m) for windows of m pixels, in memory too.
-    /// @throws std::invalid_argument  if the width is 0, or the number of points is not a multiple
-    ///                                of it; if the radius is 0; if the precision is negative or
-    ///                                NaN; or if the view points are for another number of points
+    /// @throws std::invalid_argument  if the width is not known, or the number of points is not a
+    ///                                multiple of it; if the radius is 0; if the precision is
+    ///                                negative or NaN; or if the view points are for another number
+    ///                                of points
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
@@ -77,12 +79,12 @@ struct raster {
     template <class Allocator>
     void find(const spatial_index& index, std::size_t i,
               std::vector<neighbor, Allocator>& found) const {
-        require_image(index.size());
+        const detail::pixel_rectangle image = image_of(index);
         const std::size_t reach = most(), x = i % width, y = i / width;
         const std::size_t left = std::min(reach, x), above = std::min(reach, y);
         const detail::pixel_rectangle around{
             width, i - above * width - left, left + 1 + std::min(reach, width - 1 - x),
-            above + 1 + std::min(reach, index.size() / width - 1 - y)};
+            above + 1 + std::min(reach, image.height - 1 - y)};
         const auto windows = windows_of(index, index.viewpoints, around, sequential{});
         windows.neighbors_of(above * around.width + left).sort_into(found);
     }
@@ -103,17 +105,25 @@ struct raster {
         });
     }
 
-    /// @throws std::invalid_argument  if width or radius is 0, or the precision negative or NaN
+    /// @throws std::invalid_argument  if the radius is 0, or the precision negative or NaN
     void require_valid() const {
-        detail::require(width > 0, "raster: width must be at least 1");
         detail::require(radius > 0, "raster: radius must be at least 1");
         detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
     }
 
-    /// @throws std::invalid_argument  also unless n points are whole rows
-    void require_image(std::size_t n) const {
+    /// The image of all points, row by row.
+    /// @throws std::invalid_argument  as operator()
+    template <detail::indexed_range R>
+    [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
         require_valid();
-        detail::require(n % width == 0, "raster: the number of points is not a multiple of width");
+        std::size_t columns = width;
+        if constexpr (requires { points.width; })
+            if (columns == 0) columns = points.width;
+        detail::require(columns > 0, "raster: the width of the image is not known");
+        const auto n = static_cast<std::size_t>(std::ranges::size(points));
+        detail::require(n % columns == 0,
+                        "raster: the number of points is not a multiple of the width");
+        return {columns, 0, columns, n / columns};
     }
 
     /// The largest radius of a window, and the longest gap without a return in it [pixels].
@@ -130,9 +140,9 @@ struct raster {
     template <class R, class Proj>
     auto with_windows(const R& points, const auto& run, Proj projection, auto&& f) const {
         const position_view<R, Proj> p(points, std::move(projection));
-        require_image(p.size());
+        const detail::pixel_rectangle image = image_of(points);
         return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            return f(windows_of(p, viewpoints, {width, 0, width, p.size() / width}, run));
+            return f(windows_of(p, viewpoints, image, run));
         });
     }
 };

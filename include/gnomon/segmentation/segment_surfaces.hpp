@@ -168,13 +168,11 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
                                         const X& run = {}, Proj projection = {}) {
     const auto& team = detail::staying(run);
     const position_view<R, Proj> p(points, std::move(projection));
-    pixels.require_image(p.size());
+    const detail::pixel_rectangle image = pixels.image_of(points);
     const detail::smooth_link<Surface> link(surface, options, p.size());
     return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        const detail::image_links links(p, viewpoints, pixels.noise,
-                                        {pixels.width, 0, pixels.width, p.size() / pixels.width},
-                                        pixels.most(), team);
-        detail::image_surfaces found(links, surface, pixels.noise,
+        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
+        detail::image_surfaces found(links, surface,
                                      detail::epsilon_of<position_view<R, Proj>>(points));
         return detail::segments_of(
             found.labels(link, options.max_distance, options.min_points, team));

@@ -85,6 +85,17 @@ class image_links {
     /// The same in its column.
     [[nodiscard]] std::size_t in_column(std::size_t l) const { return in_column_[l]; }
 
+    /// How far the pixel after l in its row is that is linked with l [pixels]; 0 if there is none.
+    [[nodiscard]] std::size_t to_next_in_row(std::size_t l) const {
+        const std::size_t left = part_.width - 1 - l % part_.width;
+        return gap_after(l, 1, left, in_row_);
+    }
+    /// The same in its column.
+    [[nodiscard]] std::size_t to_next_in_column(std::size_t l) const {
+        const std::size_t left = part_.height - 1 - l / part_.width;
+        return gap_after(l, part_.width, left, in_column_);
+    }
+
     /// Calls each(line) for all lines, of which `many` are one chunk of work.
     template <execution X>
     static void for_each_line(const X& run, std::size_t lines, std::size_t many, auto&& each) {
@@ -95,6 +106,13 @@ class image_links {
     }
 
   private:
+    [[nodiscard]] std::size_t gap_after(std::size_t l, std::size_t step, std::size_t left,
+                                        const scratch<Index>& gaps) const {
+        for (std::size_t gap = 1; gap <= std::min(left, most_gap_); ++gap)
+            if (has_return(l + gap * step)) return gaps[l + gap * step] == gap ? gap : 0;
+        return 0;
+    }
+
     void read(std::size_t l, const Eigen::Vector3d& p, const noise_curve& noise) {
         constexpr Number nan = std::numeric_limits<Number>::quiet_NaN();
         const bool is_there = is_finite(p);

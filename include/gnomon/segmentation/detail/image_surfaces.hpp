@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -19,7 +18,6 @@
 #include <gnomon/core/detail/union_find.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/image_links.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
@@ -34,9 +32,8 @@ template <class Links, class Surface, class Index = point_index>
 class image_surfaces {
   public:
     /// @param epsilon  machine epsilon of the numbers that the points came in
-    image_surfaces(const Links& links, const Surface& surface, const noise_curve& noise,
-                   double epsilon)
-        : links_(links), surface_(surface), noise_(noise), epsilon_(epsilon) {}
+    image_surfaces(const Links& links, const Surface& surface, double epsilon)
+        : links_(links), surface_(surface), epsilon_(epsilon) {}
 
     /// The labels of the segments of at least `min_points` pixels, largest first.
     /// @param link      link(i, q): whether neighbor q of i is on the same surface by its normal
@@ -61,7 +58,7 @@ class image_surfaces {
             }
         });
         auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_plane_[i]; });
-        assign_rest(all, distance);
+        assign_rest(all);
         number_by_size(all);
         return all;
     }
@@ -75,11 +72,18 @@ class image_surfaces {
         if (const std::size_t gap = links_.in_column(i)) each(i - gap * links_.part().width);
     }
 
+    /// The same for those before and after it.
+    void for_each_linked(std::size_t i, auto&& each) const {
+        for_each_before(i, each);
+        if (const std::size_t gap = links_.to_next_in_row(i)) each(i + gap);
+        if (const std::size_t gap = links_.to_next_in_column(i)) each(i + gap * links_.part().width);
+    }
+
     [[nodiscard]] point_noise noise_at(std::size_t i) const {
         const Eigen::Vector3d p = links_[i];
         const double rounding =
             epsilon_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        return {noise_, links_.ray(i), true, rounding};
+        return {links_.variance(i), links_.ray(i), true, rounding};
     }
 
     /// Whether a pixel has a normal, and its window is a plane, if the estimate has its variance.
@@ -95,46 +99,26 @@ class image_surfaces {
 
     /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them whose
     /// tangent plane explains them best: within three standard deviations of a difference.
-    void assign_rest(auto& labels, double distance) const {
+    void assign_rest(auto& labels) const {
         const std::size_t n = labels.size();
-        scratch<Index> forward_in_row(n, none), forward_in_column(n, none);
-        for (std::size_t i = 0; i < n; ++i) {
-            if (const std::size_t gap = links_.in_row(i))
-                forward_in_row[i - gap] = static_cast<Index>(i);
-            if (const std::size_t gap = links_.in_column(i))
-                forward_in_column[i - gap * links_.part().width] = static_cast<Index>(i);
-        }
-        const auto for_each_linked = [&](std::size_t i, auto&& each) {
-            for_each_before(i, each);
-            if (forward_in_row[i] != none) each(forward_in_row[i]);
-            if (forward_in_column[i] != none) each(forward_in_column[i]);
-        };
         scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
-        scratch<Index> front, next;
-        for (std::size_t i = 0; i < n; ++i)
-            if (labels[i] != unlabeled) seed[i] = static_cast<Index>(i);
-        for (std::size_t i = 0; i < n; ++i)
-            if (labels[i] == unlabeled && links_.has_return(i)) front.push_back(static_cast<Index>(i));
-        scratch<Index> found;
+        scratch<Index> front, found;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (labels[i] != unlabeled)
+                seed[i] = static_cast<Index>(i);
+            else if (links_.has_return(i))
+                front.push_back(static_cast<Index>(i));
+        }
         while (!front.empty()) {
-            found.assign(front.size(), none);
-            for (std::size_t f = 0; f < front.size(); ++f) {
-                const point_noise own = noise_at(front[f]);
-                double best = most_deviations;
-                for_each_linked(front[f], [&](std::size_t j) {
-                    if (seed[j] == none) return;
-                    const double off = deviations(front[f], own, seed[j]);
-                    if (off > best || (off == best && seed[j] >= found[f])) return;
-                    best = off;
-                    found[f] = seed[j];
-                });
-            }
-            next.clear();
+            found.clear();
+            for (const Index i : front) found.push_back(best_seed(i, seed));
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
                 seed[front[f]] = found[f];
                 labels[front[f]] = labels[found[f]];
             }
+            // Only next to new labels there may be others.
+            scratch<Index> next;
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
                 for_each_linked(front[f], [&](std::size_t j) {
@@ -145,7 +129,22 @@ class image_surfaces {
             next.erase(std::unique(next.begin(), next.end()), next.end());
             front.swap(next);
         }
-        (void)distance;
+    }
+
+    /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i best,
+    /// of equal ones the smallest; none if it does not.
+    [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
+        const point_noise own = noise_at(i);
+        Index best = none;
+        double least = most_deviations;
+        for_each_linked(i, [&](std::size_t j) {
+            if (seed[j] == none || seed[j] == best) return;
+            const double off = deviations(i, own, seed[j]);
+            if (off > least || (off == least && seed[j] > best)) return;
+            least = off;
+            best = seed[j];
+        });
+        return best;
     }
 
     /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of both.
@@ -157,7 +156,6 @@ class image_surfaces {
 
     const Links& links_;
     const Surface& surface_;
-    const noise_curve& noise_;
     double epsilon_;
     scratch<char> is_plane_;
 };
