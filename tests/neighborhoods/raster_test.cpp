@@ -89,8 +89,7 @@ class brute_force {
     /// The pixel that is some columns or rows from pixel i; -1 if there is none.
     [[nodiscard]] long moved(long i, long by, bool in_row) const {
         const long x = i % width() + (in_row ? by : 0), y = i / width() + (in_row ? 0 : by);
-        const bool is_there =
-            0 <= x && x < width() && 0 <= y && y < static_cast<long>(height_);
+        const bool is_there = 0 <= x && x < width() && 0 <= y && y < static_cast<long>(height_);
         return is_there ? y * width() + x : -1;
     }
     [[nodiscard]] bool is_linked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
@@ -196,8 +195,8 @@ double squared_slope(const clouds::cloud& image, std::size_t i, auto&& neighbors
     return (normal.inverse() * right).squaredNorm();
 }
 
-/// Independent noise of the depth turns the normals of a wall by the precision, and would by more if
-/// windows were a pixel smaller.
+/// Independent noise of the depth turns the normals of a wall by the precision, and would by more
+/// if windows were a pixel smaller.
 TEST(raster, windows_grow_until_noise_turns_normals_by_no_more_than_the_precision) {
     constexpr std::size_t width = 21, center = 10 * width + 10;
     const auto wall = images::of_planes({{{0, 0, 1}, 3.0}}, width, width);
@@ -246,9 +245,9 @@ TEST(raster, refuses_what_is_no_image) {
     const auto image = room(40, 30, 6);
     const auto refuses = [&image](const gnomon::raster& policy) {
         EXPECT_THROW((void)policy(image), std::invalid_argument);
-        EXPECT_THROW(policy.sweep(image, gnomon::sequential{},
-                                  [] { return gnomon::detail::any_visitor{}; }),
-                     std::invalid_argument);
+        EXPECT_THROW(
+            policy.sweep(image, gnomon::sequential{}, [] { return gnomon::detail::any_visitor{}; }),
+            std::invalid_argument);
         const gnomon::spatial_index index(image);
         std::vector<gnomon::neighbor> found;
         EXPECT_THROW(policy.find(index, 0, found), std::invalid_argument);

@@ -46,8 +46,8 @@ struct raster {
     noise_curve noise = constant_noise{};  ///< along the rays
     std::size_t radius = 3;                ///< of a window [pixels], at least 1
     std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
-    /// The standard deviation of a normal that is enough: half of the angle at which `segment_surfaces`
-    /// separates surfaces.
+    /// The standard deviation of a normal that is enough: half of the angle at which
+    /// `segment_surfaces` separates surfaces.
     angle precision = degrees(2.5);
 
     static constexpr bool needs_no_index = true;
@@ -82,9 +82,9 @@ struct raster {
         const detail::pixel_rectangle image = image_of(index);
         const std::size_t reach = most(), x = i % width, y = i / width;
         const std::size_t left = std::min(reach, x), above = std::min(reach, y);
-        const detail::pixel_rectangle around{
-            width, i - above * width - left, left + 1 + std::min(reach, width - 1 - x),
-            above + 1 + std::min(reach, image.height - 1 - y)};
+        const detail::pixel_rectangle around{width, i - above * width - left,
+                                             left + 1 + std::min(reach, width - 1 - x),
+                                             above + 1 + std::min(reach, image.height - 1 - y)};
         const auto windows = windows_of(index, index.viewpoints, around, sequential{});
         windows.neighbors_of(above * around.width + left).sort_into(found);
     }
@@ -132,8 +132,8 @@ struct raster {
   private:
     [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
                                   const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<>(positions, viewpoints, noise, part, radius,
-                                       most(), precision.radians(), run);
+        return detail::image_windows<>(positions, viewpoints, noise, part, radius, most(),
+                                       precision.radians(), run);
     }
 
     /// f(windows) of all points.

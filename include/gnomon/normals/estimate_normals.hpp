@@ -140,11 +140,10 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
     if constexpr (detail::needs_no_index<N>) {
         const position_view<R, Proj> p(points, projection);
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            detail::estimate_swept(surface, p, viewpoints,
-                                   detail::epsilon_of<position_view<R, Proj>>(points), estimate,
-                                   team, [&](auto&& make_visitor) {
-                                       policy.sweep(points, team, make_visitor, projection);
-                                   });
+            detail::estimate_swept(
+                surface, p, viewpoints, detail::epsilon_of<position_view<R, Proj>>(points),
+                estimate, team,
+                [&](auto&& make_visitor) { policy.sweep(points, team, make_visitor, projection); });
         });
     } else if constexpr (indexed_neighborhood<N>) {
         const auto& index = detail::index_of(points, team, projection);

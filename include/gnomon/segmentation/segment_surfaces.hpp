@@ -22,9 +22,9 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/detail/image_links.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/raster.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -156,7 +156,8 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
 ///
 /// @param points   the n points of the image, row by row
 /// @param pixels   its width, and the noise along the rays from the view points or the origin
-/// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them; where
+/// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them;
+/// where
 ///                 the estimate has no `spectrum`, surfaces may leak at edges
 /// @throws std::invalid_argument  also for what `raster` does not accept
 /// Complexity: O(n). The same bytes for every execution.
@@ -170,12 +171,16 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
     const position_view<R, Proj> p(points, std::move(projection));
     const detail::pixel_rectangle image = pixels.image_of(points);
     const detail::smooth_link<Surface> link(surface, options, p.size());
+    segment_surfaces_options of_twice_the_angle = options;
+    of_twice_the_angle.max_angle =
+        std::min(radians(2.0 * options.max_angle.radians()), degrees(90));
+    const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
     return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
         const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
         detail::image_surfaces found(links, surface,
                                      detail::epsilon_of<position_view<R, Proj>>(points));
         return detail::segments_of(
-            found.labels(link, options.max_distance, options.min_points, team));
+            found.labels(link, wide_link, options.max_distance, options.min_points, team));
     });
 }
 

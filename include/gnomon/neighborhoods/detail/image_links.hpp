@@ -10,6 +10,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <limits>
 
@@ -38,6 +39,10 @@ struct pixel_rectangle {
     }
 };
 
+/// The ways from a pixel along its row and its column.
+enum class way : unsigned { left, right, up, down };
+inline constexpr std::array all_ways{way::left, way::right, way::up, way::down};
+
 /// The pixels of a rectangle and their links. (A template, so that only its users compile it.)
 template <class Number = double, class Index = point_index>
 class image_links {
@@ -51,17 +56,17 @@ class image_links {
         : part_(part), viewpoints_(viewpoints), most_gap_(most_gap) {
         for (scratch<Number>* const each : {&x_, &y_, &z_, &variance_, &spacing_})
             each->resize(part.size());
-        in_row_.resize(part.size());
-        in_column_.resize(part.size());
+        for (scratch<Index>& each : gaps_) each.resize(part.size());
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
         });
         const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        for_each_line(run, part.height, rows,
-                      [&](std::size_t y) { link(y * part.width, 1, part.width, in_row_); });
+        for_each_line(run, part.height, rows, [&](std::size_t y) {
+            link(y * part.width, 1, part.width, way::left, way::right);
+        });
         constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
         for_each_line(run, part.width, columns,
-                      [&](std::size_t x) { link(x, part.width, part.height, in_column_); });
+                      [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
     }
 
     [[nodiscard]] const pixel_rectangle& part() const { return part_; }
@@ -80,20 +85,12 @@ class image_links {
     /// The sine of the angle between the rays of neighboring pixels, the smaller one of rows and
     /// columns; infinite if there are none.
     [[nodiscard]] double spacing(std::size_t l) const { return spacing_[l]; }
-    /// How far the pixel before l in its row is that l is linked with [pixels]; 0 if there is none.
-    [[nodiscard]] std::size_t in_row(std::size_t l) const { return in_row_[l]; }
-    /// The same in its column.
-    [[nodiscard]] std::size_t in_column(std::size_t l) const { return in_column_[l]; }
-
-    /// How far the pixel after l in its row is that is linked with l [pixels]; 0 if there is none.
-    [[nodiscard]] std::size_t to_next_in_row(std::size_t l) const {
-        const std::size_t left = part_.width - 1 - l % part_.width;
-        return gap_after(l, 1, left, in_row_);
-    }
-    /// The same in its column.
-    [[nodiscard]] std::size_t to_next_in_column(std::size_t l) const {
-        const std::size_t left = part_.height - 1 - l / part_.width;
-        return gap_after(l, part_.width, left, in_column_);
+    /// How far the next pixel on a way from l is [pixels] if l is linked with it, else 0.
+    [[nodiscard]] std::size_t gap(std::size_t l, way to) const { return gaps(to)[l]; }
+    /// That pixel; l itself if there is none.
+    [[nodiscard]] std::size_t next(std::size_t l, way to) const {
+        const std::size_t step = to < way::up ? gap(l, to) : gap(l, to) * part_.width;
+        return to == way::left || to == way::up ? l - step : l + step;
     }
 
     /// Calls each(line) for all lines, of which `many` are one chunk of work.
@@ -106,11 +103,8 @@ class image_links {
     }
 
   private:
-    [[nodiscard]] std::size_t gap_after(std::size_t l, std::size_t step, std::size_t left,
-                                        const scratch<Index>& gaps) const {
-        for (std::size_t gap = 1; gap <= std::min(left, most_gap_); ++gap)
-            if (has_return(l + gap * step)) return gaps[l + gap * step] == gap ? gap : 0;
-        return 0;
+    [[nodiscard]] const scratch<Index>& gaps(way to) const {
+        return gaps_[static_cast<unsigned>(to)];
     }
 
     void read(std::size_t l, const Eigen::Vector3d& p, const noise_curve& noise) {
@@ -121,17 +115,21 @@ class image_links {
         z_[l] = is_there ? p[2] : nan;
         variance_[l] = is_there ? noise.variance_along(ray(l)) : Number{};
         spacing_[l] = std::numeric_limits<Number>::infinity();
-        in_row_[l] = in_column_[l] = Index{};
+        for (scratch<Index>& each : gaps_) each[l] = Index{};
     }
 
     /// Links the pixels first, first + step, ...
-    void link(std::size_t first, std::size_t step, std::size_t count, scratch<Index>& gaps) {
+    void link(std::size_t first, std::size_t step, std::size_t count, way back, way forward) {
         std::size_t last = count;  // the last one with a return; none
         for (std::size_t k = 0; k < count; ++k) {
             const std::size_t l = first + k * step;
             if (!has_return(l)) continue;
-            if (last < k && k - last <= most_gap_)
-                gaps[l] = static_cast<Index>(link(first + last * step, l, k - last));
+            if (last < k && k - last <= most_gap_) {
+                const std::size_t before = first + last * step;
+                const auto gap = static_cast<Index>(link(before, l, k - last));
+                gaps_[static_cast<unsigned>(back)][l] = gap;
+                gaps_[static_cast<unsigned>(forward)][before] = gap;
+            }
             last = k;
         }
     }
@@ -155,7 +153,7 @@ class image_links {
     const viewpoint_table& viewpoints_;
     std::size_t most_gap_;
     scratch<Number> x_, y_, z_, variance_, spacing_;
-    scratch<Index> in_row_, in_column_;
+    std::array<scratch<Index>, 4> gaps_;  // by way
 };
 
 }  // namespace gnomon::detail

@@ -136,13 +136,11 @@ class image_windows {
         });
         const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
         links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
-            reach(y * part.width, 1, part.width, most, left_, right_,
-                  [&](std::size_t l) { return links_.in_row(l); });
+            reach(y * part.width, 1, part.width, most, left_, right_, way::left);
         });
         constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
         links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
-            reach(x, part.width, part.height, most, up_, down_,
-                  [&](std::size_t l) { return links_.in_column(l); });
+            reach(x, part.width, part.height, most, up_, down_, way::up);
         });
     }
 
@@ -159,7 +157,8 @@ class image_windows {
         const std::size_t last = l + std::min<std::size_t>(r, down_[l]) * width;
         for (std::size_t q = l - std::min<std::size_t>(r, up_[l]) * width; q <= last; q += width) {
             if (!links_.has_return(q)) continue;
-            each(q - std::min<std::size_t>(r, left_[q]), q + std::min<std::size_t>(r, right_[q]) + 1);
+            each(q - std::min<std::size_t>(r, left_[q]),
+                 q + std::min<std::size_t>(r, right_[q]) + 1);
         }
     }
 
@@ -185,14 +184,14 @@ class image_windows {
     /// How far pixels first, first + step, ... reach over links [pixels], at most `most`, back to
     /// the first and forward to the last one.
     void reach(std::size_t first, std::size_t step, std::size_t count, std::size_t most,
-               scratch<Index>& back, scratch<Index>& forward, auto&& gap_of) const {
+               scratch<Index>& back, scratch<Index>& forward, way to_first) const {
         for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t l = first + k * step, gap = gap_of(l);
+            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
             back[l] = forward[l] = Index{};
             if (gap > 0) back[l] = static_cast<Index>(std::min(most, back[l - gap * step] + gap));
         }
         for (std::size_t k = count; k-- > 0;) {
-            const std::size_t l = first + k * step, gap = gap_of(l);
+            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
             if (gap > 0)
                 forward[l - gap * step] = static_cast<Index>(std::min(most, forward[l] + gap));
         }

@@ -2,14 +2,16 @@
 /// @file
 /// Smooth surfaces of an organized image. Alg. 4.2 joins neighboring points whose normals turn by a
 /// small angle. With normals of wide windows this leaks: across an edge they turn gradually. Hence
-/// pixels whose window is no plane, as its variance exceeds that of the noise, join nothing at
-/// first; each of them, if a plane explains it, goes to a surface next to it afterwards.
+/// pixels join nothing at first whose window is no plane, as its variance exceeds that of the
+/// noise, or whose normal disagrees with that of any pixel next to them. Each of these goes to a
+/// surface next to it afterwards, if a plane explains it.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <utility>
 
 #include <Eigen/Core>
 
@@ -21,7 +23,10 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/image_links.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/segmentation/detail/agglomeration.hpp>
+#include <gnomon/segmentation/detail/plane_comparison.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/region_pairs.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -36,29 +41,37 @@ class image_surfaces {
         : links_(links), surface_(surface), epsilon_(epsilon) {}
 
     /// The labels of the segments of at least `min_points` pixels, largest first.
-    /// @param link      link(i, q): whether neighbor q of i is on the same surface by its normal
+    /// @param link      link(i, q): whether the normals of i and of q, next to it, agree
+    /// @param agrees    the same for pixels that are farther apart
     /// @param distance  no link is longer [m]
     template <execution X>
-    [[nodiscard]] auto labels(auto&& link, double distance, std::size_t min_points, const X& run) {
+    [[nodiscard]] auto labels(auto&& link, auto&& agrees, double distance, std::size_t min_points,
+                              const X& run) {
         const std::size_t n = links_.part().size();
         is_plane_.assign(n, 0);
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) is_plane_[i] = is_plane(i) ? 1 : 0;
         });
+        is_inner_.assign(n, 0);
+        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) is_inner_[i] = is_inner(i, agrees) ? 1 : 0;
+        });
         union_find sets(n);
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
-                if (is_plane_[i] == 0) continue;
+                if (is_inner_[i] == 0) continue;
                 for_each_before(i, [&](std::size_t j) {
                     const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
                     const neighbor q{squared_distance(links_[i], links_[j]), b};
-                    if (is_plane_[j] == 0 || q.squared_distance > distance * distance) return;
-                    if (link(i, q)) sets.unite(a, b);
+                    if (is_inner_[j] != 0 && q.squared_distance <= distance * distance &&
+                        link(i, q))
+                        sets.unite(a, b);
                 });
             }
         });
-        auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_plane_[i]; });
+        auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_inner_[i]; });
         assign_rest(all);
+        merge_coplanar(all);
         number_by_size(all);
         return all;
     }
@@ -68,15 +81,13 @@ class image_surfaces {
 
     /// Calls each(j) for the pixels before i in its row and column that it is linked with.
     void for_each_before(std::size_t i, auto&& each) const {
-        if (const std::size_t gap = links_.in_row(i)) each(i - gap);
-        if (const std::size_t gap = links_.in_column(i)) each(i - gap * links_.part().width);
+        for (const way to : {way::left, way::up})
+            if (links_.gap(i, to) > 0) each(links_.next(i, to));
     }
-
     /// The same for those before and after it.
     void for_each_linked(std::size_t i, auto&& each) const {
-        for_each_before(i, each);
-        if (const std::size_t gap = links_.to_next_in_row(i)) each(i + gap);
-        if (const std::size_t gap = links_.to_next_in_column(i)) each(i + gap * links_.part().width);
+        for (const way to : all_ways)
+            if (links_.gap(i, to) > 0) each(links_.next(i, to));
     }
 
     [[nodiscard]] point_noise noise_at(std::size_t i) const {
@@ -97,8 +108,34 @@ class image_surfaces {
         return true;
     }
 
-    /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them whose
-    /// tangent plane explains them best: within three standard deviations of a difference.
+    /// A quarter of the width of a square window with these neighbors [pixels].
+    [[nodiscard]] static std::size_t quarter_of_window(double neighbors) {
+        constexpr double quarter = 0.25;  // formula
+        return static_cast<std::size_t>(quarter * std::sqrt(neighbors + 1.0));
+    }
+
+    /// Whether a pixel is a plane, and agrees with those a quarter of its window away, by twice the
+    /// angle of pixels next to each other: across an edge, windows that overlap by three quarters
+    /// turn by a large part of its angle, and on a plane they share most of their noise.
+    [[nodiscard]] bool is_inner(std::size_t i, auto&& agrees) const {
+        if (is_plane_[i] == 0) return false;
+        std::size_t quarter = 1;  // of the width of the window [pixels]
+        if constexpr (requires { surface_[i].neighbors; })
+            quarter = std::max(quarter, quarter_of_window(surface_[i].neighbors));
+        for (const way to : all_ways) {
+            std::size_t j = i;
+            for (std::size_t moved = 0; moved < quarter && links_.gap(j, to) > 0;) {
+                moved += links_.gap(j, to);
+                j = links_.next(j, to);
+            }
+            if (is_plane_[j] != 0 && !agrees(i, neighbor{0.0, static_cast<Index>(j)})) return false;
+        }
+        return true;
+    }
+
+    /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them
+    /// whose tangent plane explains them best: within three standard deviations of a
+    /// difference.
     void assign_rest(auto& labels) const {
         const std::size_t n = labels.size();
         scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
@@ -131,8 +168,8 @@ class image_surfaces {
         }
     }
 
-    /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i best,
-    /// of equal ones the smallest; none if it does not.
+    /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i
+    /// best, of equal ones the smallest; none if it does not.
     [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
         const point_noise own = noise_at(i);
         Index best = none;
@@ -147,7 +184,36 @@ class image_surfaces {
         return best;
     }
 
-    /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of both.
+    /// Merges segments next to each other that one plane explains: where noise is correlated,
+    /// as in steps of the depth, a wall is several at first.
+    void merge_coplanar(auto& labels) const {
+        const auto last = std::max_element(labels.begin(), labels.end());
+        if (last == labels.end() || *last < 1) return;
+        scratch<planar_region> regions(static_cast<Index>(*last) + std::size_t{1});
+        scratch<region_pair> pairs;
+        const Eigen::Vector3d origin = links_[static_cast<std::size_t>(last - labels.begin())];
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] == unlabeled) continue;
+            const auto own = static_cast<Index>(labels[i]);
+            regions[own].sums.add(difference(links_[i], origin), noise_at(i));
+            for_each_before(i, [&](std::size_t j) {
+                if (labels[j] == unlabeled || labels[j] == labels[i]) return;
+                add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
+            });
+        }
+        for (planar_region& r : regions) r.fit = r.sums.fit();
+        make_unique(pairs);
+        union_find sets = agglomeration(regions)(
+            std::move(pairs),
+            [](const planar_region& a, const planar_region& b) {
+                return dissimilarity_of_neighbors(a, b);
+            },
+            [](Index, Index) { return true; }, [](union_find&) {});
+        unite_labels(labels, sets);
+    }
+
+    /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of
+    /// both.
     [[nodiscard]] double deviations(std::size_t i, const point_noise& own, std::size_t seed) const {
         const Eigen::Vector3d& n = surface_[seed].normal;
         const double distance = std::abs(dot(n, difference(links_[i], links_[seed])));
@@ -157,7 +223,7 @@ class image_surfaces {
     const Links& links_;
     const Surface& surface_;
     double epsilon_;
-    scratch<char> is_plane_;
+    scratch<char> is_plane_, is_inner_;
 };
 
 }  // namespace gnomon::detail
