@@ -158,7 +158,7 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
 /// @param pixels   its width, and the noise along the rays from the view points or the origin
 /// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them;
 /// where
-///                 the estimate has no `spectrum`, surfaces may leak at edges
+///                 the estimate has no `spectrum`, flat edges may be lost
 /// @throws std::invalid_argument  also for what `raster` does not accept
 /// Complexity: O(n). The same bytes for every execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>

@@ -13,13 +13,19 @@
 #include <vector>
 
 #include <gnomon/core/detail/pack.hpp>
+#include <gnomon/core/moments.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/neighbor_order.hpp>
-#include <gnomon/neighborhoods/detail/vector_sums.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
+
+/// Sums over the neighbors of a point.
+struct neighborhood_sums {
+    moments about_point;
+    double mean_distance = 0.0;  // from it [m]; 0 if there are none
+};
 
 /// A view of the neighbors of one point, in no particular order; valid until the search goes on to
 /// the next point. (A template, so that only users of a search compile it.)
@@ -44,7 +50,17 @@ class found_neighbors {
                       last.begin());
             add(all, last.data());
         }
-        return all.of(size());
+        neighborhood_sums r;
+        r.about_point.count = size();
+        r.about_point.sum = {all.x.sum(), all.y.sum(), all.z.sum()};
+        r.about_point.outer(0, 0) = all.xx.sum();
+        r.about_point.outer(1, 0) = all.xy.sum();
+        r.about_point.outer(2, 0) = all.xz.sum();
+        r.about_point.outer(1, 1) = all.yy.sum();
+        r.about_point.outer(2, 1) = all.yz.sum();
+        r.about_point.outer(2, 2) = all.zz.sum();
+        if (size() > 0) r.mean_distance = all.distance.sum() / static_cast<double>(size());
+        return r;
     }
 
     /// Replaces the content of `sorted` by the neighbors in canonical order. O(k log k), for few
@@ -75,11 +91,28 @@ class found_neighbors {
   private:
     using order = neighbor_order<>;
 
+    struct vector_sums {
+        slim_pack x = 0.0, y = 0.0, z = 0.0;
+        slim_pack xx = 0.0, xy = 0.0, xz = 0.0, yy = 0.0, yz = 0.0, zz = 0.0;
+        slim_pack distance = 0.0;
+    };
+
     /// Adds as many neighbors as a vector has numbers.
     [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
-        all.add(slim_pack(tree_.at(0), places) - tree_.at(0)[from_],
-                slim_pack(tree_.at(1), places) - tree_.at(1)[from_],
-                slim_pack(tree_.at(2), places) - tree_.at(2)[from_]);
+        const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
+        const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
+        const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
+        const slim_pack xx = x * x, yy = y * y, zz = z * z;
+        all.x += x;
+        all.y += y;
+        all.z += z;
+        all.xx += xx;
+        all.xy += x * y;
+        all.xz += x * z;
+        all.yy += yy;
+        all.yz += y * z;
+        all.zz += zz;
+        all.distance += root(xx + yy + zz);
     }
 
     [[nodiscard]] neighbor at(std::size_t j) const {

@@ -55,7 +55,7 @@ class image_links {
                 const pixel_rectangle& part, std::size_t most_gap, const X& run)
         : part_(part), viewpoints_(viewpoints), most_gap_(most_gap) {
         for (scratch<Number>* const each : {&x_, &y_, &z_, &variance_, &spacing_})
-            each->resize(part.size());
+            each->resize(part.size() + padding);
         for (scratch<Index>& each : gaps_) each.resize(part.size());
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
@@ -68,6 +68,9 @@ class image_links {
         for_each_line(run, part.width, columns,
                       [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
     }
+
+    /// By which the arrays of coordinates are longer, so that whole vectors can be read.
+    static constexpr std::size_t padding = 3;
 
     [[nodiscard]] const pixel_rectangle& part() const { return part_; }
     [[nodiscard]] bool has_return(std::size_t l) const { return !std::isnan(x_[l]); }

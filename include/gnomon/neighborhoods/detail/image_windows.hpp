@@ -10,22 +10,33 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
-#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/detail/image_links.hpp>
-#include <gnomon/neighborhoods/detail/vector_sums.hpp>
+#include <gnomon/neighborhoods/detail/lane_instructions.hpp>
+#include <gnomon/neighborhoods/detail/window_sums.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
+
+/// The vectors of some instructions.
+template <class Instructions>
+struct vectors_of {
+    using type = two_numbers;
+};
+#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+template <>
+struct vectors_of<avx2_instructions> {
+    using type = four_numbers;
+};
+#endif
 
 /// The pixels in the window of another one; refers to the windows.
 template <class Windows>
@@ -43,14 +54,10 @@ class window_neighbors {
 
     /// The moments [m], [m^2] of the neighbors about the pixel, and their mean distance. O(k).
     [[nodiscard]] neighborhood_sums summed() const {
-        vector_sums all;
-        windows_.for_each_row(center_, [&](std::size_t begin, std::size_t end) {
-            if (windows_.returns(begin, end) == end - begin)
-                add_all(all, begin, end);
-            else
-                add_returns(all, begin, end);
+        return with_widest([this](auto instructions) {
+            return summed_by<typename vectors_of<decltype(instructions)>::type>(windows_, center_,
+                                                                                count_);
         });
-        return all.of(count_);
     }
 
     /// Replaces the content of `found` by the neighbors in the order of their pixels. O(k).
@@ -68,45 +75,6 @@ class window_neighbors {
     }
 
   private:
-    /// Adds the pixels from begin on, all of which have a return. The pixel itself adds zeros.
-    void add_all(vector_sums& all, std::size_t begin, std::size_t end) const {
-        for (; begin + slim_pack::size <= end; begin += slim_pack::size)
-            all.add(offset(0, begin), offset(1, begin), offset(2, begin));
-        add_returns(all, begin, end);
-    }
-
-    /// Adds those with a return, as many at a time as a vector has numbers.
-    void add_returns(vector_sums& all, std::size_t begin, std::size_t end) const {
-        std::array<std::uint32_t, slim_pack::size> some;
-        const auto restart = [&] { some.fill(static_cast<std::uint32_t>(center_)); };  // zeros
-        std::size_t many = 0;
-        restart();
-        for (std::size_t l = begin; l < end; ++l) {
-            if (!windows_.links().has_return(l)) continue;
-            some[many++] = static_cast<std::uint32_t>(l);
-            if (many < some.size()) continue;
-            add(all, some.data());
-            restart();
-            many = 0;
-        }
-        if (many > 0) add(all, some.data());
-    }
-
-    void add(vector_sums& all, const std::uint32_t* pixels) const {
-        all.add(offset(0, pixels), offset(1, pixels), offset(2, pixels));
-    }
-
-    /// The offsets along an axis [m] of the pixels from `first` on, or of listed ones.
-    [[nodiscard, gnu::always_inline]] slim_pack offset(std::size_t axis, std::size_t first) const {
-        const double* const at = windows_.links().at(axis);
-        return slim_pack(at + first) - at[center_];
-    }
-    [[nodiscard, gnu::always_inline]] slim_pack offset(std::size_t axis,
-                                                       const std::uint32_t* pixels) const {
-        const double* const at = windows_.links().at(axis);
-        return slim_pack(at, pixels) - at[center_];
-    }
-
     const Windows& windows_;
     std::size_t center_;
     std::size_t count_ = 0;
@@ -151,14 +119,34 @@ class image_windows {
         return before_[end] - before_[begin];
     }
 
-    /// Calls each(begin, end) for the pixels of each row of the window of l, which has a return.
-    void for_each_row(std::size_t l, auto&& each) const {
+    /// The pixels of the column of a window: begin, begin + step, ..., last.
+    struct column {
+        std::size_t begin, last, step, radius;
+    };
+    /// That of the window of pixel l.
+    [[nodiscard]] column column_of(std::size_t l) const {
         const std::size_t r = radius_[l], width = links_.part().width;
-        const std::size_t last = l + std::min<std::size_t>(r, down_[l]) * width;
-        for (std::size_t q = l - std::min<std::size_t>(r, up_[l]) * width; q <= last; q += width) {
+        return {l - std::min<std::size_t>(r, up_[l]) * width,
+                l + std::min<std::size_t>(r, down_[l]) * width, width, r};
+    }
+
+    /// The pixels of a row of a window: from begin, before end.
+    struct row {
+        std::size_t begin, end;
+    };
+    /// That through pixel q of the column of a window of this radius. Precondition: q has a return.
+    [[nodiscard]] row row_of(std::size_t q, std::size_t radius) const {
+        return {q - std::min<std::size_t>(radius, left_[q]),
+                q + std::min<std::size_t>(radius, right_[q]) + 1};
+    }
+
+    /// Calls each(begin, end) for the rows of the window of l, which has a return.
+    void for_each_row(std::size_t l, auto&& each) const {
+        const column c = column_of(l);
+        for (std::size_t q = c.begin; q <= c.last; q += c.step) {
             if (!links_.has_return(q)) continue;
-            each(q - std::min<std::size_t>(r, left_[q]),
-                 q + std::min<std::size_t>(r, right_[q]) + 1);
+            const row r = row_of(q, c.radius);
+            each(r.begin, r.end);
         }
     }
 

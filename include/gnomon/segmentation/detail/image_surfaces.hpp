@@ -90,11 +90,19 @@ class image_surfaces {
             if (links_.gap(i, to) > 0) each(links_.next(i, to));
     }
 
-    [[nodiscard]] point_noise noise_at(std::size_t i) const {
+    [[nodiscard]] double rounding_at(std::size_t i) const {
         const Eigen::Vector3d p = links_[i];
-        const double rounding =
-            epsilon_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-        return {links_.variance(i), links_.ray(i), true, rounding};
+        return epsilon_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    }
+    [[nodiscard]] point_noise noise_at(std::size_t i) const {
+        return {links_.variance(i), links_.ray(i), true, rounding_at(i)};
+    }
+    /// The square of noise_at(i).across(normal) [m^2], in less time.
+    [[nodiscard]] double variance_across(std::size_t i, const Eigen::Vector3d& normal) const {
+        const Eigen::Vector3d ray = links_.ray(i);
+        const double rounding = rounding_at(i), along = dot(ray, normal);
+        const double variance = flatness * flatness + rounding * rounding + links_.variance(i);
+        return variance * std::max(along * along / dot(ray, ray), least_cosine * least_cosine);
     }
 
     /// Whether a pixel has a normal, and its window is a plane, if the estimate has its variance.
@@ -102,8 +110,8 @@ class image_surfaces {
         const auto& element = surface_[i];
         if (!links_.has_return(i) || is_missing(element.normal)) return false;
         if constexpr (requires { element.spectrum.lambda[2]; }) {
-            const double across = noise_at(i).across(element.normal);
-            return element.spectrum.lambda[2] <= region_plane::most_excess * across * across;
+            return element.spectrum.lambda[2] <=
+                   region_plane::most_excess * variance_across(i, element.normal);
         }
         return true;
     }
@@ -171,17 +179,22 @@ class image_surfaces {
     /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i
     /// best, of equal ones the smallest; none if it does not.
     [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
-        const point_noise own = noise_at(i);
         Index best = none;
         double least = most_deviations;
         for_each_linked(i, [&](std::size_t j) {
             if (seed[j] == none || seed[j] == best) return;
-            const double off = deviations(i, own, seed[j]);
+            const double off = deviations(i, seed[j]);
             if (off > least || (off == least && seed[j] > best)) return;
             least = off;
             best = seed[j];
         });
         return best;
+    }
+
+    /// Every second pixel, as on a checkerboard: enough for planes, in half of the time.
+    [[nodiscard]] bool is_sampled(std::size_t i) const {
+        const std::size_t width = links_.part().width;
+        return (i / width + i % width) % 2 == 0;
     }
 
     /// Merges segments next to each other that one plane explains: where noise is correlated,
@@ -195,7 +208,7 @@ class image_surfaces {
         for (std::size_t i = 0; i < labels.size(); ++i) {
             if (labels[i] == unlabeled) continue;
             const auto own = static_cast<Index>(labels[i]);
-            regions[own].sums.add(difference(links_[i], origin), noise_at(i));
+            if (is_sampled(i)) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
             for_each_before(i, [&](std::size_t j) {
                 if (labels[j] == unlabeled || labels[j] == labels[i]) return;
                 add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
@@ -214,10 +227,10 @@ class image_surfaces {
 
     /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of
     /// both.
-    [[nodiscard]] double deviations(std::size_t i, const point_noise& own, std::size_t seed) const {
+    [[nodiscard]] double deviations(std::size_t i, std::size_t seed) const {
         const Eigen::Vector3d& n = surface_[seed].normal;
         const double distance = std::abs(dot(n, difference(links_[i], links_[seed])));
-        return distance / std::hypot(own.across(n), noise_at(seed).across(n));
+        return distance / std::sqrt(variance_across(i, n) + variance_across(seed, n));
     }
 
     const Links& links_;
