@@ -149,7 +149,7 @@ TEST(image_surfaces, refuse_what_is_no_image) {
     refuses(pixels);
 }
 
-/// Wall, door, floor and cabinet are one segment each.
+/// Walls and floor are one segment each.
 TEST(image_surfaces, of_a_real_frame_are_few_and_large) {
     const auto file = shared_file("scans/pcl_office1_kinect.pcd");
     if (file.empty()) GTEST_SKIP() << "needs shared data";

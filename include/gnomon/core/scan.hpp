@@ -25,8 +25,8 @@ struct scan {
     std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return
     viewpoint_table viewpoints;           ///< empty if unknown: the origin
     std::vector<scalar_field> fields;     ///< each as long as `points`
-    /// Of an organized image [pixels], whose points are its pixels, row by row; else 0. Code that
-    /// removes points sets it to 0.
+    /// The width [pixels] of an organized image, whose points are its pixels, row by row; else 0.
+    /// Code that removes points sets it to 0.
     std::size_t width = 0;
 
     [[nodiscard]] auto begin() const { return points.begin(); }

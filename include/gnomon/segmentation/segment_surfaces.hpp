@@ -172,8 +172,8 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
     const detail::pixel_rectangle image = pixels.image_of(points);
     const detail::smooth_link<Surface> link(surface, options, p.size());
     segment_surfaces_options of_twice_the_angle = options;
-    of_twice_the_angle.max_angle =
-        std::min(radians(2.0 * options.max_angle.radians()), degrees(90));
+    constexpr angle right = degrees(90);  // formula: no angle between two lines is larger
+    of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
     const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
     return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
         const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);

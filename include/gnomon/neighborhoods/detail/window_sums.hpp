@@ -46,6 +46,24 @@ struct four_numbers {
 };
 #endif
 
+/// The sums of the numbers of each vector: of offsets, of their products by columns, of distances.
+template <class Vectors>
+[[gnu::always_inline]] inline neighborhood_sums reduced(const typename Vectors::numbers (&all)[10],
+                                                        std::size_t count) {
+    double sums[10];
+    for (std::size_t s = 0; s < 10; ++s) {
+        sums[s] = 0.0;
+        for (std::size_t l = 0; l < Vectors::size; ++l) sums[s] += all[s][l];
+    }
+    neighborhood_sums r;
+    r.about_point.count = count;
+    r.about_point.sum = {sums[0], sums[1], sums[2]};
+    for (int j = 0, s = 3; j < 3; ++j)
+        for (int i = j; i < 3; ++i) r.about_point.outer(i, j) = sums[s++];
+    if (count > 0) r.mean_distance = sums[9] / static_cast<double>(count);
+    return r;
+}
+
 /// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
 /// three numbers longer than the image. (One loop without calls, so that all sums stay in
 /// registers: performance only.)
@@ -92,23 +110,8 @@ template <class Vectors>
             zz += dzdz;
         }
     }
-    neighborhood_sums r;
-    double all = 0.0;
-    for (std::size_t l = 0; l < size; ++l) {
-        all += distance[l];
-        r.about_point.sum[0] += x[l];
-        r.about_point.sum[1] += y[l];
-        r.about_point.sum[2] += z[l];
-        r.about_point.outer(0, 0) += xx[l];
-        r.about_point.outer(1, 0) += xy[l];
-        r.about_point.outer(2, 0) += xz[l];
-        r.about_point.outer(1, 1) += yy[l];
-        r.about_point.outer(2, 1) += yz[l];
-        r.about_point.outer(2, 2) += zz[l];
-    }
-    r.about_point.count = count;
-    if (count > 0) r.mean_distance = all / static_cast<double>(count);
-    return r;
+    const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
+    return reduced<Vectors>(all, count);
 }
 
 }  // namespace GNOMON_LANES
