@@ -70,7 +70,7 @@ class image_surfaces {
             }
         });
         auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_inner_[i]; });
-        assign_rest(all);
+        assign_rest(all, run);
         merge_coplanar(all);
         number_by_size(all);
         return all;
@@ -144,7 +144,8 @@ class image_surfaces {
     /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them
     /// whose tangent plane explains them best: within three standard deviations of a
     /// difference.
-    void assign_rest(auto& labels) const {
+    template <execution X>
+    void assign_rest(auto& labels, const X& run) const {
         const std::size_t n = labels.size();
         scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
         scratch<Index> front, found;
@@ -155,8 +156,10 @@ class image_surfaces {
                 front.push_back(static_cast<Index>(i));
         }
         while (!front.empty()) {
-            found.clear();
-            for (const Index i : front) found.push_back(best_seed(i, seed));
+            found.resize(front.size());
+            for_each_chunk(run, front.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t f = begin; f < end; ++f) found[f] = best_seed(front[f], seed);
+            });
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
                 seed[front[f]] = found[f];
