@@ -7582,13 +7582,13 @@ struct raster {
                                        Proj projection = {}) const {
         const auto& team = detail::staying(run);
         return with_windows(points, team, std::move(projection), [&](const auto& windows) {
-            return detail::collected_graph<false, detail::scratch<neighbor>>(
-                windows.links().part().size(), team,
-                [&](std::size_t i, detail::scratch<neighbor>& found) {
-                    found.clear();
-                    if (windows.links().has_return(i)) windows.neighbors_of(i).sort_into(found);
-                    return neighborhood_note{};
-                });
+            return detail::collected_graph<false>(windows.links().part().size(), team,
+                                                  [&](std::size_t i, auto& found) {
+                                                      found.clear();
+                                                      if (windows.links().has_return(i))
+                                                          windows.neighbors_of(i).sort_into(found);
+                                                      return neighborhood_note{};
+                                                  });
         });
     }
 
@@ -7649,10 +7649,12 @@ struct raster {
     [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
 
   private:
+    /// (A template of numbers for compile time only.)
+    template <class Number = double>
     [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
                                   const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<>(positions, viewpoints, noise, part, radius, most(),
-                                       precision.radians(), run);
+        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
+                                             precision.radians(), run);
     }
 
     /// f(windows) of all points.
@@ -15633,7 +15635,7 @@ class image_surfaces {
             }
         });
         auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_inner_[i]; });
-        assign_rest(all);
+        assign_rest(all, run);
         merge_coplanar(all);
         number_by_size(all);
         return all;
@@ -15707,7 +15709,8 @@ class image_surfaces {
     /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them
     /// whose tangent plane explains them best: within three standard deviations of a
     /// difference.
-    void assign_rest(auto& labels) const {
+    template <execution X>
+    void assign_rest(auto& labels, const X& run) const {
         const std::size_t n = labels.size();
         scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
         scratch<Index> front, found;
@@ -15718,8 +15721,10 @@ class image_surfaces {
                 front.push_back(static_cast<Index>(i));
         }
         while (!front.empty()) {
-            found.clear();
-            for (const Index i : front) found.push_back(best_seed(i, seed));
+            found.resize(front.size());
+            for_each_chunk(run, front.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t f = begin; f < end; ++f) found[f] = best_seed(front[f], seed);
+            });
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
                 seed[front[f]] = found[f];

@@ -73,7 +73,6 @@ TEST(io_read_pcd, keeps_the_width_of_organized_images) {
     EXPECT_EQ(width_of("WIDTH 2\nHEIGHT 2\n"), 2u);
     EXPECT_EQ(width_of("WIDTH 1\nHEIGHT 4\n"), 1u);
     EXPECT_EQ(width_of("WIDTH 4\nHEIGHT 1\n"), 0u);  // a list of points
-    EXPECT_EQ(width_of("WIDTH 4\n"), 0u);
     EXPECT_EQ(width_of("POINTS 4\n"), 0u);
 }
 

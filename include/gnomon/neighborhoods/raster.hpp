@@ -22,7 +22,6 @@
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
-#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -63,13 +62,13 @@ struct raster {
                                        Proj projection = {}) const {
         const auto& team = detail::staying(run);
         return with_windows(points, team, std::move(projection), [&](const auto& windows) {
-            return detail::collected_graph<false, detail::scratch<neighbor>>(
-                windows.links().part().size(), team,
-                [&](std::size_t i, detail::scratch<neighbor>& found) {
-                    found.clear();
-                    if (windows.links().has_return(i)) windows.neighbors_of(i).sort_into(found);
-                    return neighborhood_note{};
-                });
+            return detail::collected_graph<false>(windows.links().part().size(), team,
+                                                  [&](std::size_t i, auto& found) {
+                                                      found.clear();
+                                                      if (windows.links().has_return(i))
+                                                          windows.neighbors_of(i).sort_into(found);
+                                                      return neighborhood_note{};
+                                                  });
         });
     }
 
@@ -130,10 +129,12 @@ struct raster {
     [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
 
   private:
+    /// (A template of numbers for compile time only.)
+    template <class Number = double>
     [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
                                   const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<>(positions, viewpoints, noise, part, radius, most(),
-                                       precision.radians(), run);
+        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
+                                             precision.radians(), run);
     }
 
     /// f(windows) of all points.
