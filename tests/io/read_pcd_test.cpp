@@ -64,6 +64,18 @@ void expect_mixed(const gnomon::scan& s) {
     EXPECT_EQ(s.viewpoints[1], Eigen::Vector3d(1, 2.5, -3));
 }
 
+TEST(io_read_pcd, keeps_the_width_of_organized_images) {
+    const auto width_of = [](const char* size) {
+        return parse_pcd(std::string("FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\n") + size +
+                         "DATA ascii\n0 0 1\n1 0 1\nnan nan nan\n1 1 1\n")
+            .width;
+    };
+    EXPECT_EQ(width_of("WIDTH 2\nHEIGHT 2\n"), 2u);
+    EXPECT_EQ(width_of("WIDTH 1\nHEIGHT 4\n"), 1u);
+    EXPECT_EQ(width_of("WIDTH 4\nHEIGHT 1\n"), 0u);  // a list of points
+    EXPECT_EQ(width_of("POINTS 4\n"), 0u);
+}
+
 TEST(io_read_pcd, reads_ascii) {
     expect_mixed(parse_pcd(pcd_mixed +
                                "DATA ascii\n0 0 0 1.5 -1.5 2 1 -2 -1 18446744073709551615 200\n"

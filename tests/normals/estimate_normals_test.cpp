@@ -8,11 +8,13 @@
 
 #include "laws/clouds.hpp"
 #include "laws/estimator_laws.hpp"
+#include "laws/images.hpp"
 #include "normals/dense_oracles.hpp"
 #include "oracles/nanoflann_index.hpp"
 #include <gnomon/core/strided_view.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
+#include <gnomon/neighborhoods/raster.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
@@ -207,6 +209,42 @@ TEST(estimate_normals, of_a_sweep_are_the_same_bytes_for_any_execution) {
     for (const unsigned t : {1u, 2u, 4u})
         expect_same(gnomon::estimate_normals(points, knn{15}, plane_pca{}, gnomon::threads{t}));
     expect_same(gnomon::estimate_normals(points, knn{15}, plane_pca{}, shuffling{}));
+}
+
+/// An image needs no index; its windows have the normals of the graph, also far from the origin,
+/// and the same bytes for any execution.
+TEST(estimate_normals, of_an_image_are_those_of_its_graph) {
+    const gnomon::constant_noise sigma{0.004};
+    const auto near = images::measured(
+        images::of_planes({{{0, 0, 1}, 2.0}, {{0.8, 0, 0.6}, 1.3}}, 64, 48), sigma, 0.1, 1);
+    const Eigen::Vector3d far(6e5, 4.8e6, 300.0);
+    const gnomon::raster pixels{.width = 64, .noise = sigma};
+    const auto expected = gnomon::estimate_normals(near, pixels(near), plane_pca{});
+    const auto image = clouds::moved(near, Eigen::Matrix3d::Identity(), far);
+    const auto seen = gnomon::with_viewpoint(image, far);
+    const auto surface = gnomon::estimate_normals(seen, pixels, plane_pca{});
+    const auto indexed = gnomon::estimate_normals(gnomon::spatial_index(seen), pixels, plane_pca{});
+    const auto shuffled = gnomon::estimate_normals(seen, pixels, plane_pca{}, shuffling{});
+    for (std::size_t i = 0; i < image.size(); ++i) {
+        ASSERT_EQ(surface[i].trust, expected[i].trust);
+        ASSERT_EQ(surface[i].neighbors, expected[i].neighbors);
+        ASSERT_EQ(surface[i].trust == trust::not_finite, !gnomon::is_finite(image[i]));
+        for (const auto& other : {indexed[i], shuffled[i]}) {
+            ASSERT_EQ(other.trust, surface[i].trust);
+            ASSERT_EQ(other.normal, surface[i].normal);
+            ASSERT_EQ(other.mean_distance, surface[i].mean_distance);
+        }
+        if (!gnomon::usable(surface[i].trust)) continue;
+        // An ulp of the coordinates is 1e-9 m.
+        ASSERT_NEAR(surface[i].mean_distance, expected[i].mean_distance, 1e-8);
+        ASSERT_LE(laws::angle_between(surface[i].normal, expected[i].normal), 1e-6);
+    }
+    const auto column = images::of_planes({{{0, 0, 1}, 2.0}}, 1, 48);
+    for (const auto& s : gnomon::estimate_normals(column, gnomon::raster{.width = 1}))
+        ASSERT_EQ(s.trust, trust::degenerate);  // on one line
+    const clouds::cloud nothing(12, Eigen::Vector3d::Constant(clouds::nan));
+    for (const auto& s : gnomon::estimate_normals(nothing, gnomon::raster{.width = 4}))
+        ASSERT_EQ(s.trust, trust::not_finite);
 }
 
 }  // namespace

@@ -25,6 +25,9 @@ struct scan {
     std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return
     viewpoint_table viewpoints;           ///< empty if unknown: the origin
     std::vector<scalar_field> fields;     ///< each as long as `points`
+    /// The width [pixels] of an organized image, whose points are its pixels, row by row; else 0.
+    /// Code that removes points sets it to 0.
+    std::size_t width = 0;
 
     [[nodiscard]] auto begin() const { return points.begin(); }
     [[nodiscard]] auto end() const { return points.end(); }

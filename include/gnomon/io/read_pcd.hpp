@@ -131,7 +131,9 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 /// [m]; its orientation is not applied, so the points stay in the frame of the file.
 /// @param file    name and contents of the file
 /// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values
-/// @return the points [m] in the order of the file, with viewpoint and fields
+/// @return the points [m] in the order of the file, with viewpoint and fields, and with the width
+/// of
+///         an organized image, of several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
 template <class = void>
@@ -153,7 +155,9 @@ template <class = void>
         detail::read_pcd_compressed(builder, bytes, header, stride);
     else
         text.fail("DATA " + detail::in_quotes(header.data) + " is not known");
-    return std::move(builder).finish(header.viewpoints);
+    scan result = std::move(builder).finish(header.viewpoints);
+    result.width = static_cast<std::size_t>(header.width);
+    return result;
 }
 
 }  // namespace gnomon::io

@@ -15,9 +15,9 @@
 /// any point; the graph is the same bytes for every execution; `find` and `sweep` agree with the
 /// graph.
 ///
-/// Models: `knn`, `noise_knn`, `ray_knn`, `radius` and `hybrid`, which sweep; `adaptive_knn`,
-/// `delaunay` and `angularly_sorted`, which are indexed; graphs: `adjacency`, and any
-/// std::vector<std::vector<point_index>>.
+/// Models: `knn`, `noise_knn`, `ray_knn`, `radius`, `hybrid` and `raster`, which sweep;
+/// `adaptive_knn`, `delaunay` and `angularly_sorted`, which are indexed; graphs: `adjacency`, and
+/// any std::vector<std::vector<point_index>>.
 #pragma once
 
 #include <concepts>
@@ -128,6 +128,11 @@ concept notes_neighborhoods =
 template <class N>
 concept finds_into_scratch = requires(const N& policy, const spatial_index& index,
                                       scratch<neighbor>& found) { policy.find(index, 0, found); };
+
+/// Whether the policy sweeps over points without an index too, and faster: policy.sweep(points,
+/// run, make_visitor, projection).
+template <class N>
+concept needs_no_index = requires { requires N::needs_no_index; };
 
 /// The vector for the neighbors that a policy finds: in scratch memory where that is possible.
 template <class N>

@@ -44,16 +44,18 @@ template <class N>
         return {};
 }
 
-/// The surface elements of the points of an index, from what a sweep finds.
-/// @param sweep  sweep(make_visitor), as a policy's `sweep`
+/// The surface elements of points, from what a sweep finds.
+/// @param epsilon  machine epsilon of the numbers that the points came in
+/// @param sweep    sweep(make_visitor), as a policy's `sweep`
 template <estimator E, execution X>
-void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const spatial_index& index,
-                    const E& estimate, const X& run, auto&& sweep) {
-    resize_touched(surface, index.size(), run);
-    sweep([&] { return sweep_visitor(estimate, index, surface); });
-    for_each_chunk(run, index.size(), [&](std::size_t begin, std::size_t end) {
+void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const auto& points,
+                    const viewpoint_table& viewpoints, double epsilon, const E& estimate,
+                    const X& run, auto&& sweep) {
+    resize_touched(surface, points.size(), run);
+    sweep([&] { return sweep_visitor(estimate, points, viewpoints, epsilon, surface); });
+    for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (index.is_finite(i)) continue;
+            if (is_finite(points[i])) continue;
             surface[i] = {};
             surface[i].trust = trust::not_finite;
         }
@@ -66,7 +68,7 @@ void estimate_indexed(std::vector<surfel<estimate_t<E>>>& surface, const spatial
                       const N& policy, const E& estimate, const X& run) {
     require_valid(policy);
     if constexpr (sweeping_neighborhood<N>) {
-        estimate_swept(surface, index, estimate, run,
+        estimate_swept(surface, index, index.viewpoints, index.epsilon(), estimate, run,
                        [&](auto&& make_visitor) { policy.sweep(index, run, make_visitor); });
     } else {
         resize_touched(surface, index.size(), run);
@@ -135,7 +137,15 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
                            const N& policy, const E& estimate, const X& run = {},
                            Proj projection = {}) {
     const auto& team = detail::staying(run);
-    if constexpr (indexed_neighborhood<N>) {
+    if constexpr (detail::needs_no_index<N>) {
+        const position_view<R, Proj> p(points, projection);
+        detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+            detail::estimate_swept(
+                surface, p, viewpoints, detail::epsilon_of<position_view<R, Proj>>(points),
+                estimate, team,
+                [&](auto&& make_visitor) { policy.sweep(points, team, make_visitor, projection); });
+        });
+    } else if constexpr (indexed_neighborhood<N>) {
         const auto& index = detail::index_of(points, team, projection);
         detail::estimate_indexed(surface, index, policy, estimate, team);
     } else {

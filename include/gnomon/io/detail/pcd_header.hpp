@@ -38,6 +38,7 @@ struct pcd_field {
 struct pcd_header {
     std::vector<pcd_field> fields;
     std::uint64_t points = 0;    // as declared
+    std::uint64_t width = 0;     // of an organized image, which has several rows; else 0
     viewpoint_table viewpoints;  // one viewpoint, or none
     std::string data;            // "ascii", "binary" or "binary_compressed"
 };
@@ -137,6 +138,7 @@ template <class = void>
         if (lines.points.value_or(*lines.width * height) != *lines.width * height)
             text.fail("WIDTH * HEIGHT is not POINTS");
         lines.points = *lines.width * height;
+        if (height > 1) header.width = *lines.width;
     }
     if (!lines.points) text.fail("the header has neither WIDTH nor POINTS");
     header.points = *lines.points;

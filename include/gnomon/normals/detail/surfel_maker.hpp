@@ -145,14 +145,13 @@ class surfel_maker {
 
 /// Visits the neighborhoods that a sweep finds and makes surface elements of them, several at once
 /// if the estimator can.
-template <estimator E>
+template <estimator E, class Points>
 class sweep_visitor {
   public:
-    sweep_visitor(const E& estimate, const spatial_index& index,
-                  std::vector<surfel<estimate_t<E>>>& surface)
-        : estimate_(estimate),
-          make_(estimate, index, index.viewpoints, index.epsilon()),
-          surface_(surface) {}
+    /// @param epsilon  machine epsilon of the numbers that the points came in
+    sweep_visitor(const E& estimate, const Points& points, const viewpoint_table& viewpoints,
+                  double epsilon, std::vector<surfel<estimate_t<E>>>& surface)
+        : estimate_(estimate), make_(estimate, points, viewpoints, epsilon), surface_(surface) {}
 
     void operator()(std::size_t i, const auto& found) {
         if constexpr (batch_estimator<E>) {
@@ -187,7 +186,7 @@ class sweep_visitor {
     static constexpr std::size_t batch = batch_estimator<E> ? 32 : 0;
 
     const E& estimate_;
-    surfel_maker<E, spatial_index> make_;
+    surfel_maker<E, Points> make_;
     std::vector<surfel<estimate_t<E>>>& surface_;
     std::size_t count_ = 0;
     std::array<std::size_t, batch> waiting_{};

@@ -107,9 +107,11 @@ class cell_surfaces {
             noise_knn along_rays = neighborhood;
             if (noise_.is_across_surface) along_rays.sees_across_lines = false;
             sweep_any_sizes(index_.size(), run, graph, [&](auto&& make_recorder) {
-                estimate_swept(surface_, index_, estimator, run, [&](auto&& make_visitor) {
-                    along_rays.sweep(index_, run, make_visitor, make_recorder);  // for both
-                });
+                estimate_swept(surface_, index_, index_.viewpoints, index_.epsilon(), estimator,
+                               run, [&](auto&& make_visitor) {
+                                   along_rays.sweep(index_, run, make_visitor,
+                                                    make_recorder);  // for both
+                               });
             });
         } else {
             estimate_normals_into(surface_, index_, neighborhood, estimator, run);

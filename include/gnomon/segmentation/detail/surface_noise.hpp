@@ -50,7 +50,10 @@ struct point_noise {
     /// @param is_seen   whether that is known to be its ray
     /// @param rounding  of its coordinates [m]
     point_noise(const noise_curve& noise, const Eigen::Vector3d& way, bool is_seen, double rounding)
-        : sigma(std::sqrt(flatness * flatness + rounding * rounding + noise.variance_along(way))),
+        : point_noise(noise.variance_along(way), way, is_seen, rounding) {}
+    /// @param variance  along the ray [m^2]
+    point_noise(double variance, const Eigen::Vector3d& way, bool is_seen, double rounding)
+        : sigma(std::sqrt(flatness * flatness + rounding * rounding + variance)),
           ray(0.0, 0.0, 0.0) {
         if (is_seen && has_length(way)) ray = direction_of(way);
     }
