@@ -72,7 +72,7 @@ row compared(const char* name, const E& estimate, const scan_with_truth& data,
         surface = gnomon::estimate_normals(data.scan, graph, estimate, o.threads);
         seconds = std::min(seconds, watch.seconds());
     }
-    const gnomon::normal_quality q = gnomon::quality_of(surface, data.normals);
+    const gnomon::normal_quality q = gnomon::normal_quality::of(surface, data.normals);
     std::array<double, 3> trust{};
     for (const auto& s : surface) {
         const std::size_t kind =

@@ -7,6 +7,7 @@
 #include <exception>
 
 #include <gnomon/gnomon.hpp>
+#include <gnomon/segmentation/segment_image.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace sim = gnomon::simulation;
@@ -22,8 +23,8 @@ int main(int argc, char** argv) try {
     }
 
     // [organized_image]
-    // The noise of the sensor: here the first Kinect. Of an image without width: {.width = 640,
-    // ...}
+    // #include <gnomon/segmentation/segment_image.hpp>
+    // The noise is that of the first Kinect. For points without a width: {.width = 640, ...}.
     const gnomon::raster pixels{.noise = gnomon::noises::structured_light()};
     const gnomon::team threads;
     const auto surface = gnomon::estimate_normals(scan, pixels, gnomon::plane_pca{}, threads);

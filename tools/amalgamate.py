@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, perception, the simulator and
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, images, perception, the simulator and
 all that they include.
 
     amalgamate.py                  writes the file in the repository
@@ -81,7 +81,8 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    for umbrella in ("gnomon/gnomon.hpp", "gnomon/perception.hpp", "gnomon/simulation.hpp"):
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/segmentation/segment_image.hpp",
+                     "gnomon/perception.hpp", "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()
 

@@ -36,7 +36,7 @@ std::vector<method> unfolded(const auto& registry) {
                                               .data());
              },
              [estimate](const labeled_cloud& cloud, const gnomon::adjacency& graph, double sigma) {
-                 return gnomon::quality_of(
+                 return gnomon::normal_quality::of(
                      gnomon::estimate_normals(cloud.scan, graph, with_noise(estimate, sigma),
                                               gnomon::threads{}),
                      cloud.normals);

@@ -72,7 +72,7 @@ void measure(cloud_report& report, const cloud& data, const plan& p) {
     std::vector<measurement>& result = report.measured;
     const std::span truth = std::span(data.normals).first(p.tests);
     const auto enter = [&](const char* method, std::size_t k, const auto& surface) {
-        const auto q = gnomon::quality_of(std::span(surface).first(p.tests), truth);
+        const auto q = gnomon::normal_quality::of(std::span(surface).first(p.tests), truth);
         result.push_back({method, k, q.rms.degrees(), 1.0 - q.usable});
     };
     const nearest_of_tests nearest(data.points, p.tests, p.ks.back());

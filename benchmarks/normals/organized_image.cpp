@@ -13,6 +13,7 @@
 
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception/perception.hpp>
+#include <gnomon/segmentation/segment_image.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace sim = gnomon::simulation;

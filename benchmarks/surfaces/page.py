@@ -58,7 +58,7 @@ SECTIONS = [
      "`knn` at all points of the ten rooms, edges and curved surfaces as well, with measured noise (a normal that is "
      "missing counts as one radian off): wanted ratios are 1.02, 0.95 and 0.92 at 5, 15 and 30 mm. And normals of a kitchen, 15 mm, and of a street, 2 cm, "
      "with k = 30 and measured noise: their errors (90 degrees where one is missing), and the times of neighborhood and fit per point on one thread; wanted are 5 "
-     "and 2 times the time of `plane_pca` on `knn`, returns of the own car make it at most 1.5 times dearer, and errors in the kitchen that are not larger."),
+     "and 2 times the time of `plane_pca` on `knn`, returns of the own car make it at most 1.5 times as expensive, and errors in the kitchen that are not larger."),
     ("floors", "Floors",
      "Furniture alone, seen from 2 m in 8 directions and from 5 heights: there is no floor to be found. "
      "Furnished rooms, tilted by 0 to 3 degrees about a random horizontal axis: the error of the normal of "

@@ -15,7 +15,6 @@
 #include <gnomon/neighborhoods/neighborhoods_into.hpp>
 #include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
-#include <gnomon/neighborhoods/raster.hpp>
 #include <gnomon/neighborhoods/ray_knn.hpp>
 #include <gnomon/neighborhoods/search_options.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>

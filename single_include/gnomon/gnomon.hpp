@@ -7103,573 +7103,6 @@ struct radius {
 
 }  // namespace gnomon
 
-// -------- gnomon/neighborhoods/detail/image_links.hpp --------------------------------------------
-
-/// @file
-/// Which pixels of an organized image lie on one surface, as far as their ranges show.
-///
-/// Two pixels that follow each other in a row or a column, but for pixels without a return, are
-/// linked unless there is a jump in range between them: more than the noise and the steepest
-/// surface that is still seen explain. That is a surface under 80 degrees of incidence, so that the
-/// step along the ray is at most tan(80 degrees) times the step across it; and three standard
-/// deviations of the difference of two ranges, its 99.7 % quantile.
-
-namespace gnomon::detail {
-
-/// Some rows and columns of an image whose pixels are the points of a range, row by row.
-struct pixel_rectangle {
-    std::size_t image_width;  // [pixels]
-    std::size_t first;        // the index of its first point
-    std::size_t width, height;
-
-    [[nodiscard]] std::size_t size() const { return width * height; }
-    /// The index of the point of pixel l of the rectangle.
-    [[nodiscard]] std::size_t index_of(std::size_t l) const {
-        return width == image_width ? first + l : first + l / width * image_width + l % width;
-    }
-};
-
-/// The ways from a pixel along its row and its column.
-enum class way : unsigned { left, right, up, down };
-inline constexpr std::array all_ways{way::left, way::right, way::up, way::down};
-
-/// The pixels of a rectangle and their links. (A template, so that only its users compile it.)
-template <class Number = double, class Index = point_index>
-class image_links {
-  public:
-    /// @param points      points[i] is the position of point i of the image [m]
-    /// @param viewpoints  from where they were seen, the origin if unknown
-    /// @param most_gap    no link is longer [pixels]
-    template <execution X>
-    image_links(const auto& points, const viewpoint_table& viewpoints, const noise_curve& noise,
-                const pixel_rectangle& part, std::size_t most_gap, const X& run)
-        : part_(part), viewpoints_(viewpoints), most_gap_(most_gap) {
-        for (scratch<Number>* const each : {&x_, &y_, &z_, &variance_, &spacing_})
-            each->resize(part.size() + padding);
-        for (scratch<Index>& each : gaps_) each.resize(part.size());
-        for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
-        });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        for_each_line(run, part.height, rows, [&](std::size_t y) {
-            link(y * part.width, 1, part.width, way::left, way::right);
-        });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        for_each_line(run, part.width, columns,
-                      [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
-    }
-
-    /// By which the arrays of coordinates are longer, so that whole vectors can be read.
-    static constexpr std::size_t padding = 3;
-
-    [[nodiscard]] const pixel_rectangle& part() const { return part_; }
-    [[nodiscard]] bool has_return(std::size_t l) const { return !std::isnan(x_[l]); }
-    /// The coordinates of all pixels along an axis [m]; NaN where there is no return.
-    [[nodiscard]] const Number* at(std::size_t axis) const {
-        return axis == 0 ? x_.data() : axis == 1 ? y_.data() : z_.data();
-    }
-    [[nodiscard]] Eigen::Vector3d operator[](std::size_t l) const { return {x_[l], y_[l], z_[l]}; }
-    /// From the view point of a pixel to its position [m].
-    [[nodiscard]] Eigen::Vector3d ray(std::size_t l) const {
-        return difference((*this)[l], viewpoints_[part_.index_of(l)]);
-    }
-    /// The variance of the noise along the ray [m^2].
-    [[nodiscard]] double variance(std::size_t l) const { return variance_[l]; }
-    /// The sine of the angle between the rays of neighboring pixels, the smaller one of rows and
-    /// columns; infinite if there are none.
-    [[nodiscard]] double spacing(std::size_t l) const { return spacing_[l]; }
-    /// How far the next pixel on a way from l is [pixels] if l is linked with it, else 0.
-    [[nodiscard]] std::size_t gap(std::size_t l, way to) const { return gaps(to)[l]; }
-    /// That pixel; l itself if there is none.
-    [[nodiscard]] std::size_t next(std::size_t l, way to) const {
-        const std::size_t step = to < way::up ? gap(l, to) : gap(l, to) * part_.width;
-        return to == way::left || to == way::up ? l - step : l + step;
-    }
-
-    /// Calls each(line) for all lines, of which `many` are one chunk of work.
-    template <execution X>
-    static void for_each_line(const X& run, std::size_t lines, std::size_t many, auto&& each) {
-        run((lines + many - 1) / many, [&](std::size_t c) {
-            const std::size_t end = std::min(lines, (c + 1) * many);
-            for (std::size_t line = c * many; line < end; ++line) each(line);
-        });
-    }
-
-  private:
-    [[nodiscard]] const scratch<Index>& gaps(way to) const {
-        return gaps_[static_cast<unsigned>(to)];
-    }
-
-    void read(std::size_t l, const Eigen::Vector3d& p, const noise_curve& noise) {
-        constexpr Number nan = std::numeric_limits<Number>::quiet_NaN();
-        const bool is_there = is_finite(p);
-        x_[l] = is_there ? p[0] : nan;
-        y_[l] = is_there ? p[1] : nan;
-        z_[l] = is_there ? p[2] : nan;
-        variance_[l] = is_there ? noise.variance_along(ray(l)) : Number{};
-        spacing_[l] = std::numeric_limits<Number>::infinity();
-        for (scratch<Index>& each : gaps_) each[l] = Index{};
-    }
-
-    /// Links the pixels first, first + step, ...
-    void link(std::size_t first, std::size_t step, std::size_t count, way back, way forward) {
-        std::size_t last = count;  // the last one with a return; none
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t l = first + k * step;
-            if (!has_return(l)) continue;
-            if (last < k && k - last <= most_gap_) {
-                const std::size_t before = first + last * step;
-                const auto gap = static_cast<Index>(link(before, l, k - last));
-                gaps_[static_cast<unsigned>(back)][l] = gap;
-                gaps_[static_cast<unsigned>(forward)][before] = gap;
-            }
-            last = k;
-        }
-    }
-
-    /// The gap between two pixels [pixels] if they are linked, else 0. Notes their spacing.
-    [[nodiscard]] std::size_t link(std::size_t a, std::size_t b, std::size_t gap) {
-        constexpr double steepest = 5.67;   // tan(80 degrees)
-        constexpr double deviations = 3.0;  // the 99.7 % quantile
-        const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
-        const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
-        const double along = std::abs(dot(d, to_a)) / length(to_a);
-        const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
-        const Number sine = across / (static_cast<double>(gap) * length(to_b));
-        spacing_[a] = std::min(spacing_[a], sine);
-        spacing_[b] = std::min(spacing_[b], sine);
-        const double noise = deviations * std::sqrt(variance_[a] + variance_[b]);
-        return along <= steepest * across + noise ? gap : 0;
-    }
-
-    pixel_rectangle part_;
-    const viewpoint_table& viewpoints_;
-    std::size_t most_gap_;
-    scratch<Number> x_, y_, z_, variance_, spacing_;
-    std::array<scratch<Index>, 4> gaps_;  // by way
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/detail/window_sums.hpp --------------------------------------------
-
-/// @file
-/// The moments of the pixels of a window about its center, and their mean distance from it: rows of
-/// an image are read vector by vector, in which pixels beyond the row or without a return are
-/// masked out.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// Vectors of two numbers.
-struct two_numbers {
-    static constexpr std::size_t size = 2;
-    using numbers [[gnu::vector_size(16)]] = double;
-    using bits [[gnu::vector_size(16)]] = std::int64_t;
-    static constexpr std::int64_t masks[] = {-1, -1, 0};  // from the end: of 1 and of 2 numbers
-
-    [[gnu::always_inline]] static void take_roots(numbers& a) {
-#if GNOMON_LANE_BITS == 128
-        a = static_cast<numbers>(_mm_sqrt_pd(static_cast<__m128d>(a)));
-#else
-        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
-#endif
-    }
-};
-#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
-/// Vectors of four numbers, in functions that are compiled for AVX2.
-struct four_numbers {
-    static constexpr std::size_t size = 4;
-    using numbers [[gnu::vector_size(32)]] = double;
-    using bits [[gnu::vector_size(32)]] = std::int64_t;
-    static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
-
-    [[GNOMON_WITH_AVX2]] static void take_roots(numbers& a) { a = __builtin_ia32_sqrtpd256(a); }
-};
-#endif
-
-/// The sums of the numbers of each vector: of offsets, of their products by columns, of distances.
-template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums reduced(const typename Vectors::numbers (&all)[10],
-                                                        std::size_t count) {
-    double sums[10];
-    for (std::size_t s = 0; s < 10; ++s) {
-        sums[s] = 0.0;
-        for (std::size_t l = 0; l < Vectors::size; ++l) sums[s] += all[s][l];
-    }
-    neighborhood_sums r;
-    r.about_point.count = count;
-    r.about_point.sum = {sums[0], sums[1], sums[2]};
-    for (int j = 0, s = 3; j < 3; ++j)
-        for (int i = j; i < 3; ++i) r.about_point.outer(i, j) = sums[s++];
-    if (count > 0) r.mean_distance = sums[9] / static_cast<double>(count);
-    return r;
-}
-
-/// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
-/// three numbers longer than the image. (One loop without calls, so that all sums stay in
-/// registers: performance only.)
-/// @param count  of its neighbors
-template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
-                                                          std::size_t count) {
-    using numbers = typename Vectors::numbers;
-    using bits = typename Vectors::bits;
-    constexpr std::size_t size = Vectors::size;
-    const double* const at_x = windows.links().at(0);
-    const double* const at_y = windows.links().at(1);
-    const double* const at_z = windows.links().at(2);
-    const double px = at_x[center], py = at_y[center], pz = at_z[center];
-    numbers distance{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
-    const auto column = windows.column_of(center);
-    for (std::size_t q = column.begin; q <= column.last; q += column.step) {
-        if (!windows.links().has_return(q)) continue;
-        const auto [begin, end] = windows.row_of(q, column.radius);
-        for (std::size_t l = begin; l < end; l += size) {
-            bits mask;
-            const std::size_t many = end - l < size ? end - l : size;
-            std::memcpy(&mask, Vectors::masks + (size - many), sizeof mask);
-            numbers dx, dy, dz;
-            std::memcpy(&dx, at_x + l, sizeof dx);
-            std::memcpy(&dy, at_y + l, sizeof dy);
-            std::memcpy(&dz, at_z + l, sizeof dz);
-            mask &= dx == dx;  // NaN: no return
-            dx = reinterpret_cast<numbers>(reinterpret_cast<bits>(dx - px) & mask);
-            dy = reinterpret_cast<numbers>(reinterpret_cast<bits>(dy - py) & mask);
-            dz = reinterpret_cast<numbers>(reinterpret_cast<bits>(dz - pz) & mask);
-            const numbers dxdx = dx * dx, dydy = dy * dy, dzdz = dz * dz;
-            numbers length = dxdx + dydy + dzdz;
-            Vectors::take_roots(length);
-            distance += length;
-            x += dx;
-            y += dy;
-            z += dz;
-            xx += dxdx;
-            xy += dx * dy;
-            xz += dx * dz;
-            yy += dydy;
-            yz += dy * dz;
-            zz += dzdz;
-        }
-    }
-    const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
-    return reduced<Vectors>(all, count);
-}
-
-}  // namespace GNOMON_LANES
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/detail/image_windows.hpp ------------------------------------------
-
-/// @file
-/// Windows around the pixels of an organized image that end where its surface does. The window of a
-/// pixel goes up and down its column, and from each of these pixels along its row, over links, as
-/// far as the radius (the cross-based support of Zhang, Lu and Lafruit 2009).
-///
-/// The radius is the least by which noise turns the normal of a plane by no more than a given
-/// angle. The slope of a plane fit to the depths of n = (2 r + 1)^2 pixels at a spacing h has the
-/// variance sigma^2 / S, where S = n h^2 r (r + 1) / 3 is the sum of their squared offsets.
-
-namespace gnomon::detail {
-inline namespace GNOMON_LANES {
-
-/// The vectors of some instructions.
-template <class Instructions>
-struct vectors_of {
-    using type = two_numbers;
-};
-#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
-template <>
-struct vectors_of<avx2_instructions> {
-    using type = four_numbers;
-};
-#endif
-
-/// The pixels in the window of another one; refers to the windows.
-template <class Windows>
-class window_neighbors {
-  public:
-    window_neighbors(const Windows& windows, std::size_t center)
-        : windows_(windows), center_(center) {
-        windows.for_each_row(center, [this](std::size_t begin, std::size_t end) {
-            count_ += windows_.returns(begin, end);
-        });
-        --count_;  // the pixel itself
-    }
-
-    [[nodiscard]] std::size_t size() const { return count_; }
-
-    /// The moments [m], [m^2] of the neighbors about the pixel, and their mean distance. O(k).
-    [[nodiscard]] neighborhood_sums summed() const {
-        return with_widest([this](auto instructions) {
-            return summed_by<typename vectors_of<decltype(instructions)>::type>(windows_, center_,
-                                                                                count_);
-        });
-    }
-
-    /// Replaces the content of `found` by the neighbors in the order of their pixels. O(k).
-    template <class Allocator>
-    void sort_into(std::vector<neighbor, Allocator>& found) const {
-        found.clear();
-        const auto& links = windows_.links();
-        windows_.for_each_row(center_, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t l = begin; l < end; ++l) {
-                if (l == center_ || !links.has_return(l)) continue;
-                found.push_back({squared_distance(links[l], links[center_]),
-                                 static_cast<point_index>(links.part().index_of(l))});
-            }
-        });
-    }
-
-  private:
-    const Windows& windows_;
-    std::size_t center_;
-    std::size_t count_ = 0;
-};
-
-}  // namespace GNOMON_LANES
-
-/// The windows of all pixels of a rectangle. (A template, so that only its users compile it.)
-template <class Number = double, class Index = point_index>
-class image_windows {
-  public:
-    /// @param least, most  radii [pixels]
-    /// @param precision    the standard deviation of a normal from which on windows do not grow
-    ///                     [rad]
-    template <execution X>
-    image_windows(const auto& points, const viewpoint_table& viewpoints, const noise_curve& noise,
-                  const pixel_rectangle& part, std::size_t least, std::size_t most,
-                  double precision, const X& run)
-        : links_(points, viewpoints, noise, part, most, run) {
-        for (scratch<Index>* const each : {&left_, &right_, &up_, &down_, &radius_, &before_})
-            each->resize(part.size() + 1);
-        for (std::size_t l = 0; l < part.size(); ++l)
-            before_[l + 1] = before_[l] + (links_.has_return(l) ? 1 : 0);
-        for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
-            for (std::size_t l = begin; l < end; ++l)
-                radius_[l] = static_cast<Index>(radius_of(l, least, most, precision));
-        });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
-            reach(y * part.width, 1, part.width, most, left_, right_, way::left);
-        });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
-            reach(x, part.width, part.height, most, up_, down_, way::up);
-        });
-    }
-
-    [[nodiscard]] const image_links<Number, Index>& links() const { return links_; }
-
-    /// The number of pixels from begin to end that have a return.
-    [[nodiscard]] std::size_t returns(std::size_t begin, std::size_t end) const {
-        return before_[end] - before_[begin];
-    }
-
-    /// The pixels of the column of a window: begin, begin + step, ..., last.
-    struct column {
-        std::size_t begin, last, step, radius;
-    };
-    /// That of the window of pixel l.
-    [[nodiscard]] column column_of(std::size_t l) const {
-        const std::size_t r = radius_[l], width = links_.part().width;
-        return {l - std::min<std::size_t>(r, up_[l]) * width,
-                l + std::min<std::size_t>(r, down_[l]) * width, width, r};
-    }
-
-    /// The pixels of a row of a window: from begin, before end.
-    struct row {
-        std::size_t begin, end;
-    };
-    /// That through pixel q of the column of a window of this radius. Precondition: q has a return.
-    [[nodiscard]] row row_of(std::size_t q, std::size_t radius) const {
-        return {q - std::min<std::size_t>(radius, left_[q]),
-                q + std::min<std::size_t>(radius, right_[q]) + 1};
-    }
-
-    /// Calls each(begin, end) for the rows of the window of l, which has a return.
-    void for_each_row(std::size_t l, auto&& each) const {
-        const column c = column_of(l);
-        for (std::size_t q = c.begin; q <= c.last; q += c.step) {
-            if (!links_.has_return(q)) continue;
-            const row r = row_of(q, c.radius);
-            each(r.begin, r.end);
-        }
-    }
-
-    /// The neighbors of pixel l, which has a return. Refers to the windows.
-    [[nodiscard]] auto neighbors_of(std::size_t l) const {
-        return window_neighbors<image_windows>(*this, l);
-    }
-
-  private:
-    [[nodiscard]] std::size_t radius_of(std::size_t l, std::size_t least, std::size_t most,
-                                        double precision) const {
-        std::size_t radius = least;
-        if (!links_.has_return(l) || least >= most) return radius;
-        const double turn = precision * links_.spacing(l) * length(links_.ray(l));
-        const double needed = links_.variance(l) / (turn * turn);
-        const auto gained = [](double r) {
-            return (2.0 * r + 1.0) * (2.0 * r + 1.0) * r * (r + 1.0) / 3.0;
-        };
-        while (radius < most && gained(static_cast<double>(radius)) < needed) ++radius;
-        return radius;
-    }
-
-    /// How far pixels first, first + step, ... reach over links [pixels], at most `most`, back to
-    /// the first and forward to the last one.
-    void reach(std::size_t first, std::size_t step, std::size_t count, std::size_t most,
-               scratch<Index>& back, scratch<Index>& forward, way to_first) const {
-        for (std::size_t k = 0; k < count; ++k) {
-            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
-            back[l] = forward[l] = Index{};
-            if (gap > 0) back[l] = static_cast<Index>(std::min(most, back[l - gap * step] + gap));
-        }
-        for (std::size_t k = count; k-- > 0;) {
-            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
-            if (gap > 0)
-                forward[l - gap * step] = static_cast<Index>(std::min(most, forward[l] + gap));
-        }
-    }
-
-    image_links<Number, Index> links_;
-    scratch<Index> left_, right_, up_, down_;  // reach over links, at most the largest radius
-    scratch<Index> radius_;
-    scratch<Index> before_;  // the number of returns before each pixel
-};
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/neighborhoods/raster.hpp --------------------------------------------------------
-
-/// @file
-/// The neighbors of a pixel in an organized image, as depth cameras and many lidars deliver it: one
-/// point per pixel, row by row, NaN where there was no return. They are found in the image, without
-/// a tree.
-///
-///     const gnomon::raster pixels{.noise = noises::structured_light()};
-///     auto surface = gnomon::estimate_normals(scan, pixels, plane_pca{}, threads{});
-///     auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads{});
-///
-/// They are the pixels of a window around it, as far as these are on one surface: a jump in range
-/// that neither the noise nor a steep surface explains ends the window (detail/image_links.hpp).
-/// Where the noise would turn the normal of the window by more than `precision`, it is wider, as at
-/// the far end of the range of a depth camera (detail/image_windows.hpp).
-
-namespace gnomon {
-
-/// Models `sweeping_neighborhood`, and sweeps over points that have no index, too. Neighbors come
-/// in the order of their pixels. Rays are those from the view points, or else from the origin.
-struct raster {
-    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the `scan`
-    noise_curve noise = constant_noise{};  ///< along the rays
-    std::size_t radius = 3;                ///< of a window [pixels], at least 1
-    std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
-    /// The standard deviation of a normal that is enough: half of the angle at which
-    /// `segment_surfaces` separates surfaces.
-    angle precision = degrees(2.5);
-
-    static constexpr bool needs_no_index = true;
-
-    /// The stored graph of the points of an image. O(n m) for windows of m pixels, in memory too.
-    /// @throws std::invalid_argument  if the width is not known, or the number of points is not a
-    ///                                multiple of it; if the radius is 0; if the precision is
-    ///                                negative or NaN; or if the view points are for another number
-    ///                                of points
-    template <class R, execution X = sequential, class Proj = std::identity>
-        requires point_range<R, Proj>
-    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
-                                       Proj projection = {}) const {
-        const auto& team = detail::staying(run);
-        return with_windows(points, team, std::move(projection), [&](const auto& windows) {
-            return detail::collected_graph<false>(windows.links().part().size(), team,
-                                                  [&](std::size_t i, auto& found) {
-                                                      found.clear();
-                                                      if (windows.links().has_return(i))
-                                                          windows.neighbors_of(i).sort_into(found);
-                                                      return neighborhood_note{};
-                                                  });
-        });
-    }
-
-    /// Replaces the content of `found` by the neighbors of the finite point i of an image.
-    /// O(r^2) for the largest radius r.
-    /// Errors: those of operator().
-    template <class Allocator>
-    void find(const spatial_index& index, std::size_t i,
-              std::vector<neighbor, Allocator>& found) const {
-        const detail::pixel_rectangle image = image_of(index);
-        const std::size_t reach = most(), x = i % width, y = i / width;
-        const std::size_t left = std::min(reach, x), above = std::min(reach, y);
-        const detail::pixel_rectangle around{width, i - above * width - left,
-                                             left + 1 + std::min(reach, width - 1 - x),
-                                             above + 1 + std::min(reach, image.height - 1 - y)};
-        const auto windows = windows_of(index, index.viewpoints, around, sequential{});
-        windows.neighbors_of(above * around.width + left).sort_into(found);
-    }
-
-    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
-    /// Errors: those of operator().
-    template <class R, execution X, class Proj = std::identity>
-        requires point_range<R, Proj>
-    void sweep(const R& points, const X& run, auto&& make_visitor, Proj projection = {}) const {
-        with_windows(points, run, std::move(projection), [&](const auto& windows) {
-            const std::size_t n = windows.links().part().size();
-            detail::for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-                auto visit = make_visitor();
-                for (std::size_t i = begin; i < end; ++i)
-                    if (windows.links().has_return(i)) visit(i, windows.neighbors_of(i));
-                if constexpr (requires { visit.finish(); }) visit.finish();
-            });
-        });
-    }
-
-    /// @throws std::invalid_argument  if the radius is 0, or the precision negative or NaN
-    void require_valid() const {
-        detail::require(radius > 0, "raster: radius must be at least 1");
-        detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
-    }
-
-    /// The image of all points, row by row.
-    /// @throws std::invalid_argument  as operator()
-    template <detail::indexed_range R>
-    [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
-        require_valid();
-        std::size_t columns = width;
-        if constexpr (requires { points.width; })
-            if (columns == 0) columns = points.width;
-        detail::require(columns > 0, "raster: the width of the image is not known");
-        const auto n = static_cast<std::size_t>(std::ranges::size(points));
-        detail::require(n % columns == 0,
-                        "raster: the number of points is not a multiple of the width");
-        return {columns, 0, columns, n / columns};
-    }
-
-    /// The largest radius of a window, and the longest gap without a return in it [pixels].
-    [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
-
-  private:
-    /// (A template of numbers for compile time only.)
-    template <class Number = double>
-    [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
-                                  const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
-                                             precision.radians(), run);
-    }
-
-    /// f(windows) of all points.
-    template <class R, class Proj>
-    auto with_windows(const R& points, const auto& run, Proj projection, auto&& f) const {
-        const position_view<R, Proj> p(points, std::move(projection));
-        const detail::pixel_rectangle image = image_of(points);
-        return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-            return f(windows_of(p, viewpoints, image, run));
-        });
-    }
-};
-
-}  // namespace gnomon
-
 // -------- gnomon/neighborhoods/ray_knn.hpp -------------------------------------------------------
 
 /// @file
@@ -9233,10 +8666,15 @@ struct weighted_moments {
 
 namespace gnomon::detail {
 
-/// exp(-x), or 0 for x of 12 and more, where it is below 1e-5: performance only.
-[[nodiscard]] inline double decay(double x) { return x < 12.0 ? std::exp(-x) : 0.0; }
+/// About exp(-x), x >= 0: (1 - x / 16)^16, which is less by 0.017 at most, and 0 from 16 on. A
+/// handful of multiplications, and the same bytes with every library of mathematics.
+[[nodiscard]] inline double decay(double x) {
+    double power = std::max(0.0, 1.0 - x / 16.0);
+    for (int i = 0; i < 4; ++i) power *= power;
+    return power;
+}
 
-/// exp(-d^2 / 2) of a distance d in standard deviations.
+/// About exp(-d^2 / 2) of a distance d in standard deviations.
 [[nodiscard]] inline double gaussian(double d) { return decay(0.5 * d * d); }
 
 /// Among the surfaces of a point and of its first k neighbors, the one that the point and most of
@@ -10772,22 +10210,25 @@ struct normal_quality {
     angle median;  ///< 50 % of the errors are at most this
     angle p90;     ///< 90 % of the errors are at most this
     angle p99;     ///< 99 % of the errors are at most this
+
+    /// The quality of normals against the true ones.
+    ///
+    /// @param surface  the estimated normals
+    /// @param truth    the true unit normals, in the same order; zero or NaN where there is none
+    /// @throws std::invalid_argument  if the two differ in size
+    /// Complexity: O(n).
+    template <normal_range Surface, detail::indexed_range Truth>
+    [[nodiscard]] static normal_quality of(const Surface& surface, const Truth& truth);
 };
 
-/// The quality of normals against the true ones.
-///
-/// @param surface  the estimated normals
-/// @param truth    the true unit normals, in the same order; zero or NaN where there is none
-/// @throws std::invalid_argument  if the two differ in size
-/// Complexity: O(n).
 template <normal_range Surface, detail::indexed_range Truth>
-[[nodiscard]] normal_quality quality_of(const Surface& surface, const Truth& truth) {
+normal_quality normal_quality::of(const Surface& surface, const Truth& truth) {
     detail::require(std::ranges::size(surface) == std::ranges::size(truth),
-                    "quality_of: normals and truth differ in size");
+                    "normal_quality: normals and truth differ in size");
     std::vector<double> errors;
     double gammas = 0.0;
     double squares = 0.0;
-    std::size_t usable = 0;
+    std::size_t found = 0;
     auto t = std::ranges::begin(truth);
     for (const auto& s : surface) {
         const Eigen::Vector3d expected = *t++;
@@ -10796,8 +10237,8 @@ template <normal_range Surface, detail::indexed_range Truth>
         errors.push_back(missing ? 0.5 * std::numbers::pi
                                  : unoriented_angle(s.normal, expected).radians());
         squares += errors.back() * errors.back();
-        gammas += missing ? 0.0 : gamma(s.normal, expected);
-        usable += !missing;
+        gammas += missing ? 0.0 : gnomon::gamma(s.normal, expected);
+        found += !missing;
     }
     normal_quality q;
     q.points = errors.size();
@@ -10809,7 +10250,7 @@ template <normal_range Surface, detail::indexed_range Truth>
         return radians(errors[static_cast<std::size_t>(rank)]);
     };
     q.gamma = gammas / n;
-    q.usable = static_cast<double>(usable) / n;
+    q.usable = static_cast<double>(found) / n;
     q.rms = radians(std::sqrt(squares / n));
     q.median = percentile(0.5);
     q.p90 = percentile(0.9);
@@ -15795,229 +15236,6 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
 
 }  // namespace gnomon
 
-// -------- gnomon/segmentation/detail/image_surfaces.hpp ------------------------------------------
-
-/// @file
-/// Smooth surfaces of an organized image. Alg. 4.2 joins neighboring points whose normals turn by a
-/// small angle. With normals of wide windows this leaks: across an edge they turn gradually. Hence
-/// pixels join nothing at first whose window is no plane, as its variance exceeds that of the
-/// noise, or whose normal disagrees with that of any pixel next to them. Each of these goes to a
-/// surface next to it afterwards, if a plane explains it.
-
-namespace gnomon::detail {
-
-/// The surfaces of the pixels of an image. (A template, so that only its users compile it.)
-template <class Links, class Surface, class Index = point_index>
-class image_surfaces {
-  public:
-    /// @param epsilon  machine epsilon of the numbers that the points came in
-    image_surfaces(const Links& links, const Surface& surface, double epsilon)
-        : links_(links), surface_(surface), epsilon_(epsilon) {}
-
-    /// The labels of the segments of at least `min_points` pixels, largest first.
-    /// @param link      link(i, q): whether the normals of i and of q, next to it, agree
-    /// @param agrees    the same for pixels that are farther apart
-    /// @param distance  no link is longer [m]
-    template <execution X>
-    [[nodiscard]] auto labels(auto&& link, auto&& agrees, double distance, std::size_t min_points,
-                              const X& run) {
-        const std::size_t n = links_.part().size();
-        is_plane_.assign(n, 0);
-        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) is_plane_[i] = is_plane(i) ? 1 : 0;
-        });
-        is_inner_.assign(n, 0);
-        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) is_inner_[i] = is_inner(i, agrees) ? 1 : 0;
-        });
-        union_find sets(n);
-        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
-            for (std::size_t i = begin; i < end; ++i) {
-                if (is_inner_[i] == 0) continue;
-                for_each_before(i, [&](std::size_t j) {
-                    const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
-                    const neighbor q{squared_distance(links_[i], links_[j]), b};
-                    if (is_inner_[j] != 0 && q.squared_distance <= distance * distance &&
-                        link(i, q))
-                        sets.unite(a, b);
-                });
-            }
-        });
-        auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_inner_[i]; });
-        assign_rest(all, run);
-        merge_coplanar(all);
-        number_by_size(all);
-        return all;
-    }
-
-  private:
-    static constexpr Index none = std::numeric_limits<Index>::max();
-
-    /// Calls each(j) for the pixels before i in its row and column that it is linked with.
-    void for_each_before(std::size_t i, auto&& each) const {
-        for (const way to : {way::left, way::up})
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
-    }
-    /// The same for those before and after it.
-    void for_each_linked(std::size_t i, auto&& each) const {
-        for (const way to : all_ways)
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
-    }
-
-    [[nodiscard]] double rounding_at(std::size_t i) const {
-        const Eigen::Vector3d p = links_[i];
-        return epsilon_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
-    }
-    [[nodiscard]] point_noise noise_at(std::size_t i) const {
-        return {links_.variance(i), links_.ray(i), true, rounding_at(i)};
-    }
-    /// The square of noise_at(i).across(normal) [m^2], in less time.
-    [[nodiscard]] double variance_across(std::size_t i, const Eigen::Vector3d& normal) const {
-        const Eigen::Vector3d ray = links_.ray(i);
-        const double rounding = rounding_at(i), along = dot(ray, normal);
-        const double variance = flatness * flatness + rounding * rounding + links_.variance(i);
-        return variance * std::max(along * along / dot(ray, ray), least_cosine * least_cosine);
-    }
-
-    /// Whether a pixel has a normal, and its window is a plane, if the estimate has its variance.
-    [[nodiscard]] bool is_plane(std::size_t i) const {
-        const auto& element = surface_[i];
-        if (!links_.has_return(i) || is_missing(element.normal)) return false;
-        if constexpr (requires { element.spectrum.lambda[2]; }) {
-            return element.spectrum.lambda[2] <=
-                   region_plane::most_excess * variance_across(i, element.normal);
-        }
-        return true;
-    }
-
-    /// A quarter of the width of a square window with these neighbors [pixels].
-    [[nodiscard]] static std::size_t quarter_of_window(double neighbors) {
-        constexpr double quarter = 0.25;  // formula
-        return static_cast<std::size_t>(quarter * std::sqrt(neighbors + 1.0));
-    }
-
-    /// Whether a pixel is a plane, and agrees with those a quarter of its window away, by twice the
-    /// angle of pixels next to each other: across an edge, windows that overlap by three quarters
-    /// turn by a large part of its angle, and on a plane they share most of their noise.
-    [[nodiscard]] bool is_inner(std::size_t i, auto&& agrees) const {
-        if (is_plane_[i] == 0) return false;
-        std::size_t quarter = 1;  // of the width of the window [pixels]
-        if constexpr (requires { surface_[i].neighbors; })
-            quarter = std::max(quarter, quarter_of_window(surface_[i].neighbors));
-        for (const way to : all_ways) {
-            std::size_t j = i;
-            for (std::size_t moved = 0; moved < quarter && links_.gap(j, to) > 0;) {
-                moved += links_.gap(j, to);
-                j = links_.next(j, to);
-            }
-            if (is_plane_[j] != 0 && !agrees(i, neighbor{0.0, static_cast<Index>(j)})) return false;
-        }
-        return true;
-    }
-
-    /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them
-    /// whose tangent plane explains them best: within three standard deviations of a
-    /// difference.
-    template <execution X>
-    void assign_rest(auto& labels, const X& run) const {
-        const std::size_t n = labels.size();
-        scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
-        scratch<Index> front, found;
-        for (std::size_t i = 0; i < n; ++i) {
-            if (labels[i] != unlabeled)
-                seed[i] = static_cast<Index>(i);
-            else if (links_.has_return(i))
-                front.push_back(static_cast<Index>(i));
-        }
-        while (!front.empty()) {
-            found.resize(front.size());
-            for_each_chunk(run, front.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t f = begin; f < end; ++f) found[f] = best_seed(front[f], seed);
-            });
-            for (std::size_t f = 0; f < front.size(); ++f) {
-                if (found[f] == none) continue;
-                seed[front[f]] = found[f];
-                labels[front[f]] = labels[found[f]];
-            }
-            // Only next to new labels there may be others.
-            scratch<Index> next;
-            for (std::size_t f = 0; f < front.size(); ++f) {
-                if (found[f] == none) continue;
-                for_each_linked(front[f], [&](std::size_t j) {
-                    if (seed[j] == none) next.push_back(static_cast<Index>(j));
-                });
-            }
-            std::sort(next.begin(), next.end());
-            next.erase(std::unique(next.begin(), next.end()), next.end());
-            front.swap(next);
-        }
-    }
-
-    /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i
-    /// best, of equal ones the smallest; none if it does not.
-    [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
-        Index best = none;
-        double least = most_deviations;
-        for_each_linked(i, [&](std::size_t j) {
-            if (seed[j] == none || seed[j] == best) return;
-            const double off = deviations(i, seed[j]);
-            if (off > least || (off == least && seed[j] > best)) return;
-            least = off;
-            best = seed[j];
-        });
-        return best;
-    }
-
-    /// Every second pixel, as on a checkerboard: enough for planes, in half of the time.
-    [[nodiscard]] bool is_sampled(std::size_t i) const {
-        const std::size_t width = links_.part().width;
-        return (i / width + i % width) % 2 == 0;
-    }
-
-    /// Merges segments next to each other that one plane explains: where noise is correlated,
-    /// as in steps of the depth, a wall is several at first.
-    void merge_coplanar(auto& labels) const {
-        const auto last = std::max_element(labels.begin(), labels.end());
-        if (last == labels.end() || *last < 1) return;
-        scratch<planar_region> regions(static_cast<Index>(*last) + std::size_t{1});
-        scratch<region_pair> pairs;
-        const Eigen::Vector3d origin = links_[static_cast<std::size_t>(last - labels.begin())];
-        for (std::size_t i = 0; i < labels.size(); ++i) {
-            if (labels[i] == unlabeled) continue;
-            const auto own = static_cast<Index>(labels[i]);
-            if (is_sampled(i)) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
-            for_each_before(i, [&](std::size_t j) {
-                if (labels[j] == unlabeled || labels[j] == labels[i]) return;
-                add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
-            });
-        }
-        for (planar_region& r : regions) r.fit = r.sums.fit();
-        make_unique(pairs);
-        union_find sets = agglomeration(regions)(
-            std::move(pairs),
-            [](const planar_region& a, const planar_region& b) {
-                return dissimilarity_of_neighbors(a, b);
-            },
-            [](Index, Index) { return true; }, [](union_find&) {});
-        unite_labels(labels, sets);
-    }
-
-    /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of
-    /// both.
-    [[nodiscard]] double deviations(std::size_t i, std::size_t seed) const {
-        const Eigen::Vector3d& n = surface_[seed].normal;
-        const double distance = std::abs(dot(n, difference(links_[i], links_[seed])));
-        return distance / std::sqrt(variance_across(i, n) + variance_across(seed, n));
-    }
-
-    const Links& links_;
-    const Surface& surface_;
-    double epsilon_;
-    scratch<char> is_plane_, is_inner_;
-};
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/segment_surfaces.hpp -----------------------------------------------
 
 /// @file
@@ -16143,40 +15361,6 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
     linker.link_listed(
         graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
     return detail::segments_of(linker.labels(options.min_points));
-}
-
-/// The smooth surfaces of an organized image: pixels that are next to each other, and have no jump
-/// in range between them, are linked where their normals agree. Edges belong to one of the surfaces
-/// that meet there if its plane explains them (detail/image_surfaces.hpp).
-///
-/// @param points   the n points of the image, row by row
-/// @param pixels   its width, and the noise along the rays from the view points or the origin
-/// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them;
-/// where
-///                 the estimate has no `spectrum`, flat edges may be lost
-/// @throws std::invalid_argument  also for what `raster` does not accept
-/// Complexity: O(n). The same bytes for every execution.
-template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const raster& pixels,
-                                        const Surface& surface,
-                                        const segment_surfaces_options& options = {},
-                                        const X& run = {}, Proj projection = {}) {
-    const auto& team = detail::staying(run);
-    const position_view<R, Proj> p(points, std::move(projection));
-    const detail::pixel_rectangle image = pixels.image_of(points);
-    const detail::smooth_link<Surface> link(surface, options, p.size());
-    segment_surfaces_options of_twice_the_angle = options;
-    constexpr angle right = degrees(90);  // formula: no angle between two lines is larger
-    of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
-    const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
-    return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
-        detail::image_surfaces found(links, surface,
-                                     detail::epsilon_of<position_view<R, Proj>>(points));
-        return detail::segments_of(
-            found.labels(link, wide_link, options.max_distance, options.min_points, team));
-    });
 }
 
 }  // namespace gnomon
@@ -19399,6 +18583,839 @@ void write_ply(const std::string& path, const R& points, const properties& colum
 // -------- gnomon/io.hpp --------------------------------------------------------------------------
 
 // -------- gnomon/gnomon.hpp ----------------------------------------------------------------------
+
+// -------- gnomon/neighborhoods/detail/image_links.hpp --------------------------------------------
+
+/// @file
+/// Which pixels of an organized image lie on one surface, as far as their ranges show.
+///
+/// Two pixels that follow each other in a row or a column, but for pixels without a return, are
+/// linked unless there is a jump in range between them: more than the noise and the steepest
+/// surface that is still seen explain. That is a surface under 80 degrees of incidence, so that the
+/// step along the ray is at most tan(80 degrees) times the step across it; and three standard
+/// deviations of the difference of two ranges, its 99.7 % quantile.
+
+namespace gnomon::detail {
+
+/// Some rows and columns of an image whose pixels are the points of a range, row by row.
+struct pixel_rectangle {
+    std::size_t image_width;  // [pixels]
+    std::size_t first;        // the index of its first point
+    std::size_t width, height;
+
+    [[nodiscard]] std::size_t size() const { return width * height; }
+    /// The index of the point of pixel l of the rectangle.
+    [[nodiscard]] std::size_t index_of(std::size_t l) const {
+        return width == image_width ? first + l : first + l / width * image_width + l % width;
+    }
+};
+
+/// The ways from a pixel along its row and its column.
+enum class way : unsigned { left, right, up, down };
+inline constexpr std::array all_ways{way::left, way::right, way::up, way::down};
+
+/// The pixels of a rectangle and their links. (A template, so that only its users compile it.)
+template <class Number = double, class Index = point_index>
+class image_links {
+  public:
+    /// @param points      points[i] is the position of point i of the image [m]
+    /// @param viewpoints  from where they were seen, the origin if unknown
+    /// @param most_gap    no link is longer [pixels]
+    template <execution X>
+    image_links(const auto& points, const viewpoint_table& viewpoints, const noise_curve& noise,
+                const pixel_rectangle& part, std::size_t most_gap, const X& run)
+        : part_(part), viewpoints_(viewpoints), most_gap_(most_gap) {
+        for (scratch<Number>* const each : {&x_, &y_, &z_, &variance_, &spacing_})
+            each->resize(part.size() + padding);
+        for (scratch<Index>& each : gaps_) each.resize(part.size());
+        for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
+        });
+        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
+        for_each_line(run, part.height, rows, [&](std::size_t y) {
+            link(y * part.width, 1, part.width, way::left, way::right);
+        });
+        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
+        for_each_line(run, part.width, columns,
+                      [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
+    }
+
+    /// By which the arrays of coordinates are longer, so that whole vectors can be read.
+    static constexpr std::size_t padding = 3;
+
+    [[nodiscard]] const pixel_rectangle& part() const { return part_; }
+    [[nodiscard]] bool has_return(std::size_t l) const { return !std::isnan(x_[l]); }
+    /// The coordinates of all pixels along an axis [m]; NaN where there is no return.
+    [[nodiscard]] const Number* at(std::size_t axis) const {
+        return axis == 0 ? x_.data() : axis == 1 ? y_.data() : z_.data();
+    }
+    [[nodiscard]] Eigen::Vector3d operator[](std::size_t l) const { return {x_[l], y_[l], z_[l]}; }
+    /// From the view point of a pixel to its position [m].
+    [[nodiscard]] Eigen::Vector3d ray(std::size_t l) const {
+        return difference((*this)[l], viewpoints_[part_.index_of(l)]);
+    }
+    /// The variance of the noise along the ray [m^2].
+    [[nodiscard]] double variance(std::size_t l) const { return variance_[l]; }
+    /// The sine of the angle between the rays of neighboring pixels, the smaller one of rows and
+    /// columns; infinite if there are none.
+    [[nodiscard]] double spacing(std::size_t l) const { return spacing_[l]; }
+    /// How far the next pixel on a way from l is [pixels] if l is linked with it, else 0.
+    [[nodiscard]] std::size_t gap(std::size_t l, way to) const { return gaps(to)[l]; }
+    /// That pixel; l itself if there is none.
+    [[nodiscard]] std::size_t next(std::size_t l, way to) const {
+        const std::size_t step = to < way::up ? gap(l, to) : gap(l, to) * part_.width;
+        return to == way::left || to == way::up ? l - step : l + step;
+    }
+
+    /// Calls each(line) for all lines, of which `many` are one chunk of work.
+    template <execution X>
+    static void for_each_line(const X& run, std::size_t lines, std::size_t many, auto&& each) {
+        run((lines + many - 1) / many, [&](std::size_t c) {
+            const std::size_t end = std::min(lines, (c + 1) * many);
+            for (std::size_t line = c * many; line < end; ++line) each(line);
+        });
+    }
+
+  private:
+    [[nodiscard]] const scratch<Index>& gaps(way to) const {
+        return gaps_[static_cast<unsigned>(to)];
+    }
+
+    void read(std::size_t l, const Eigen::Vector3d& p, const noise_curve& noise) {
+        constexpr Number nan = std::numeric_limits<Number>::quiet_NaN();
+        const bool is_there = is_finite(p);
+        x_[l] = is_there ? p[0] : nan;
+        y_[l] = is_there ? p[1] : nan;
+        z_[l] = is_there ? p[2] : nan;
+        variance_[l] = is_there ? noise.variance_along(ray(l)) : Number{};
+        spacing_[l] = std::numeric_limits<Number>::infinity();
+        for (scratch<Index>& each : gaps_) each[l] = Index{};
+    }
+
+    /// Links the pixels first, first + step, ...
+    void link(std::size_t first, std::size_t step, std::size_t count, way back, way forward) {
+        std::size_t last = count;  // the last one with a return; none
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t l = first + k * step;
+            if (!has_return(l)) continue;
+            if (last < k && k - last <= most_gap_) {
+                const std::size_t before = first + last * step;
+                const auto gap = static_cast<Index>(link(before, l, k - last));
+                gaps_[static_cast<unsigned>(back)][l] = gap;
+                gaps_[static_cast<unsigned>(forward)][before] = gap;
+            }
+            last = k;
+        }
+    }
+
+    /// The gap between two pixels [pixels] if they are linked, else 0. Notes their spacing.
+    [[nodiscard]] std::size_t link(std::size_t a, std::size_t b, std::size_t gap) {
+        constexpr double steepest = 5.67;   // tan(80 degrees)
+        constexpr double deviations = 3.0;  // the 99.7 % quantile
+        const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
+        const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
+        const double along = std::abs(dot(d, to_a)) / length(to_a);
+        const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
+        const Number sine = across / (static_cast<double>(gap) * length(to_b));
+        spacing_[a] = std::min(spacing_[a], sine);
+        spacing_[b] = std::min(spacing_[b], sine);
+        const double noise = deviations * std::sqrt(variance_[a] + variance_[b]);
+        return along <= steepest * across + noise ? gap : 0;
+    }
+
+    pixel_rectangle part_;
+    const viewpoint_table& viewpoints_;
+    std::size_t most_gap_;
+    scratch<Number> x_, y_, z_, variance_, spacing_;
+    std::array<scratch<Index>, 4> gaps_;  // by way
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/window_sums.hpp --------------------------------------------
+
+/// @file
+/// The moments of the pixels of a window about its center, and their mean distance from it: rows of
+/// an image are read vector by vector, in which pixels beyond the row or without a return are
+/// masked out.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// Vectors of two numbers.
+struct two_numbers {
+    static constexpr std::size_t size = 2;
+    using numbers [[gnu::vector_size(16)]] = double;
+    using bits [[gnu::vector_size(16)]] = std::int64_t;
+    static constexpr std::int64_t masks[] = {-1, -1, 0};  // from the end: of 1 and of 2 numbers
+
+    [[gnu::always_inline]] static void take_roots(numbers& a) {
+#if GNOMON_LANE_BITS == 128
+        a = static_cast<numbers>(_mm_sqrt_pd(static_cast<__m128d>(a)));
+#else
+        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
+#endif
+    }
+};
+#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+/// Vectors of four numbers, in functions that are compiled for AVX2.
+struct four_numbers {
+    static constexpr std::size_t size = 4;
+    using numbers [[gnu::vector_size(32)]] = double;
+    using bits [[gnu::vector_size(32)]] = std::int64_t;
+    static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
+
+    [[GNOMON_WITH_AVX2]] static void take_roots(numbers& a) { a = __builtin_ia32_sqrtpd256(a); }
+};
+#endif
+
+/// The sums of the numbers of each vector: of offsets, of their products by columns, of distances.
+template <class Vectors>
+[[gnu::always_inline]] inline neighborhood_sums reduced(const typename Vectors::numbers (&all)[10],
+                                                        std::size_t count) {
+    double sums[10];
+    for (std::size_t s = 0; s < 10; ++s) {
+        sums[s] = 0.0;
+        for (std::size_t l = 0; l < Vectors::size; ++l) sums[s] += all[s][l];
+    }
+    neighborhood_sums r;
+    r.about_point.count = count;
+    r.about_point.sum = {sums[0], sums[1], sums[2]};
+    for (int j = 0, s = 3; j < 3; ++j)
+        for (int i = j; i < 3; ++i) r.about_point.outer(i, j) = sums[s++];
+    if (count > 0) r.mean_distance = sums[9] / static_cast<double>(count);
+    return r;
+}
+
+/// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
+/// three numbers longer than the image. (One loop without calls, so that all sums stay in
+/// registers: performance only.)
+/// @param count  of its neighbors
+template <class Vectors>
+[[gnu::always_inline]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                                          std::size_t count) {
+    using numbers = typename Vectors::numbers;
+    using bits = typename Vectors::bits;
+    constexpr std::size_t size = Vectors::size;
+    const double* const at_x = windows.links().at(0);
+    const double* const at_y = windows.links().at(1);
+    const double* const at_z = windows.links().at(2);
+    const double px = at_x[center], py = at_y[center], pz = at_z[center];
+    numbers distance{}, x{}, y{}, z{}, xx{}, xy{}, xz{}, yy{}, yz{}, zz{};
+    const auto column = windows.column_of(center);
+    for (std::size_t q = column.begin; q <= column.last; q += column.step) {
+        if (!windows.links().has_return(q)) continue;
+        const auto [begin, end] = windows.row_of(q, column.radius);
+        for (std::size_t l = begin; l < end; l += size) {
+            bits mask;
+            const std::size_t many = end - l < size ? end - l : size;
+            std::memcpy(&mask, Vectors::masks + (size - many), sizeof mask);
+            numbers dx, dy, dz;
+            std::memcpy(&dx, at_x + l, sizeof dx);
+            std::memcpy(&dy, at_y + l, sizeof dy);
+            std::memcpy(&dz, at_z + l, sizeof dz);
+            mask &= dx == dx;  // NaN: no return
+            dx = reinterpret_cast<numbers>(reinterpret_cast<bits>(dx - px) & mask);
+            dy = reinterpret_cast<numbers>(reinterpret_cast<bits>(dy - py) & mask);
+            dz = reinterpret_cast<numbers>(reinterpret_cast<bits>(dz - pz) & mask);
+            const numbers dxdx = dx * dx, dydy = dy * dy, dzdz = dz * dz;
+            numbers length = dxdx + dydy + dzdz;
+            Vectors::take_roots(length);
+            distance += length;
+            x += dx;
+            y += dy;
+            z += dz;
+            xx += dxdx;
+            xy += dx * dy;
+            xz += dx * dz;
+            yy += dydy;
+            yz += dy * dz;
+            zz += dzdz;
+        }
+    }
+    const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
+    return reduced<Vectors>(all, count);
+}
+
+}  // namespace GNOMON_LANES
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/detail/image_windows.hpp ------------------------------------------
+
+/// @file
+/// Windows around the pixels of an organized image that end where its surface does. The window of a
+/// pixel goes up and down its column, and from each of these pixels along its row, over links, as
+/// far as the radius (the cross-based support of Zhang, Lu and Lafruit 2009).
+///
+/// The radius is the least by which noise turns the normal of a plane by no more than a given
+/// angle. The slope of a plane fit to the depths of n = (2 r + 1)^2 pixels at a spacing h has the
+/// variance sigma^2 / S, where S = n h^2 r (r + 1) / 3 is the sum of their squared offsets.
+
+namespace gnomon::detail {
+inline namespace GNOMON_LANES {
+
+/// The vectors of some instructions.
+template <class Instructions>
+struct vectors_of {
+    using type = two_numbers;
+};
+#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+template <>
+struct vectors_of<avx2_instructions> {
+    using type = four_numbers;
+};
+#endif
+
+/// The pixels in the window of another one; refers to the windows.
+template <class Windows>
+class window_neighbors {
+  public:
+    window_neighbors(const Windows& windows, std::size_t center)
+        : windows_(windows), center_(center) {
+        windows.for_each_row(center, [this](std::size_t begin, std::size_t end) {
+            count_ += windows_.returns(begin, end);
+        });
+        --count_;  // the pixel itself
+    }
+
+    [[nodiscard]] std::size_t size() const { return count_; }
+
+    /// The moments [m], [m^2] of the neighbors about the pixel, and their mean distance. O(k).
+    [[nodiscard]] neighborhood_sums summed() const {
+        return with_widest([this](auto instructions) {
+            return summed_by<typename vectors_of<decltype(instructions)>::type>(windows_, center_,
+                                                                                count_);
+        });
+    }
+
+    /// Replaces the content of `found` by the neighbors in the order of their pixels. O(k).
+    template <class Allocator>
+    void sort_into(std::vector<neighbor, Allocator>& found) const {
+        found.clear();
+        const auto& links = windows_.links();
+        windows_.for_each_row(center_, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t l = begin; l < end; ++l) {
+                if (l == center_ || !links.has_return(l)) continue;
+                found.push_back({squared_distance(links[l], links[center_]),
+                                 static_cast<point_index>(links.part().index_of(l))});
+            }
+        });
+    }
+
+  private:
+    const Windows& windows_;
+    std::size_t center_;
+    std::size_t count_ = 0;
+};
+
+}  // namespace GNOMON_LANES
+
+/// The windows of all pixels of a rectangle. (A template, so that only its users compile it.)
+template <class Number = double, class Index = point_index>
+class image_windows {
+  public:
+    /// @param least, most  radii [pixels]
+    /// @param precision    the standard deviation of a normal from which on windows do not grow
+    ///                     [rad]
+    template <execution X>
+    image_windows(const auto& points, const viewpoint_table& viewpoints, const noise_curve& noise,
+                  const pixel_rectangle& part, std::size_t least, std::size_t most,
+                  double precision, const X& run)
+        : links_(points, viewpoints, noise, part, most, run) {
+        for (scratch<Index>* const each : {&left_, &right_, &up_, &down_, &radius_, &before_})
+            each->resize(part.size() + 1);
+        for (std::size_t l = 0; l < part.size(); ++l)
+            before_[l + 1] = before_[l] + (links_.has_return(l) ? 1 : 0);
+        for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t l = begin; l < end; ++l)
+                radius_[l] = static_cast<Index>(radius_of(l, least, most, precision));
+        });
+        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
+        links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
+            reach(y * part.width, 1, part.width, most, left_, right_, way::left);
+        });
+        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
+        links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
+            reach(x, part.width, part.height, most, up_, down_, way::up);
+        });
+    }
+
+    [[nodiscard]] const image_links<Number, Index>& links() const { return links_; }
+
+    /// The number of pixels from begin to end that have a return.
+    [[nodiscard]] std::size_t returns(std::size_t begin, std::size_t end) const {
+        return before_[end] - before_[begin];
+    }
+
+    /// The pixels of the column of a window: begin, begin + step, ..., last.
+    struct column {
+        std::size_t begin, last, step, radius;
+    };
+    /// That of the window of pixel l.
+    [[nodiscard]] column column_of(std::size_t l) const {
+        const std::size_t r = radius_[l], width = links_.part().width;
+        return {l - std::min<std::size_t>(r, up_[l]) * width,
+                l + std::min<std::size_t>(r, down_[l]) * width, width, r};
+    }
+
+    /// The pixels of a row of a window: from begin, before end.
+    struct row {
+        std::size_t begin, end;
+    };
+    /// That through pixel q of the column of a window of this radius. Precondition: q has a return.
+    [[nodiscard]] row row_of(std::size_t q, std::size_t radius) const {
+        return {q - std::min<std::size_t>(radius, left_[q]),
+                q + std::min<std::size_t>(radius, right_[q]) + 1};
+    }
+
+    /// Calls each(begin, end) for the rows of the window of l, which has a return.
+    void for_each_row(std::size_t l, auto&& each) const {
+        const column c = column_of(l);
+        for (std::size_t q = c.begin; q <= c.last; q += c.step) {
+            if (!links_.has_return(q)) continue;
+            const row r = row_of(q, c.radius);
+            each(r.begin, r.end);
+        }
+    }
+
+    /// The neighbors of pixel l, which has a return. Refers to the windows.
+    [[nodiscard]] auto neighbors_of(std::size_t l) const {
+        return window_neighbors<image_windows>(*this, l);
+    }
+
+  private:
+    [[nodiscard]] std::size_t radius_of(std::size_t l, std::size_t least, std::size_t most,
+                                        double precision) const {
+        std::size_t radius = least;
+        if (!links_.has_return(l) || least >= most) return radius;
+        const double turn = precision * links_.spacing(l) * length(links_.ray(l));
+        const double needed = links_.variance(l) / (turn * turn);
+        const auto gained = [](double r) {
+            return (2.0 * r + 1.0) * (2.0 * r + 1.0) * r * (r + 1.0) / 3.0;
+        };
+        while (radius < most && gained(static_cast<double>(radius)) < needed) ++radius;
+        return radius;
+    }
+
+    /// How far pixels first, first + step, ... reach over links [pixels], at most `most`, back to
+    /// the first and forward to the last one.
+    void reach(std::size_t first, std::size_t step, std::size_t count, std::size_t most,
+               scratch<Index>& back, scratch<Index>& forward, way to_first) const {
+        for (std::size_t k = 0; k < count; ++k) {
+            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
+            back[l] = forward[l] = Index{};
+            if (gap > 0) back[l] = static_cast<Index>(std::min(most, back[l - gap * step] + gap));
+        }
+        for (std::size_t k = count; k-- > 0;) {
+            const std::size_t l = first + k * step, gap = links_.gap(l, to_first);
+            if (gap > 0)
+                forward[l - gap * step] = static_cast<Index>(std::min(most, forward[l] + gap));
+        }
+    }
+
+    image_links<Number, Index> links_;
+    scratch<Index> left_, right_, up_, down_;  // reach over links, at most the largest radius
+    scratch<Index> radius_;
+    scratch<Index> before_;  // the number of returns before each pixel
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/neighborhoods/raster.hpp --------------------------------------------------------
+
+/// @file
+/// The neighbors of a pixel in an organized image, as depth cameras and many lidars deliver it: one
+/// point per pixel, row by row, NaN where there was no return. They are found in the image, without
+/// a tree.
+///
+///     const gnomon::raster pixels{.noise = noises::structured_light()};
+///     auto surface = gnomon::estimate_normals(scan, pixels, plane_pca{}, threads{});
+///     auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads{});
+///
+/// They are the pixels of a window around it, as far as these are on one surface: a jump in range
+/// that neither the noise nor a steep surface explains ends the window (detail/image_links.hpp).
+/// Where the noise would turn the normal of the window by more than `precision`, it is wider, as at
+/// the far end of the range of a depth camera (detail/image_windows.hpp).
+
+namespace gnomon {
+
+/// Models `sweeping_neighborhood`, and sweeps over points that have no index, too. Neighbors come
+/// in the order of their pixels. Rays are those from the view points, or else from the origin.
+struct raster {
+    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the `scan`
+    noise_curve noise = constant_noise{};  ///< along the rays
+    std::size_t radius = 3;                ///< of a window [pixels], at least 1
+    std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
+    /// The standard deviation of a normal that is enough: half of the angle at which
+    /// `segment_surfaces` separates surfaces.
+    angle precision = degrees(2.5);
+
+    static constexpr bool needs_no_index = true;
+
+    /// The stored graph of the points of an image. O(n m) for windows of m pixels, in memory too.
+    /// @throws std::invalid_argument  if the width is not known, or the number of points is not a
+    ///                                multiple of it; if the radius is 0; if the precision is
+    ///                                negative or NaN; or if the view points are for another number
+    ///                                of points
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] adjacency operator()(const R& points, const X& run = {},
+                                       Proj projection = {}) const {
+        const auto& team = detail::staying(run);
+        return with_windows(points, team, std::move(projection), [&](const auto& windows) {
+            return detail::collected_graph<false>(windows.links().part().size(), team,
+                                                  [&](std::size_t i, auto& found) {
+                                                      found.clear();
+                                                      if (windows.links().has_return(i))
+                                                          windows.neighbors_of(i).sort_into(found);
+                                                      return neighborhood_note{};
+                                                  });
+        });
+    }
+
+    /// Replaces the content of `found` by the neighbors of the finite point i of an image.
+    /// O(r^2) for the largest radius r.
+    /// Errors: those of operator().
+    template <class Allocator>
+    void find(const spatial_index& index, std::size_t i,
+              std::vector<neighbor, Allocator>& found) const {
+        const detail::pixel_rectangle image = image_of(index);
+        const std::size_t reach = most(), x = i % width, y = i / width;
+        const std::size_t left = std::min(reach, x), above = std::min(reach, y);
+        const detail::pixel_rectangle around{width, i - above * width - left,
+                                             left + 1 + std::min(reach, width - 1 - x),
+                                             above + 1 + std::min(reach, image.height - 1 - y)};
+        const auto windows = windows_of(index, index.viewpoints, around, sequential{});
+        windows.neighbors_of(above * around.width + left).sort_into(found);
+    }
+
+    /// Calls visit(i, found) for each finite point; see `sweeping_neighborhood`.
+    /// Errors: those of operator().
+    template <class R, execution X, class Proj = std::identity>
+        requires point_range<R, Proj>
+    void sweep(const R& points, const X& run, auto&& make_visitor, Proj projection = {}) const {
+        with_windows(points, run, std::move(projection), [&](const auto& windows) {
+            const std::size_t n = windows.links().part().size();
+            detail::for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+                auto visit = make_visitor();
+                for (std::size_t i = begin; i < end; ++i)
+                    if (windows.links().has_return(i)) visit(i, windows.neighbors_of(i));
+                if constexpr (requires { visit.finish(); }) visit.finish();
+            });
+        });
+    }
+
+    /// @throws std::invalid_argument  if the radius is 0, or the precision negative or NaN
+    void require_valid() const {
+        detail::require(radius > 0, "raster: radius must be at least 1");
+        detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
+    }
+
+    /// The image of all points, row by row.
+    /// @throws std::invalid_argument  as operator()
+    template <detail::indexed_range R>
+    [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
+        require_valid();
+        std::size_t columns = width;
+        if constexpr (requires { points.width; })
+            if (columns == 0) columns = points.width;
+        detail::require(columns > 0, "raster: the width of the image is not known");
+        const auto n = static_cast<std::size_t>(std::ranges::size(points));
+        detail::require(n % columns == 0,
+                        "raster: the number of points is not a multiple of the width");
+        return {columns, 0, columns, n / columns};
+    }
+
+    /// The largest radius of a window, and the longest gap without a return in it [pixels].
+    [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
+
+  private:
+    /// (A template of numbers for compile time only.)
+    template <class Number = double>
+    [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
+                                  const detail::pixel_rectangle& part, const auto& run) const {
+        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
+                                             precision.radians(), run);
+    }
+
+    /// f(windows) of all points.
+    template <class R, class Proj>
+    auto with_windows(const R& points, const auto& run, Proj projection, auto&& f) const {
+        const position_view<R, Proj> p(points, std::move(projection));
+        const detail::pixel_rectangle image = image_of(points);
+        return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+            return f(windows_of(p, viewpoints, image, run));
+        });
+    }
+};
+
+}  // namespace gnomon
+
+// -------- gnomon/segmentation/detail/image_surfaces.hpp ------------------------------------------
+
+/// @file
+/// Smooth surfaces of an organized image. Alg. 4.2 joins neighboring points whose normals turn by a
+/// small angle. With normals of wide windows this leaks: across an edge they turn gradually. Hence
+/// pixels join nothing at first whose window is no plane, as its variance exceeds that of the
+/// noise, or whose normal disagrees with that of any pixel next to them. Each of these goes to a
+/// surface next to it afterwards, if a plane explains it.
+
+namespace gnomon::detail {
+
+/// The surfaces of the pixels of an image. (A template, so that only its users compile it.)
+template <class Links, class Surface, class Index = point_index>
+class image_surfaces {
+  public:
+    /// @param epsilon  machine epsilon of the numbers that the points came in
+    image_surfaces(const Links& links, const Surface& surface, double epsilon)
+        : links_(links), surface_(surface), epsilon_(epsilon) {}
+
+    /// The labels of the segments of at least `min_points` pixels, largest first.
+    /// @param link      link(i, q): whether the normals of i and of q, next to it, agree
+    /// @param agrees    the same for pixels that are farther apart
+    /// @param distance  no link is longer [m]
+    template <execution X>
+    [[nodiscard]] auto labels(auto&& link, auto&& agrees, double distance, std::size_t min_points,
+                              const X& run) {
+        const std::size_t n = links_.part().size();
+        is_plane_.assign(n, 0);
+        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) is_plane_[i] = is_plane(i) ? 1 : 0;
+        });
+        is_inner_.assign(n, 0);
+        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) is_inner_[i] = is_inner(i, agrees) ? 1 : 0;
+        });
+        union_find sets(n);
+        for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                if (is_inner_[i] == 0) continue;
+                for_each_before(i, [&](std::size_t j) {
+                    const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
+                    const neighbor q{squared_distance(links_[i], links_[j]), b};
+                    if (is_inner_[j] != 0 && q.squared_distance <= distance * distance &&
+                        link(i, q))
+                        sets.unite(a, b);
+                });
+            }
+        });
+        auto all = labels_of_sets(sets, min_points, [this](std::size_t i) { return is_inner_[i]; });
+        assign_rest(all, run);
+        merge_coplanar(all);
+        number_by_size(all);
+        return all;
+    }
+
+  private:
+    static constexpr Index none = std::numeric_limits<Index>::max();
+
+    /// Calls each(j) for the pixels before i in its row and column that it is linked with.
+    void for_each_before(std::size_t i, auto&& each) const {
+        for (const way to : {way::left, way::up})
+            if (links_.gap(i, to) > 0) each(links_.next(i, to));
+    }
+    /// The same for those before and after it.
+    void for_each_linked(std::size_t i, auto&& each) const {
+        for (const way to : all_ways)
+            if (links_.gap(i, to) > 0) each(links_.next(i, to));
+    }
+
+    [[nodiscard]] double rounding_at(std::size_t i) const {
+        const Eigen::Vector3d p = links_[i];
+        return epsilon_ * std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])});
+    }
+    [[nodiscard]] point_noise noise_at(std::size_t i) const {
+        return {links_.variance(i), links_.ray(i), true, rounding_at(i)};
+    }
+    /// The square of noise_at(i).across(normal) [m^2], in less time.
+    [[nodiscard]] double variance_across(std::size_t i, const Eigen::Vector3d& normal) const {
+        const Eigen::Vector3d ray = links_.ray(i);
+        const double rounding = rounding_at(i), along = dot(ray, normal);
+        const double variance = flatness * flatness + rounding * rounding + links_.variance(i);
+        return variance * std::max(along * along / dot(ray, ray), least_cosine * least_cosine);
+    }
+
+    /// Whether a pixel has a normal, and its window is a plane, if the estimate has its variance.
+    [[nodiscard]] bool is_plane(std::size_t i) const {
+        const auto& element = surface_[i];
+        if (!links_.has_return(i) || is_missing(element.normal)) return false;
+        if constexpr (requires { element.spectrum.lambda[2]; }) {
+            return element.spectrum.lambda[2] <=
+                   region_plane::most_excess * variance_across(i, element.normal);
+        }
+        return true;
+    }
+
+    /// A quarter of the width of a square window with these neighbors [pixels].
+    [[nodiscard]] static std::size_t quarter_of_window(double neighbors) {
+        constexpr double quarter = 0.25;  // formula
+        return static_cast<std::size_t>(quarter * std::sqrt(neighbors + 1.0));
+    }
+
+    /// Whether a pixel is a plane, and agrees with those a quarter of its window away, by twice the
+    /// angle of pixels next to each other: across an edge, windows that overlap by three quarters
+    /// turn by a large part of its angle, and on a plane they share most of their noise.
+    [[nodiscard]] bool is_inner(std::size_t i, auto&& agrees) const {
+        if (is_plane_[i] == 0) return false;
+        std::size_t quarter = 1;  // of the width of the window [pixels]
+        if constexpr (requires { surface_[i].neighbors; })
+            quarter = std::max(quarter, quarter_of_window(surface_[i].neighbors));
+        for (const way to : all_ways) {
+            std::size_t j = i;
+            for (std::size_t moved = 0; moved < quarter && links_.gap(j, to) > 0;) {
+                moved += links_.gap(j, to);
+                j = links_.next(j, to);
+            }
+            if (is_plane_[j] != 0 && !agrees(i, neighbor{0.0, static_cast<Index>(j)})) return false;
+        }
+        return true;
+    }
+
+    /// Gives the unlabeled pixels, from the segments outwards, to the segment next to them
+    /// whose tangent plane explains them best: within three standard deviations of a
+    /// difference.
+    template <execution X>
+    void assign_rest(auto& labels, const X& run) const {
+        const std::size_t n = labels.size();
+        scratch<Index> seed(n, none);  // the pixel whose tangent plane a label comes with
+        scratch<Index> front, found;
+        for (std::size_t i = 0; i < n; ++i) {
+            if (labels[i] != unlabeled)
+                seed[i] = static_cast<Index>(i);
+            else if (links_.has_return(i))
+                front.push_back(static_cast<Index>(i));
+        }
+        while (!front.empty()) {
+            found.resize(front.size());
+            for_each_chunk(run, front.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t f = begin; f < end; ++f) found[f] = best_seed(front[f], seed);
+            });
+            for (std::size_t f = 0; f < front.size(); ++f) {
+                if (found[f] == none) continue;
+                seed[front[f]] = found[f];
+                labels[front[f]] = labels[found[f]];
+            }
+            // Only next to new labels there may be others.
+            scratch<Index> next;
+            for (std::size_t f = 0; f < front.size(); ++f) {
+                if (found[f] == none) continue;
+                for_each_linked(front[f], [&](std::size_t j) {
+                    if (seed[j] == none) next.push_back(static_cast<Index>(j));
+                });
+            }
+            std::sort(next.begin(), next.end());
+            next.erase(std::unique(next.begin(), next.end()), next.end());
+            front.swap(next);
+        }
+    }
+
+    /// Of the seeds of the pixels that i is linked with, that whose tangent plane explains i
+    /// best, of equal ones the smallest; none if it does not.
+    [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
+        Index best = none;
+        double least = most_deviations;
+        for_each_linked(i, [&](std::size_t j) {
+            if (seed[j] == none || seed[j] == best) return;
+            const double off = deviations(i, seed[j]);
+            if (off > least || (off == least && seed[j] > best)) return;
+            least = off;
+            best = seed[j];
+        });
+        return best;
+    }
+
+    /// Every second pixel, as on a checkerboard: enough for planes, in half of the time.
+    [[nodiscard]] bool is_sampled(std::size_t i) const {
+        const std::size_t width = links_.part().width;
+        return (i / width + i % width) % 2 == 0;
+    }
+
+    /// Merges segments next to each other that one plane explains: where noise is correlated,
+    /// as in steps of the depth, a wall is several at first.
+    void merge_coplanar(auto& labels) const {
+        const auto last = std::max_element(labels.begin(), labels.end());
+        if (last == labels.end() || *last < 1) return;
+        scratch<planar_region> regions(static_cast<Index>(*last) + std::size_t{1});
+        scratch<region_pair> pairs;
+        const Eigen::Vector3d origin = links_[static_cast<std::size_t>(last - labels.begin())];
+        for (std::size_t i = 0; i < labels.size(); ++i) {
+            if (labels[i] == unlabeled) continue;
+            const auto own = static_cast<Index>(labels[i]);
+            if (is_sampled(i)) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
+            for_each_before(i, [&](std::size_t j) {
+                if (labels[j] == unlabeled || labels[j] == labels[i]) return;
+                add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
+            });
+        }
+        for (planar_region& r : regions) r.fit = r.sums.fit();
+        make_unique(pairs);
+        union_find sets = agglomeration(regions)(
+            std::move(pairs),
+            [](const planar_region& a, const planar_region& b) {
+                return dissimilarity_of_neighbors(a, b);
+            },
+            [](Index, Index) { return true; }, [](union_find&) { return scratch<region_pair>(); });
+        unite_labels(labels, sets);
+    }
+
+    /// How far pixel i is from the tangent plane of a seed, in deviations of the difference of
+    /// both.
+    [[nodiscard]] double deviations(std::size_t i, std::size_t seed) const {
+        const Eigen::Vector3d& n = surface_[seed].normal;
+        const double distance = std::abs(dot(n, difference(links_[i], links_[seed])));
+        return distance / std::sqrt(variance_across(i, n) + variance_across(seed, n));
+    }
+
+    const Links& links_;
+    const Surface& surface_;
+    double epsilon_;
+    scratch<char> is_plane_, is_inner_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/segment_image.hpp --------------------------------------------------
+
+/// @file
+/// Smooth surfaces of an organized image, on the pixels that a `raster` links. In no umbrella, as
+/// few have images: include it by name.
+
+namespace gnomon {
+
+/// The smooth surfaces of an organized image: pixels that are next to each other, and have no jump
+/// in range between them, are linked where their normals agree. Edges belong to one of the surfaces
+/// that meet there if its plane explains them (detail/image_surfaces.hpp).
+///
+/// @param points   the n points of the image, row by row
+/// @param pixels   its width, and the noise along the rays from the view points or the origin
+/// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them; of
+///                 estimates without `spectrum`, flat edges may be lost
+/// @throws std::invalid_argument  also for what `raster` does not accept
+/// Complexity: O(n). The same bytes for every execution.
+template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] segments segment_surfaces(const R& points, const raster& pixels,
+                                        const Surface& surface,
+                                        const segment_surfaces_options& options = {},
+                                        const X& run = {}, Proj projection = {}) {
+    const auto& team = detail::staying(run);
+    const position_view<R, Proj> p(points, std::move(projection));
+    const detail::pixel_rectangle image = pixels.image_of(points);
+    const detail::smooth_link<Surface> link(surface, options, p.size());
+    segment_surfaces_options of_twice_the_angle = options;
+    constexpr angle right = degrees(90);  // formula: no angle between two lines is larger
+    of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
+    const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
+    return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
+        detail::image_surfaces found(links, surface,
+                                     detail::epsilon_of<position_view<R, Proj>>(points));
+        return detail::segments_of(
+            found.labels(link, wide_link, options.max_distance, options.min_points, team));
+    });
+}
+
+}  // namespace gnomon
 
 // -------- gnomon/core/detail/memory_pool.hpp -----------------------------------------------------
 

@@ -170,12 +170,13 @@ TEST(feature_preserving, follows_smooth_surfaces) {
         torus.push_back(out + 0.4 * normals.back());
     }
     const auto error_of = [](const clouds::cloud& points, const clouds::cloud& truth) {
-        return gnomon::quality_of(estimate_normals(points, feature_preserving{}), truth).rms;
+        return gnomon::normal_quality::of(estimate_normals(points, feature_preserving{}), truth)
+            .rms;
     };
     EXPECT_LT(error_of(ball, ball), gnomon::degrees(0.2));
     EXPECT_LT(error_of(torus, normals), gnomon::degrees(0.5));
     const auto planes = estimate_normals(torus, knn{.k = 8}, plane_pca{});
-    EXPECT_GT(gnomon::quality_of(planes, normals).rms, gnomon::degrees(1.5));
+    EXPECT_GT(gnomon::normal_quality::of(planes, normals).rms, gnomon::degrees(1.5));
 }
 
 /// Floats at UTM coordinates are half a metre apart.

@@ -21,7 +21,7 @@ TEST(normal_quality, of_known_errors) {
     for (int i = 1; i <= 100; ++i) surface.push_back(tilted(0.1 * i * (i % 2 ? 1 : -1)));
     for (auto& s : surface) s.normal = -s.normal;  // signs do not matter
     const std::vector<Eigen::Vector3d> truth(100, Eigen::Vector3d::UnitZ());
-    const auto q = gnomon::quality_of(surface, truth);
+    const auto q = gnomon::normal_quality::of(surface, truth);
     EXPECT_EQ(q.points, 100u);
     EXPECT_EQ(q.usable, 1.0);
     EXPECT_NEAR(q.median.degrees(), 5.0, 1e-12);
@@ -36,7 +36,7 @@ TEST(normal_quality, of_missing_normals_and_missing_truth) {
     const std::vector<gnomon::normal_fit> surface{tilted(0.0), {}, tilted(50.0)};
     const std::vector<Eigen::Vector3d> truth{Eigen::Vector3d::UnitZ(), Eigen::Vector3d::UnitZ(),
                                              Eigen::Vector3d::Zero()};
-    const auto q = gnomon::quality_of(surface, truth);
+    const auto q = gnomon::normal_quality::of(surface, truth);
     EXPECT_EQ(q.points, 2u);
     EXPECT_EQ(q.usable, 0.5);
     EXPECT_EQ(q.gamma, 0.5);
@@ -45,14 +45,14 @@ TEST(normal_quality, of_missing_normals_and_missing_truth) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     auto broken = surface;
     broken[0].normal.setConstant(nan);
-    EXPECT_EQ(gnomon::quality_of(broken, truth).usable, 0.0);
+    EXPECT_EQ(gnomon::normal_quality::of(broken, truth).usable, 0.0);
     auto unknown = truth;
     unknown[1].setConstant(nan);
-    EXPECT_EQ(gnomon::quality_of(surface, unknown).points, 1u);
-    EXPECT_TRUE(std::isnan(
-        gnomon::quality_of(std::vector<gnomon::normal_fit>(), std::vector<Eigen::Vector3d>())
-            .gamma));
-    EXPECT_THROW((void)gnomon::quality_of(surface, std::vector<Eigen::Vector3d>(2)),
+    EXPECT_EQ(gnomon::normal_quality::of(surface, unknown).points, 1u);
+    EXPECT_TRUE(std::isnan(gnomon::normal_quality::of(std::vector<gnomon::normal_fit>(),
+                                                      std::vector<Eigen::Vector3d>())
+                               .gamma));
+    EXPECT_THROW((void)gnomon::normal_quality::of(surface, std::vector<Eigen::Vector3d>(2)),
                  std::invalid_argument);
 }
 

@@ -44,22 +44,25 @@ struct normal_quality {
     angle median;  ///< 50 % of the errors are at most this
     angle p90;     ///< 90 % of the errors are at most this
     angle p99;     ///< 99 % of the errors are at most this
+
+    /// The quality of normals against the true ones.
+    ///
+    /// @param surface  the estimated normals
+    /// @param truth    the true unit normals, in the same order; zero or NaN where there is none
+    /// @throws std::invalid_argument  if the two differ in size
+    /// Complexity: O(n).
+    template <normal_range Surface, detail::indexed_range Truth>
+    [[nodiscard]] static normal_quality of(const Surface& surface, const Truth& truth);
 };
 
-/// The quality of normals against the true ones.
-///
-/// @param surface  the estimated normals
-/// @param truth    the true unit normals, in the same order; zero or NaN where there is none
-/// @throws std::invalid_argument  if the two differ in size
-/// Complexity: O(n).
 template <normal_range Surface, detail::indexed_range Truth>
-[[nodiscard]] normal_quality quality_of(const Surface& surface, const Truth& truth) {
+normal_quality normal_quality::of(const Surface& surface, const Truth& truth) {
     detail::require(std::ranges::size(surface) == std::ranges::size(truth),
-                    "quality_of: normals and truth differ in size");
+                    "normal_quality: normals and truth differ in size");
     std::vector<double> errors;
     double gammas = 0.0;
     double squares = 0.0;
-    std::size_t usable = 0;
+    std::size_t found = 0;
     auto t = std::ranges::begin(truth);
     for (const auto& s : surface) {
         const Eigen::Vector3d expected = *t++;
@@ -68,8 +71,8 @@ template <normal_range Surface, detail::indexed_range Truth>
         errors.push_back(missing ? 0.5 * std::numbers::pi
                                  : unoriented_angle(s.normal, expected).radians());
         squares += errors.back() * errors.back();
-        gammas += missing ? 0.0 : gamma(s.normal, expected);
-        usable += !missing;
+        gammas += missing ? 0.0 : gnomon::gamma(s.normal, expected);
+        found += !missing;
     }
     normal_quality q;
     q.points = errors.size();
@@ -81,7 +84,7 @@ template <normal_range Surface, detail::indexed_range Truth>
         return radians(errors[static_cast<std::size_t>(rank)]);
     };
     q.gamma = gammas / n;
-    q.usable = static_cast<double>(usable) / n;
+    q.usable = static_cast<double>(found) / n;
     q.rms = radians(std::sqrt(squares / n));
     q.median = percentile(0.5);
     q.p90 = percentile(0.9);

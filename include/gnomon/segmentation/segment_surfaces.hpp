@@ -22,13 +22,9 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/viewpoints.hpp>
-#include <gnomon/neighborhoods/detail/image_links.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
-#include <gnomon/neighborhoods/raster.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/segmentation/detail/image_surfaces.hpp>
 #include <gnomon/segmentation/detail/link_within.hpp>
 #include <gnomon/segmentation/segments.hpp>
 
@@ -148,40 +144,6 @@ template <class R, neighborhood_graph G, surfel_range Surface, execution X = seq
     linker.link_listed(
         graph, [&link](std::size_t i) { return link.radius(i); }, link, run);
     return detail::segments_of(linker.labels(options.min_points));
-}
-
-/// The smooth surfaces of an organized image: pixels that are next to each other, and have no jump
-/// in range between them, are linked where their normals agree. Edges belong to one of the surfaces
-/// that meet there if its plane explains them (detail/image_surfaces.hpp).
-///
-/// @param points   the n points of the image, row by row
-/// @param pixels   its width, and the noise along the rays from the view points or the origin
-/// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them;
-/// where
-///                 the estimate has no `spectrum`, flat edges may be lost
-/// @throws std::invalid_argument  also for what `raster` does not accept
-/// Complexity: O(n). The same bytes for every execution.
-template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] segments segment_surfaces(const R& points, const raster& pixels,
-                                        const Surface& surface,
-                                        const segment_surfaces_options& options = {},
-                                        const X& run = {}, Proj projection = {}) {
-    const auto& team = detail::staying(run);
-    const position_view<R, Proj> p(points, std::move(projection));
-    const detail::pixel_rectangle image = pixels.image_of(points);
-    const detail::smooth_link<Surface> link(surface, options, p.size());
-    segment_surfaces_options of_twice_the_angle = options;
-    constexpr angle right = degrees(90);  // formula: no angle between two lines is larger
-    of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
-    const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
-    return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
-        detail::image_surfaces found(links, surface,
-                                     detail::epsilon_of<position_view<R, Proj>>(points));
-        return detail::segments_of(
-            found.labels(link, wide_link, options.max_distance, options.min_points, team));
-    });
 }
 
 }  // namespace gnomon

@@ -22,10 +22,15 @@
 
 namespace gnomon::detail {
 
-/// exp(-x), or 0 for x of 12 and more, where it is below 1e-5: performance only.
-[[nodiscard]] inline double decay(double x) { return x < 12.0 ? std::exp(-x) : 0.0; }
+/// About exp(-x), x >= 0: (1 - x / 16)^16, which is less by 0.017 at most, and 0 from 16 on. A
+/// handful of multiplications, and the same bytes with every library of mathematics.
+[[nodiscard]] inline double decay(double x) {
+    double power = std::max(0.0, 1.0 - x / 16.0);
+    for (int i = 0; i < 4; ++i) power *= power;
+    return power;
+}
 
-/// exp(-d^2 / 2) of a distance d in standard deviations.
+/// About exp(-d^2 / 2) of a distance d in standard deviations.
 [[nodiscard]] inline double gaussian(double d) { return decay(0.5 * d * d); }
 
 /// Among the surfaces of a point and of its first k neighbors, the one that the point and most of

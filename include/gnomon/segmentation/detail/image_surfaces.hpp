@@ -224,7 +224,7 @@ class image_surfaces {
             [](const planar_region& a, const planar_region& b) {
                 return dissimilarity_of_neighbors(a, b);
             },
-            [](Index, Index) { return true; }, [](union_find&) {});
+            [](Index, Index) { return true; }, [](union_find&) { return scratch<region_pair>(); });
         unite_labels(labels, sets);
     }
 

@@ -17,7 +17,7 @@
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/ray_ls.hpp>
-#include <gnomon/segmentation/segment_surfaces.hpp>
+#include <gnomon/segmentation/segment_image.hpp>
 
 namespace {
 
