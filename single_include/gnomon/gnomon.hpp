@@ -8524,10 +8524,11 @@ struct local_surface {
 };
 
 /// The plane of least squares of a point and its first k neighbors, and the quadric over it.
-/// Precondition: k >= 2.
+/// Precondition: k >= 2. (Generic for compile time only.)
 class local_fits {
   public:
-    local_fits(const surroundings& around, std::size_t k, double min_aspect_ratio)
+    /// @param around  a `surroundings`
+    local_fits(const auto& around, std::size_t k, double min_aspect_ratio)
         : count_(static_cast<double>(k + 1)) {
         moments m;
         for (std::size_t l = 1; l <= k; ++l) m.add(around.offset[l]);
@@ -8584,9 +8585,10 @@ class local_fits {
 /// The simplest surface that the noise does not reject near a point, by a neighborhood of `judged`
 /// points at least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
 /// Precondition: 2 <= k <= around.last().
-/// @param noise  across the surface [m]
-[[nodiscard]] inline local_surface simplest_surface(const surroundings& around, std::size_t k,
-                                                    double noise, double min_aspect_ratio) {
+/// @param around  a `surroundings`
+/// @param noise   across the surface [m]
+[[nodiscard]] local_surface simplest_surface(const auto& around, std::size_t k, double noise,
+                                             double min_aspect_ratio) {
     constexpr std::size_t judged = 16;
     constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
     constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves
@@ -8681,10 +8683,10 @@ namespace gnomon::detail {
 /// its neighbors lie on. Near an edge it is the surface of a neighbor whose own neighborhood does
 /// not cross the edge: a shifted neighborhood (Cao et al. 2018). Precondition: that of the point
 /// itself is usable.
+/// @param surfaces   those of all points
 /// @param deviation  standard deviation of points from their surface [m]
-[[nodiscard]] inline local_surface best_surface(const surroundings& around, std::size_t k,
-                                                const std::vector<local_surface>& surfaces,
-                                                double deviation) {
+[[nodiscard]] local_surface best_surface(const surroundings& around, std::size_t k,
+                                         const auto& surfaces, double deviation) {
     constexpr std::size_t candidates = 24,
                           samples = 32;  // of a large neighborhood: performance only
     const std::size_t each_candidate = std::max<std::size_t>(1, k / candidates);
@@ -8710,10 +8712,10 @@ namespace gnomon::detail {
 }
 
 /// The surface refitted to the first k neighbors by iteratively reweighted least squares.
+/// @param around     a `surroundings`
 /// @param deviation  distance from the surface at which the weight is exp(-1/2) [m]
-[[nodiscard]] inline local_surface refitted(const surroundings& around, std::size_t k,
-                                            local_surface surface, double deviation,
-                                            double min_aspect_ratio) {
+[[nodiscard]] local_surface refitted(const auto& around, std::size_t k, local_surface surface,
+                                     double deviation, double min_aspect_ratio) {
     constexpr int rounds = 3;
     const double scale = 1.0 / around.radius(k);
     for (int i = 0; i < rounds; ++i) {
@@ -8747,10 +8749,10 @@ namespace gnomon::detail {
 /// the angle between the normals, and with the distances of the points from each other's surfaces,
 /// so that normals beyond an edge or on a parallel wall have almost no weight. Precondition: the
 /// surface of the point itself is usable.
+/// @param surfaces   those of all points
 /// @param deviation  standard deviation of points from each other's surfaces [m]
-[[nodiscard]] inline Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
-                                                     const std::vector<local_surface>& surfaces,
-                                                     double deviation) {
+[[nodiscard]] Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
+                                              const auto& surfaces, double deviation) {
     constexpr double agreement = 0.6;  // standard deviation of the sine of the angle
     constexpr double nearness = 0.5;   // standard deviation of the distance, in radii
     const local_surface& own = surfaces[around.index[0]];
@@ -8906,7 +8908,7 @@ class feature_preserving_sweeps {
         : options_(options), points_(points), noise_(noise) {}
 
     /// The surfaces of sweep 1.
-    [[nodiscard]] std::vector<local_surface> fitted(const auto& run) const {
+    [[nodiscard]] auto fitted(const auto& run) const {
         return made_by(run, [&](const surroundings& around) {
             std::size_t k = std::min(options_.min_k, around.last());
             const std::size_t most = std::min(options_.max_k, around.last());
@@ -8924,8 +8926,7 @@ class feature_preserving_sweeps {
     }
 
     /// The surfaces of sweep 2, from those of sweep 1.
-    [[nodiscard]] std::vector<local_surface> shifted(const std::vector<local_surface>& surfaces,
-                                                     const auto& run) const {
+    [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
         constexpr double honest = 2.4;  // noise deviations that a point may be off its surface,
         constexpr double bend = 0.004;  // and radii of the neighbors, for bends of planes
         constexpr double wider = 2.0;   // once the side is decided, more points make less noise
@@ -8947,8 +8948,8 @@ class feature_preserving_sweeps {
     }
 
     /// The normals of sweep 3, from the surfaces of sweep 2.
-    [[nodiscard]] std::vector<surfel<plane_fit>> filtered(
-        const std::vector<local_surface>& surfaces, const auto& run) const {
+    [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
+                                                          const auto& run) const {
         constexpr std::size_t fewest = 16;
         constexpr double honest = 2.0, bend = 0.05;  // as in sweep 2, for normals
         std::vector<surfel<plane_fit>> result(points_.size());
@@ -8989,8 +8990,9 @@ class feature_preserving_sweeps {
         knn{.k = std::max(sight, options_.max_k)}.sweep(points_, run, make_visitor);
     }
 
-    [[nodiscard]] std::vector<local_surface> made_by(const auto& run, const auto& make) const {
-        std::vector<local_surface> surfaces(points_.size());
+    [[nodiscard]] auto made_by(const auto& run, const auto& make) const {
+        using made = std::invoke_result_t<decltype(make), const surroundings&>;
+        std::vector<made> surfaces(points_.size());
         for_each_point(
             run, [&](std::size_t i, const surroundings& around) { surfaces[i] = make(around); });
         return surfaces;

@@ -23,6 +23,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -67,7 +68,7 @@ class feature_preserving_sweeps {
         : options_(options), points_(points), noise_(noise) {}
 
     /// The surfaces of sweep 1.
-    [[nodiscard]] std::vector<local_surface> fitted(const auto& run) const {
+    [[nodiscard]] auto fitted(const auto& run) const {
         return made_by(run, [&](const surroundings& around) {
             std::size_t k = std::min(options_.min_k, around.last());
             const std::size_t most = std::min(options_.max_k, around.last());
@@ -85,8 +86,7 @@ class feature_preserving_sweeps {
     }
 
     /// The surfaces of sweep 2, from those of sweep 1.
-    [[nodiscard]] std::vector<local_surface> shifted(const std::vector<local_surface>& surfaces,
-                                                     const auto& run) const {
+    [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
         constexpr double honest = 2.4;  // noise deviations that a point may be off its surface,
         constexpr double bend = 0.004;  // and radii of the neighbors, for bends of planes
         constexpr double wider = 2.0;   // once the side is decided, more points make less noise
@@ -108,8 +108,8 @@ class feature_preserving_sweeps {
     }
 
     /// The normals of sweep 3, from the surfaces of sweep 2.
-    [[nodiscard]] std::vector<surfel<plane_fit>> filtered(
-        const std::vector<local_surface>& surfaces, const auto& run) const {
+    [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
+                                                          const auto& run) const {
         constexpr std::size_t fewest = 16;
         constexpr double honest = 2.0, bend = 0.05;  // as in sweep 2, for normals
         std::vector<surfel<plane_fit>> result(points_.size());
@@ -150,8 +150,9 @@ class feature_preserving_sweeps {
         knn{.k = std::max(sight, options_.max_k)}.sweep(points_, run, make_visitor);
     }
 
-    [[nodiscard]] std::vector<local_surface> made_by(const auto& run, const auto& make) const {
-        std::vector<local_surface> surfaces(points_.size());
+    [[nodiscard]] auto made_by(const auto& run, const auto& make) const {
+        using made = std::invoke_result_t<decltype(make), const surroundings&>;
+        std::vector<made> surfaces(points_.size());
         for_each_point(
             run, [&](std::size_t i, const surroundings& around) { surfaces[i] = make(around); });
         return surfaces;

@@ -108,10 +108,11 @@ struct local_surface {
 };
 
 /// The plane of least squares of a point and its first k neighbors, and the quadric over it.
-/// Precondition: k >= 2.
+/// Precondition: k >= 2. (Generic for compile time only.)
 class local_fits {
   public:
-    local_fits(const surroundings& around, std::size_t k, double min_aspect_ratio)
+    /// @param around  a `surroundings`
+    local_fits(const auto& around, std::size_t k, double min_aspect_ratio)
         : count_(static_cast<double>(k + 1)) {
         moments m;
         for (std::size_t l = 1; l <= k; ++l) m.add(around.offset[l]);
@@ -168,9 +169,10 @@ class local_fits {
 /// The simplest surface that the noise does not reject near a point, by a neighborhood of `judged`
 /// points at least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
 /// Precondition: 2 <= k <= around.last().
-/// @param noise  across the surface [m]
-[[nodiscard]] inline local_surface simplest_surface(const surroundings& around, std::size_t k,
-                                                    double noise, double min_aspect_ratio) {
+/// @param around  a `surroundings`
+/// @param noise   across the surface [m]
+[[nodiscard]] local_surface simplest_surface(const auto& around, std::size_t k, double noise,
+                                             double min_aspect_ratio) {
     constexpr std::size_t judged = 16;
     constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
     constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves

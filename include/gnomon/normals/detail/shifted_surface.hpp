@@ -7,7 +7,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -37,10 +36,10 @@ namespace gnomon::detail {
 /// its neighbors lie on. Near an edge it is the surface of a neighbor whose own neighborhood does
 /// not cross the edge: a shifted neighborhood (Cao et al. 2018). Precondition: that of the point
 /// itself is usable.
+/// @param surfaces   those of all points
 /// @param deviation  standard deviation of points from their surface [m]
-[[nodiscard]] inline local_surface best_surface(const surroundings& around, std::size_t k,
-                                                const std::vector<local_surface>& surfaces,
-                                                double deviation) {
+[[nodiscard]] local_surface best_surface(const surroundings& around, std::size_t k,
+                                         const auto& surfaces, double deviation) {
     constexpr std::size_t candidates = 24,
                           samples = 32;  // of a large neighborhood: performance only
     const std::size_t each_candidate = std::max<std::size_t>(1, k / candidates);
@@ -66,10 +65,10 @@ namespace gnomon::detail {
 }
 
 /// The surface refitted to the first k neighbors by iteratively reweighted least squares.
+/// @param around     a `surroundings`
 /// @param deviation  distance from the surface at which the weight is exp(-1/2) [m]
-[[nodiscard]] inline local_surface refitted(const surroundings& around, std::size_t k,
-                                            local_surface surface, double deviation,
-                                            double min_aspect_ratio) {
+[[nodiscard]] local_surface refitted(const auto& around, std::size_t k, local_surface surface,
+                                     double deviation, double min_aspect_ratio) {
     constexpr int rounds = 3;
     const double scale = 1.0 / around.radius(k);
     for (int i = 0; i < rounds; ++i) {
@@ -103,10 +102,10 @@ namespace gnomon::detail {
 /// the angle between the normals, and with the distances of the points from each other's surfaces,
 /// so that normals beyond an edge or on a parallel wall have almost no weight. Precondition: the
 /// surface of the point itself is usable.
+/// @param surfaces   those of all points
 /// @param deviation  standard deviation of points from each other's surfaces [m]
-[[nodiscard]] inline Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
-                                                     const std::vector<local_surface>& surfaces,
-                                                     double deviation) {
+[[nodiscard]] Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
+                                              const auto& surfaces, double deviation) {
     constexpr double agreement = 0.6;  // standard deviation of the sine of the angle
     constexpr double nearness = 0.5;   // standard deviation of the distance, in radii
     const local_surface& own = surfaces[around.index[0]];
