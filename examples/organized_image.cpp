@@ -24,8 +24,10 @@ int main(int argc, char** argv) try {
 
     // [organized_image]
     // #include <gnomon/segmentation/segment_image.hpp>
-    // The noise is that of the first Kinect. For points without a width: {.width = 640, ...}.
-    const gnomon::raster pixels{.noise = gnomon::noises::structured_light()};
+    // The noise is that of the first Kinect, a function of the depth along the optical axis z. For
+    // points without a width: {.width = 640, ...}.
+    const gnomon::raster pixels{
+        .noise = {gnomon::noises::structured_light(), Eigen::Vector3d(0.0, 0.0, 1.0)}};
     const gnomon::team threads;
     const auto surface = gnomon::estimate_normals(scan, pixels, gnomon::plane_pca{}, threads);
     const auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads);

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, images, perception, the simulator and
-all that they include.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the headers of images, perception,
+the simulator and all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          compares that file with what would be written

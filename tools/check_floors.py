@@ -4,8 +4,9 @@
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
 contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
-needs Boost, and the headers of organized images, which few need), gnomon.hpp every umbrella but that of the simulator. gnomon/perception.hpp, which
-composes all floors, is in no umbrella and is included by name. Adapters to other libraries see all
+needs Boost, and the headers of organized images, which few need), gnomon.hpp every umbrella but
+that of the simulator. gnomon/perception.hpp, which composes all floors, is in no umbrella and is
+included by name. Adapters to other libraries see all
 floors, and no header sees them; they have no umbrella. Some foreign headers are kept out, for what
 they cost or break. No header includes itself in a circle.
 """
@@ -43,7 +44,7 @@ FORBIDDEN = {
     "ranges": "clang with libstdc++ refuses its views, and too expensive to compile",
     "regex": "too expensive to compile",
 }
-# Needs Boost, which many users lack: it is included by name.
+# Included by name: the registry needs Boost; few users have organized images.
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp"}
 CMATH_HOME = "gnomon/core/detail/cmath.hpp"

@@ -8208,6 +8208,7 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
     const auto& team = detail::staying(run);
     if constexpr (detail::needs_no_index<N>) {
         const position_view<R, Proj> p(points, projection);
+        (void)policy.image_of(points);  // throws before anything is overwritten
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             detail::estimate_swept(
                 surface, p, viewpoints, detail::epsilon_of<position_view<R, Proj>>(points),
@@ -8282,8 +8283,8 @@ struct quadric {
     }
 };
 
-/// Least-squares fit of all six coefficients, and of the plane that is their first three. Solves
-/// the normal equations, so x and y should be of order 1. Needs six points.
+/// Least-squares fit of all six coefficients. Solves the normal equations, so x and y should be of
+/// order 1. Needs six points.
 class least_squares_quadric {
   public:
     /// Adds the point (x, y, z) with a weight. O(1).
@@ -8320,11 +8321,8 @@ class least_squares_quadric {
         for (std::size_t i = 0; i < 6; ++i) {
             for (std::size_t k = 0; k < i; ++k) right_[i] -= left_[i][k] * right_[k];
         }
-        of_plane_ = heights_;
-        for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t i = 0; i < 6; ++i)
             heights_ = std::max(0.0, heights_ - right_[i] * right_[i] / left_[i][i]);
-            if (i == 2) of_plane_ = heights_;
-        }
         for (std::size_t i = 6; i-- > 0;) {
             right_[i] /= left_[i][i];
             for (std::size_t k = i + 1; k < 6; ++k) right_[i] -= left_[k][i] * right_[k];
@@ -8340,14 +8338,11 @@ class least_squares_quadric {
 
     /// The weighted sum of squares [m^2] of the heights over the quadric. Precondition: solved.
     [[nodiscard]] double squared_residual() const { return heights_; }
-    /// The same over the plane z = constant + e x + f y that fits best. Precondition: solved.
-    [[nodiscard]] double squared_residual_of_plane() const { return of_plane_; }
 
   private:
     square_array<6> left_ = {};         // A, then L and D; lower triangle
     std::array<double, 6> right_ = {};  // r, then the coefficients
     double heights_ = 0.0;              // sum of w z^2, then what the quadric leaves of it [m^2]
-    double of_plane_ = 0.0;             // what the plane leaves of it [m^2]
 };
 
 }  // namespace gnomon::detail
@@ -8582,40 +8577,42 @@ class local_fits {
     return 2.0 * noise / (r * std::sqrt(static_cast<double>(k)));
 }
 
-/// The simplest surface that the noise does not reject near a point, by a neighborhood of `judged`
-/// points at least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
+/// The simplest surface that the noise does not reject near a point, tested on 16 neighbors at
+/// least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
 /// Precondition: 2 <= k <= around.last().
 /// @param around  a `surroundings`
 /// @param noise   across the surface [m]
 [[nodiscard]] local_surface simplest_surface(const auto& around, std::size_t k, double noise,
                                              double min_aspect_ratio) {
-    constexpr std::size_t judged = 16;
-    constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
-    constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves
-    constexpr double digits = 1e-6;    // of the radius, that count as noise
-    constexpr double sure = 0.01;      // standard deviation of the slopes [rad]
-    const std::size_t wide = std::min(std::max(k, judged), around.last());
+    constexpr std::size_t tested_neighbors = 16, fewest_tested = 9;
+    constexpr double relative_rounding = 1e-6;  // of the radius, that counts as noise
+    // Chosen on the tuning half of known_normals.
+    constexpr double bend_residuals = 0.01;       // share of the plane's that a quadric leaves
+    constexpr double max_slope_deviation = 0.01;  // of a settled surface [rad]
+    const std::size_t wide = std::min(std::max(k, tested_neighbors), around.last());
     const local_fits fits(around, k, min_aspect_ratio);
     local_surface surface = fits.plane();
-    if (wide < fewest || !usable(surface.fit.trust)) return surface;
+    if (wide < fewest_tested || !usable(surface.fit.trust)) return surface;
 
     const local_fits all = k < wide ? local_fits(around, wide, min_aspect_ratio) : fits;
     if (!usable(all.plane().fit.trust)) return surface;
-    const double least = std::max(noise, digits * around.radius(wide));
+    const double least = std::max(noise, relative_rounding * around.radius(wide));
     // Three standard deviations of a sum of squares above its mean.
     const auto limit = [&](double freedom) {
         return least * least * (freedom + 3.0 * std::sqrt(2.0 * freedom));
     };
     double left = all.left_by_plane() / all.freedom_of_plane();
     if (all.left_by_plane() > limit(all.freedom_of_plane())) {
-        const bool accepted = all.has_quadric() && fits.has_quadric() &&
-                              all.left_by_quadric() <= std::max(limit(all.freedom_of_quadric()),
-                                                                bent * all.left_by_plane());
+        const bool accepted =
+            all.has_quadric() && fits.has_quadric() &&
+            all.left_by_quadric() <=
+                std::max(limit(all.freedom_of_quadric()), bend_residuals * all.left_by_plane());
         if (!accepted) return surface;
         surface = fits.curved();
         left = all.left_by_quadric() / all.freedom_of_quadric();
     }
-    surface.settled = deviation_of_slope(std::sqrt(left), around.radius(k), k) < sure;
+    surface.settled =
+        deviation_of_slope(std::sqrt(left), around.radius(k), k) < max_slope_deviation;
     return surface;
 }
 
@@ -8668,8 +8665,8 @@ struct weighted_moments {
 
 namespace gnomon::detail {
 
-/// About exp(-x), x >= 0: (1 - x / 16)^16, which is less by 0.017 at most, and 0 from 16 on. A
-/// handful of multiplications, and the same bytes with every library of mathematics.
+/// (1 - x / 16)^16, within 0.018 below exp(-x), and 0 from x = 16 on: five multiplications instead
+/// of an exponential (performance only).
 [[nodiscard]] inline double decay(double x) {
     double power = std::max(0.0, 1.0 - x / 16.0);
     for (int i = 0; i < 4; ++i) power *= power;
@@ -8824,7 +8821,7 @@ template <class Index>
     std::vector<neighbor> neighbors;
     surroundings around;
     std::vector<double> spread, radius;
-    for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
+    for (std::size_t k = std::min<std::size_t>(16, max_k);; k = std::min(2 * k, max_k)) {
         spread.clear();
         radius.clear();
         for (const std::size_t i : chosen) {
@@ -8927,18 +8924,20 @@ class feature_preserving_sweeps {
 
     /// The surfaces of sweep 2, from those of sweep 1.
     [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
-        constexpr double honest = 2.4;  // noise deviations that a point may be off its surface,
-        constexpr double bend = 0.004;  // and radii of the neighbors, for bends of planes
-        constexpr double wider = 2.0;   // once the side is decided, more points make less noise
+        // Chosen on the tuning half of known_normals.
+        constexpr double inlier_deviations = 2.4;  // of the noise, that a point may be off,
+        constexpr double relative_bend = 0.004;    // and radii of the neighbors, where planes bend
+        constexpr double refit_widening = 2.0;     // once the side is decided: less noise
         return made_by(run, [&](const surroundings& around) {
             local_surface s = surfaces[around.index[0]];
             if (!usable(s.fit.trust) || s.settled) return s;
             const std::size_t k =
                 std::min(std::max<std::size_t>(sight, s.neighbors), around.last());
-            const double deviation = std::hypot(honest * noise_, bend * around.radius(k));
+            const double deviation =
+                std::hypot(inlier_deviations * noise_, relative_bend * around.radius(k));
             const local_surface best =
-                refitted(around, k, best_surface(around, k, surfaces, deviation), wider * deviation,
-                         options_.min_aspect_ratio);
+                refitted(around, k, best_surface(around, k, surfaces, deviation),
+                         refit_widening * deviation, options_.min_aspect_ratio);
             s.fit = best.fit;
             s.base = best.base;
             s.height = best.height;
@@ -8951,7 +8950,7 @@ class feature_preserving_sweeps {
     [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
                                                           const auto& run) const {
         constexpr std::size_t fewest = 16;
-        constexpr double honest = 2.0, bend = 0.05;  // as in sweep 2, for normals
+        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as above, for normals
         std::vector<surfel<plane_fit>> result(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (!points_.is_finite(i)) result[i].trust = trust::not_finite;
@@ -8965,8 +8964,9 @@ class feature_preserving_sweeps {
             if (!own.settled) {
                 const std::size_t k =
                     std::min(std::max<std::size_t>(fewest, own.neighbors), around.last());
-                s.normal = filtered_normal(around, k, surfaces,
-                                           std::hypot(honest * noise_, bend * around.radius(k)));
+                s.normal = filtered_normal(
+                    around, k, surfaces,
+                    std::hypot(inlier_deviations * noise_, relative_bend * around.radius(k)));
             }
             const bool coarse = is_coarse(points_.epsilon(), points_[i], s.mean_distance);
             if (coarse && s.trust == trust::good) s.trust = trust::weak;
@@ -9015,8 +9015,8 @@ class feature_preserving_sweeps {
 /// @return n surface elements, as an estimator that returns `plane_fit` gives them; the spectrum is
 ///         that of the points that the surface was last fitted to, `neighbors` the k of the first
 /// @throws std::invalid_argument  unless 2 <= min_k <= max_k, tilt > 0 and noise >= 0, both finite
-/// Complexity: three searches and, near edges and where there is noise, about 1,500 exponentials
-/// per point; 500 bytes per point. Accuracy and limits: docs/normals.md.
+/// Complexity: three searches of max_k neighbors per point and, near edges and where there is
+/// noise, about 1,500 weights; 500 bytes per point. Accuracy and limits: docs/normals.md.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] auto estimate_normals(const R& points, const feature_preserving& options,
@@ -11555,19 +11555,18 @@ class seen_points {
 
     /// The plane of least cost through the point and two of its neighbors; without a normal, if no
     /// pair determines one. Of more than 256 neighbors, those at even distances in their order
-    /// count. Ends when all pairs so far would contain an outlier in 1 of 1,000 cases at most, if
-    /// the best plane's share of inliers is the true one.
+    /// count. Ends when, with the share of inliers of the best plane so far, all compared pairs
+    /// contain an outlier with a probability of at most 0.1 % (Fischler and Bolles 1981).
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
-        constexpr double missed = 1e-3;
+        constexpr double failure_probability = 1e-3;
         const std::size_t step = (size() + most_counted - 1) / most_counted;
         const weights weight = weights_by_quadrant(step);
-        double whole = 0.0;
-        for (std::size_t j = 0; j * step < size(); ++j) whole += weight[j];
+        const double whole = std::accumulate(weight.begin(), weight.end(), 0.0);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
         auto needed = static_cast<double>(trials);
-        for (int trial = 0; trial < needed; ++trial) {
+        for (int drawn = 0, compared = 0; drawn < trials && compared < needed; ++drawn) {
             const Vector a = difference(at(random.bits() % size()), x_);
             const Vector b = difference(at(random.bits() % size()), x_);
             const Vector n = cross(a, b);
@@ -11576,14 +11575,16 @@ class seen_points {
             if (!(area > elongated * length(a) * length(b))) continue;
             const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
             if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
+            ++compared;
             double cost = 0.0;
             for (std::size_t j = 0; j * step < size() && cost < least; ++j)
                 cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
             if (!(cost < least)) continue;
             least = cost;
             best = candidate;
-            const double share = std::max(0.0, 1.0 - least / whole);
-            needed = std::min(needed, std::log(missed) / std::log1p(-share * share));
+            // Pairs are drawn from all neighbors, but planes are compared by quadrant.
+            const double share = std::min(share_on(candidate), std::max(0.0, 1.0 - cost / whole));
+            needed = std::min(needed, std::log(failure_probability) / std::log1p(-share * share));
         }
         return best;
     }
@@ -11617,7 +11618,7 @@ class seen_points {
         };
         std::array<typename Vector::Scalar, 4> counts{};
         for (std::size_t j = 0; j * step < size(); ++j) counts[quadrant(j)] += 1.0;
-        weights weight;
+        weights weight{};
         for (std::size_t j = 0; j * step < size(); ++j) weight[j] = 1.0 / counts[quadrant(j)];
         return weight;
     }
@@ -14922,9 +14923,10 @@ namespace gnomon::detail {
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
 /// that of the noise.
 [[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
-    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    if (!(a.sums.count > 0 && b.sums.count > 0) || are_at_edge(a, b)) return infinity;
     const region_plane both = plane_of_both(a, b);
-    if (!both.is_determined) return std::numeric_limits<double>::infinity();
+    if (!both.is_determined) return infinity;
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
@@ -16261,8 +16263,9 @@ class visibility {
     }
 
   private:
-    /// The elevations in which something is seen, and two pixels more, about the given pole or the
-    /// axis along which all rays vary least, which may lie amid those of an image: it has its own.
+    /// Finds the range of elevations with returns, enlarged by two pixels, about the given pole or
+    /// the axis along which all rays vary least. The images have poles of their own, since the
+    /// common axis may lie within the field of view of one of them.
     void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
@@ -16465,12 +16468,16 @@ class occlusion_merger {
                    : std::numeric_limits<double>::infinity();
     }
 
-    /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
-    /// rho_o, Eq. (4.6), which is the smaller distance of both.
+    /// Whether the centroid of the smaller segment is near the plane of the larger one (of equal
+    /// ones both, so that their order does not count), in place of rho_o, Eq. (4.6), which is the
+    /// smaller distance of both.
     [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
-        const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
         const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
-        return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
+        const auto is_on = [&](const planar_region& wide) {
+            return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
+        };
+        return (a.sums.count < b.sums.count || is_on(a)) &&
+               (b.sums.count < a.sums.count || is_on(b));
     }
 
     /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of
@@ -17955,9 +17962,8 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 /// [m]; its orientation is not applied, so the points stay in the frame of the file.
 /// @param file    name and contents of the file
 /// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values
-/// @return the points [m] in the order of the file, with viewpoint and fields, and with the width
-/// of
-///         an organized image, of several rows
+/// @return the points [m] in the order of the file, with viewpoint and fields; `width` is set if
+///         the file has several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
 template <class = void>
@@ -18614,7 +18620,6 @@ struct pixel_rectangle {
 
 /// The ways from a pixel along its row and its column.
 enum class way : unsigned { left, right, up, down };
-inline constexpr std::array all_ways{way::left, way::right, way::up, way::down};
 
 /// The pixels of a rectangle and their links. (A template, so that only its users compile it.)
 template <class Number = double, class Index = point_index>
@@ -18715,12 +18720,15 @@ class image_links {
         constexpr double steepest = 5.67;   // tan(80 degrees)
         constexpr double deviations = 3.0;  // the 99.7 % quantile
         const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
+        if (!has_length(to_a) || !has_length(to_b)) return 0;  // at its view point: no return
         const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
         const double along = std::abs(dot(d, to_a)) / length(to_a);
         const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
         const Number sine = across / (static_cast<double>(gap) * length(to_b));
-        spacing_[a] = std::min(spacing_[a], sine);
-        spacing_[b] = std::min(spacing_[b], sine);
+        if (sine > Number{}) {
+            spacing_[a] = std::min(spacing_[a], sine);
+            spacing_[b] = std::min(spacing_[b], sine);
+        }
         const double noise = deviations * std::sqrt(variance_[a] + variance_[b]);
         return along <= steepest * across + noise ? gap : 0;
     }
@@ -18744,29 +18752,20 @@ class image_links {
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Vectors of two numbers.
-struct two_numbers {
-    static constexpr std::size_t size = 2;
-    using numbers [[gnu::vector_size(16)]] = double;
-    using bits [[gnu::vector_size(16)]] = std::int64_t;
-    static constexpr std::int64_t masks[] = {-1, -1, 0};  // from the end: of 1 and of 2 numbers
-
-    [[gnu::always_inline]] static void take_roots(numbers& a) {
-#if GNOMON_LANE_BITS == 128
-        a = static_cast<numbers>(_mm_sqrt_pd(static_cast<__m128d>(a)));
-#else
-        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
-#endif
-    }
-};
-#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
-/// Vectors of four numbers, in functions that are compiled for AVX2.
+/// Vectors of four numbers. All processors add in the same order, so that sums are the same bytes.
 struct four_numbers {
     static constexpr std::size_t size = 4;
     using numbers [[gnu::vector_size(32)]] = double;
     using bits [[gnu::vector_size(32)]] = std::int64_t;
     static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
 
+    [[gnu::always_inline]] static void take_roots(numbers& a) {
+        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
+    }
+};
+#if GNOMON_LANE_BITS >= 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+/// The same in functions that are compiled for AVX2.
+struct four_numbers_of_avx2 : four_numbers {
     [[GNOMON_WITH_AVX2]] static void take_roots(numbers& a) { a = __builtin_ia32_sqrtpd256(a); }
 };
 #endif
@@ -18859,12 +18858,18 @@ inline namespace GNOMON_LANES {
 /// The vectors of some instructions.
 template <class Instructions>
 struct vectors_of {
-    using type = two_numbers;
+    using type = four_numbers;
 };
 #if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
 template <>
 struct vectors_of<avx2_instructions> {
-    using type = four_numbers;
+    using type = four_numbers_of_avx2;
+};
+#endif
+#if GNOMON_LANE_BITS == 512
+template <>
+struct vectors_of<avx512_instructions> {
+    using type = four_numbers_of_avx2;
 };
 #endif
 
@@ -18909,8 +18914,6 @@ class window_neighbors {
     std::size_t center_;
     std::size_t count_ = 0;
 };
-
-}  // namespace GNOMON_LANES
 
 /// The windows of all pixels of a rectangle. (A template, so that only its users compile it.)
 template <class Number = double, class Index = point_index>
@@ -19021,6 +19024,7 @@ class image_windows {
     scratch<Index> before_;  // the number of returns before each pixel
 };
 
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
 
 // -------- gnomon/neighborhoods/raster.hpp --------------------------------------------------------
@@ -19030,9 +19034,11 @@ class image_windows {
 /// point per pixel, row by row, NaN where there was no return. They are found in the image, without
 /// a tree.
 ///
-///     const gnomon::raster pixels{.noise = noises::structured_light()};
+///     const gnomon::raster pixels{.noise = {noises::structured_light(), optical_axis}};
 ///     auto surface = gnomon::estimate_normals(scan, pixels, plane_pca{}, threads{});
 ///     auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads{});
+///
+/// In no umbrella: include it by name; the last line needs gnomon/segmentation/segment_image.hpp.
 ///
 /// They are the pixels of a window around it, as far as these are on one surface: a jump in range
 /// that neither the noise nor a steep surface explains ends the window (detail/image_links.hpp).
@@ -19044,7 +19050,7 @@ namespace gnomon {
 /// Models `sweeping_neighborhood`, and sweeps over points that have no index, too. Neighbors come
 /// in the order of their pixels. Rays are those from the view points, or else from the origin.
 struct raster {
-    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the `scan`
+    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the range
     noise_curve noise = constant_noise{};  ///< along the rays
     std::size_t radius = 3;                ///< of a window [pixels], at least 1
     std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
@@ -19082,7 +19088,7 @@ struct raster {
     void find(const spatial_index& index, std::size_t i,
               std::vector<neighbor, Allocator>& found) const {
         const detail::pixel_rectangle image = image_of(index);
-        const std::size_t reach = most(), x = i % width, y = i / width;
+        const std::size_t reach = largest_radius(), x = i % width, y = i / width;
         const std::size_t left = std::min(reach, x), above = std::min(reach, y);
         const detail::pixel_rectangle around{width, i - above * width - left,
                                              left + 1 + std::min(reach, width - 1 - x),
@@ -19113,14 +19119,15 @@ struct raster {
         detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
     }
 
-    /// The image of all points, row by row.
+    /// The image of all points, row by row: the points of PCL, whose height is 1 if they are none,
+    /// are an image if they have more rows.
     /// @throws std::invalid_argument  as operator()
     template <detail::indexed_range R>
     [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
         require_valid();
         std::size_t columns = width;
         if constexpr (requires { points.width; })
-            if (columns == 0) columns = points.width;
+            if (columns == 0) columns = width_of(points);
         detail::require(columns > 0, "raster: the width of the image is not known");
         const auto n = static_cast<std::size_t>(std::ranges::size(points));
         detail::require(n % columns == 0,
@@ -19128,16 +19135,22 @@ struct raster {
         return {columns, 0, columns, n / columns};
     }
 
-    /// The largest radius of a window, and the longest gap without a return in it [pixels].
-    [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
+    /// The largest radius of a window, and the largest distance of linked pixels in it [pixels].
+    [[nodiscard]] std::size_t largest_radius() const { return std::max(radius, max_radius); }
 
   private:
+    [[nodiscard]] static std::size_t width_of(const auto& points) {
+        if constexpr (requires { points.height; })
+            if (points.height <= 1) return 0;
+        return points.width;
+    }
+
     /// (A template of numbers for compile time only.)
     template <class Number = double>
     [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
                                   const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
-                                             precision.radians(), run);
+        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius,
+                                             largest_radius(), precision.radians(), run);
     }
 
     /// f(windows) of all points.
@@ -19159,8 +19172,9 @@ struct raster {
 /// Smooth surfaces of an organized image. Alg. 4.2 joins neighboring points whose normals turn by a
 /// small angle. With normals of wide windows this leaks: across an edge they turn gradually. Hence
 /// pixels join nothing at first whose window is no plane, as its variance exceeds that of the
-/// noise, or whose normal disagrees with that of any pixel next to them. Each of these goes to a
-/// surface next to it afterwards, if a plane explains it.
+/// noise, or whose normal disagrees with that of a pixel a quarter of its window away. Each of
+/// these is assigned to an adjacent segment whose tangent plane explains it. Then adjacent segments
+/// that one plane explains are merged.
 
 namespace gnomon::detail {
 
@@ -19168,17 +19182,19 @@ namespace gnomon::detail {
 template <class Links, class Surface, class Index = point_index>
 class image_surfaces {
   public:
-    /// @param epsilon  machine epsilon of the numbers that the points came in
-    image_surfaces(const Links& links, const Surface& surface, double epsilon)
-        : links_(links), surface_(surface), epsilon_(epsilon) {}
+    /// @param epsilon       machine epsilon of the numbers that the points came in
+    /// @param max_distance  no pixels of one segment are next to each other that are farther [m]
+    image_surfaces(const Links& links, const Surface& surface, double epsilon, double max_distance)
+        : links_(links),
+          surface_(surface),
+          epsilon_(epsilon),
+          max_squared_(max_distance * max_distance) {}
 
     /// The labels of the segments of at least `min_points` pixels, largest first.
     /// @param link      link(i, q): whether the normals of i and of q, next to it, agree
     /// @param agrees    the same for pixels that are farther apart
-    /// @param distance  no link is longer [m]
     template <execution X>
-    [[nodiscard]] auto labels(auto&& link, auto&& agrees, double distance, std::size_t min_points,
-                              const X& run) {
+    [[nodiscard]] auto labels(auto&& link, auto&& agrees, std::size_t min_points, const X& run) {
         const std::size_t n = links_.part().size();
         is_plane_.assign(n, 0);
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
@@ -19192,12 +19208,10 @@ class image_surfaces {
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (is_inner_[i] == 0) continue;
-                for_each_before(i, [&](std::size_t j) {
+                for_each_linked(i, before, [&](std::size_t j) {
                     const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
                     const neighbor q{squared_distance(links_[i], links_[j]), b};
-                    if (is_inner_[j] != 0 && q.squared_distance <= distance * distance &&
-                        link(i, q))
-                        sets.unite(a, b);
+                    if (is_inner_[j] != 0 && link(i, q)) sets.unite(a, b);
                 });
             }
         });
@@ -19211,15 +19225,17 @@ class image_surfaces {
   private:
     static constexpr Index none = std::numeric_limits<Index>::max();
 
-    /// Calls each(j) for the pixels before i in its row and column that it is linked with.
-    void for_each_before(std::size_t i, auto&& each) const {
-        for (const way to : {way::left, way::up})
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
-    }
-    /// The same for those before and after it.
-    void for_each_linked(std::size_t i, auto&& each) const {
-        for (const way to : all_ways)
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
+    static constexpr std::array before{way::left, way::up};
+    static constexpr std::array around{way::left, way::right, way::up, way::down};
+
+    /// Calls each(j) for the pixels on these ways that i is linked with, none farther than the
+    /// limit.
+    void for_each_linked(std::size_t i, const auto& ways, auto&& each) const {
+        for (const way to : ways) {
+            if (links_.gap(i, to) == 0) continue;
+            const std::size_t j = links_.next(i, to);
+            if (squared_distance(links_[i], links_[j]) <= max_squared_) each(j);
+        }
     }
 
     [[nodiscard]] double rounding_at(std::size_t i) const {
@@ -19234,6 +19250,7 @@ class image_surfaces {
         const Eigen::Vector3d ray = links_.ray(i);
         const double rounding = rounding_at(i), along = dot(ray, normal);
         const double variance = flatness * flatness + rounding * rounding + links_.variance(i);
+        if (!has_length(ray)) return variance;
         return variance * std::max(along * along / dot(ray, ray), least_cosine * least_cosine);
     }
 
@@ -19262,7 +19279,7 @@ class image_surfaces {
         std::size_t quarter = 1;  // of the width of the window [pixels]
         if constexpr (requires { surface_[i].neighbors; })
             quarter = std::max(quarter, quarter_of_window(surface_[i].neighbors));
-        for (const way to : all_ways) {
+        for (const way to : around) {
             std::size_t j = i;
             for (std::size_t moved = 0; moved < quarter && links_.gap(j, to) > 0;) {
                 moved += links_.gap(j, to);
@@ -19301,7 +19318,7 @@ class image_surfaces {
             scratch<Index> next;
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
-                for_each_linked(front[f], [&](std::size_t j) {
+                for_each_linked(front[f], around, [&](std::size_t j) {
                     if (seed[j] == none) next.push_back(static_cast<Index>(j));
                 });
             }
@@ -19316,20 +19333,14 @@ class image_surfaces {
     [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
         Index best = none;
         double least = most_deviations;
-        for_each_linked(i, [&](std::size_t j) {
+        for_each_linked(i, around, [&](std::size_t j) {
             if (seed[j] == none || seed[j] == best) return;
             const double off = deviations(i, seed[j]);
-            if (off > least || (off == least && seed[j] > best)) return;
+            if (!(off <= least) || (off == least && seed[j] > best)) return;
             least = off;
             best = seed[j];
         });
         return best;
-    }
-
-    /// Every second pixel, as on a checkerboard: enough for planes, in half of the time.
-    [[nodiscard]] bool is_sampled(std::size_t i) const {
-        const std::size_t width = links_.part().width;
-        return (i / width + i % width) % 2 == 0;
     }
 
     /// Merges segments next to each other that one plane explains: where noise is correlated,
@@ -19338,13 +19349,15 @@ class image_surfaces {
         const auto last = std::max_element(labels.begin(), labels.end());
         if (last == labels.end() || *last < 1) return;
         scratch<planar_region> regions(static_cast<Index>(*last) + std::size_t{1});
+        scratch<char> skip(regions.size(), 0);
         scratch<region_pair> pairs;
         const Eigen::Vector3d origin = links_[static_cast<std::size_t>(last - labels.begin())];
         for (std::size_t i = 0; i < labels.size(); ++i) {
             if (labels[i] == unlabeled) continue;
             const auto own = static_cast<Index>(labels[i]);
-            if (is_sampled(i)) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
-            for_each_before(i, [&](std::size_t j) {
+            if (skip[own] == 0) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
+            skip[own] ^= 1;  // every second pixel of each: performance only
+            for_each_linked(i, before, [&](std::size_t j) {
                 if (labels[j] == unlabeled || labels[j] == labels[i]) return;
                 add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
             });
@@ -19370,7 +19383,7 @@ class image_surfaces {
 
     const Links& links_;
     const Surface& surface_;
-    double epsilon_;
+    double epsilon_, max_squared_;
     scratch<char> is_plane_, is_inner_;
 };
 
@@ -19392,8 +19405,13 @@ namespace gnomon {
 /// @param pixels   its width, and the noise along the rays from the view points or the origin
 /// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them; of
 ///                 estimates without `spectrum`, flat edges may be lost
+/// @param options  `min_points` counts pixels away from edges; segments that one plane explains
+///                 within the noise are merged whatever `max_angle` and `oriented` are
+/// @param run      `sequential{}` or `threads{n}`
+/// @return the segments, largest first; pixels without a return are unlabeled
 /// @throws std::invalid_argument  also for what `raster` does not accept
-/// Complexity: O(n). The same bytes for every execution.
+/// Complexity: O(n r + m log m) for windows of radius r and m pairs of adjacent segments. The same
+/// bytes for every execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_surfaces(const R& points, const raster& pixels,
@@ -19409,11 +19427,12 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
     of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
     const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
     return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
+        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.largest_radius(),
+                                        team);
         detail::image_surfaces found(links, surface,
-                                     detail::epsilon_of<position_view<R, Proj>>(points));
-        return detail::segments_of(
-            found.labels(link, wide_link, options.max_distance, options.min_points, team));
+                                     detail::epsilon_of<position_view<R, Proj>>(points),
+                                     options.max_distance);
+        return detail::segments_of(found.labels(link, wide_link, options.min_points, team));
     });
 }
 

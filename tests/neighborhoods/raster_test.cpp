@@ -221,6 +221,15 @@ TEST(raster, windows_grow_until_noise_turns_normals_by_no_more_than_the_precisio
     EXPECT_GT(deviation * r * r / ((r - 1.0) * (r - 1.0)), 2.5 * 1.05);
 }
 
+/// Some drivers write zeros where there was no return.
+TEST(raster, links_nothing_with_a_point_at_its_view_point) {
+    auto image = images::of_planes({{{0, 0, 1}, 2.0}}, 20, 20);
+    image[210].setZero();
+    const auto graph = gnomon::raster{.width = 20, .noise = gnomon::constant_noise{1e-4}}(image);
+    EXPECT_TRUE(graph[210].empty());
+    for (std::size_t i = 0; i < image.size(); ++i) EXPECT_LE(graph[i].size(), 48u);
+}
+
 TEST(raster, keeps_its_digits_far_from_the_origin) {
     const auto image = room(40, 30, 4);
     const Eigen::Vector3d far(6e5, 4.8e6, 300.0);

@@ -40,7 +40,7 @@ TEST(noise_level, is_zero_for_clean_flat_pieces_with_edges) {
     EXPECT_LT(noise_level(points), 1e-9);
 }
 
-/// A plane would read the bend of a ball of points as noise of 1 % of its radius and more.
+/// A plane would read the bend of a ball of points as noise of about half a percent of its radius.
 TEST(noise_level, is_nearly_zero_on_clean_bends) {
     gnomon::random_stream random(11);
     clouds::cloud points;

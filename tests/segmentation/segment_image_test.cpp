@@ -111,6 +111,15 @@ TEST(image_surfaces, end_at_jumps_at_long_links_and_where_normals_turn) {
     for (std::size_t i = 0; i < step.size(); ++i)
         if (i % width >= width / 2) step[i] *= 1.1;
     EXPECT_EQ(parts_of(step), 2u);
+    auto gap = images::of_planes({{{0, 0, 1}, 10.0}}, width, width);  // of 0.2 m
+    for (std::size_t i = 0; i < gap.size(); ++i)
+        if (i % width >= 25 && i % width < 35) gap[i].setConstant(clouds::nan);
+    EXPECT_EQ(parts_of(gap), 1u);
+    EXPECT_EQ(parts_of(gap, {.max_distance = 0.1}), 2u);
+    auto sparse = wall;
+    for (std::size_t i = 0; i < sparse.size(); ++i)
+        if (i % 2 == 0 || i / width % 2 == 1) sparse[i].setConstant(clouds::nan);
+    EXPECT_EQ(parts_of(sparse), 1u);
     for (const double slope : {0.3, 1.0}) {
         const auto edge =
             images::of_planes({{{slope, 0, 1}, 2.0}, {{-slope, 0, 1}, 2.0}}, width, width);

@@ -131,9 +131,8 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 /// [m]; its orientation is not applied, so the points stay in the frame of the file.
 /// @param file    name and contents of the file
 /// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values
-/// @return the points [m] in the order of the file, with viewpoint and fields, and with the width
-/// of
-///         an organized image, of several rows
+/// @return the points [m] in the order of the file, with viewpoint and fields; `width` is set if
+///         the file has several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
 template <class = void>

@@ -4,9 +4,11 @@
 /// point per pixel, row by row, NaN where there was no return. They are found in the image, without
 /// a tree.
 ///
-///     const gnomon::raster pixels{.noise = noises::structured_light()};
+///     const gnomon::raster pixels{.noise = {noises::structured_light(), optical_axis}};
 ///     auto surface = gnomon::estimate_normals(scan, pixels, plane_pca{}, threads{});
 ///     auto parts = gnomon::segment_surfaces(scan, pixels, surface, {}, threads{});
+///
+/// In no umbrella: include it by name; the last line needs gnomon/segmentation/segment_image.hpp.
 ///
 /// They are the pixels of a window around it, as far as these are on one surface: a jump in range
 /// that neither the noise nor a steep surface explains ends the window (detail/image_links.hpp).
@@ -41,7 +43,7 @@ namespace gnomon {
 /// Models `sweeping_neighborhood`, and sweeps over points that have no index, too. Neighbors come
 /// in the order of their pixels. Rays are those from the view points, or else from the origin.
 struct raster {
-    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the `scan`
+    std::size_t width = 0;                 ///< of the image [pixels]; 0: that of the range
     noise_curve noise = constant_noise{};  ///< along the rays
     std::size_t radius = 3;                ///< of a window [pixels], at least 1
     std::size_t max_radius = 16;           ///< to which windows grow [pixels]; if less, none grows
@@ -79,7 +81,7 @@ struct raster {
     void find(const spatial_index& index, std::size_t i,
               std::vector<neighbor, Allocator>& found) const {
         const detail::pixel_rectangle image = image_of(index);
-        const std::size_t reach = most(), x = i % width, y = i / width;
+        const std::size_t reach = largest_radius(), x = i % width, y = i / width;
         const std::size_t left = std::min(reach, x), above = std::min(reach, y);
         const detail::pixel_rectangle around{width, i - above * width - left,
                                              left + 1 + std::min(reach, width - 1 - x),
@@ -110,14 +112,15 @@ struct raster {
         detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
     }
 
-    /// The image of all points, row by row.
+    /// The image of all points, row by row: the points of PCL, whose height is 1 if they are none,
+    /// are an image if they have more rows.
     /// @throws std::invalid_argument  as operator()
     template <detail::indexed_range R>
     [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
         require_valid();
         std::size_t columns = width;
         if constexpr (requires { points.width; })
-            if (columns == 0) columns = points.width;
+            if (columns == 0) columns = width_of(points);
         detail::require(columns > 0, "raster: the width of the image is not known");
         const auto n = static_cast<std::size_t>(std::ranges::size(points));
         detail::require(n % columns == 0,
@@ -125,16 +128,22 @@ struct raster {
         return {columns, 0, columns, n / columns};
     }
 
-    /// The largest radius of a window, and the longest gap without a return in it [pixels].
-    [[nodiscard]] std::size_t most() const { return std::max(radius, max_radius); }
+    /// The largest radius of a window, and the largest distance of linked pixels in it [pixels].
+    [[nodiscard]] std::size_t largest_radius() const { return std::max(radius, max_radius); }
 
   private:
+    [[nodiscard]] static std::size_t width_of(const auto& points) {
+        if constexpr (requires { points.height; })
+            if (points.height <= 1) return 0;
+        return points.width;
+    }
+
     /// (A template of numbers for compile time only.)
     template <class Number = double>
     [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
                                   const detail::pixel_rectangle& part, const auto& run) const {
-        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius, most(),
-                                             precision.radians(), run);
+        return detail::image_windows<Number>(positions, viewpoints, noise, part, radius,
+                                             largest_radius(), precision.radians(), run);
     }
 
     /// f(windows) of all points.

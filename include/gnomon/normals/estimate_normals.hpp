@@ -139,6 +139,7 @@ void estimate_normals_into(std::vector<surfel<estimate_t<E>>>& surface, const R&
     const auto& team = detail::staying(run);
     if constexpr (detail::needs_no_index<N>) {
         const position_view<R, Proj> p(points, projection);
+        (void)policy.image_of(points);  // throws before anything is overwritten
         detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
             detail::estimate_swept(
                 surface, p, viewpoints, detail::epsilon_of<position_view<R, Proj>>(points),

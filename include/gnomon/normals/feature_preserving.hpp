@@ -87,18 +87,20 @@ class feature_preserving_sweeps {
 
     /// The surfaces of sweep 2, from those of sweep 1.
     [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
-        constexpr double honest = 2.4;  // noise deviations that a point may be off its surface,
-        constexpr double bend = 0.004;  // and radii of the neighbors, for bends of planes
-        constexpr double wider = 2.0;   // once the side is decided, more points make less noise
+        // Chosen on the tuning half of known_normals.
+        constexpr double inlier_deviations = 2.4;  // of the noise, that a point may be off,
+        constexpr double relative_bend = 0.004;    // and radii of the neighbors, where planes bend
+        constexpr double refit_widening = 2.0;     // once the side is decided: less noise
         return made_by(run, [&](const surroundings& around) {
             local_surface s = surfaces[around.index[0]];
             if (!usable(s.fit.trust) || s.settled) return s;
             const std::size_t k =
                 std::min(std::max<std::size_t>(sight, s.neighbors), around.last());
-            const double deviation = std::hypot(honest * noise_, bend * around.radius(k));
+            const double deviation =
+                std::hypot(inlier_deviations * noise_, relative_bend * around.radius(k));
             const local_surface best =
-                refitted(around, k, best_surface(around, k, surfaces, deviation), wider * deviation,
-                         options_.min_aspect_ratio);
+                refitted(around, k, best_surface(around, k, surfaces, deviation),
+                         refit_widening * deviation, options_.min_aspect_ratio);
             s.fit = best.fit;
             s.base = best.base;
             s.height = best.height;
@@ -111,7 +113,7 @@ class feature_preserving_sweeps {
     [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
                                                           const auto& run) const {
         constexpr std::size_t fewest = 16;
-        constexpr double honest = 2.0, bend = 0.05;  // as in sweep 2, for normals
+        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as above, for normals
         std::vector<surfel<plane_fit>> result(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (!points_.is_finite(i)) result[i].trust = trust::not_finite;
@@ -125,8 +127,9 @@ class feature_preserving_sweeps {
             if (!own.settled) {
                 const std::size_t k =
                     std::min(std::max<std::size_t>(fewest, own.neighbors), around.last());
-                s.normal = filtered_normal(around, k, surfaces,
-                                           std::hypot(honest * noise_, bend * around.radius(k)));
+                s.normal = filtered_normal(
+                    around, k, surfaces,
+                    std::hypot(inlier_deviations * noise_, relative_bend * around.radius(k)));
             }
             const bool coarse = is_coarse(points_.epsilon(), points_[i], s.mean_distance);
             if (coarse && s.trust == trust::good) s.trust = trust::weak;
@@ -175,8 +178,8 @@ class feature_preserving_sweeps {
 /// @return n surface elements, as an estimator that returns `plane_fit` gives them; the spectrum is
 ///         that of the points that the surface was last fitted to, `neighbors` the k of the first
 /// @throws std::invalid_argument  unless 2 <= min_k <= max_k, tilt > 0 and noise >= 0, both finite
-/// Complexity: three searches and, near edges and where there is noise, about 1,500 exponentials
-/// per point; 500 bytes per point. Accuracy and limits: docs/normals.md.
+/// Complexity: three searches of max_k neighbors per point and, near edges and where there is
+/// noise, about 1,500 weights; 500 bytes per point. Accuracy and limits: docs/normals.md.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] auto estimate_normals(const R& points, const feature_preserving& options,

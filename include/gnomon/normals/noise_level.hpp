@@ -45,7 +45,7 @@ template <class Index>
     std::vector<neighbor> neighbors;
     surroundings around;
     std::vector<double> spread, radius;
-    for (std::size_t k = 16;; k = std::min(2 * k, max_k)) {
+    for (std::size_t k = std::min<std::size_t>(16, max_k);; k = std::min(2 * k, max_k)) {
         spread.clear();
         radius.clear();
         for (const std::size_t i : chosen) {

@@ -13,6 +13,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -76,19 +77,18 @@ class seen_points {
 
     /// The plane of least cost through the point and two of its neighbors; without a normal, if no
     /// pair determines one. Of more than 256 neighbors, those at even distances in their order
-    /// count. Ends when all pairs so far would contain an outlier in 1 of 1,000 cases at most, if
-    /// the best plane's share of inliers is the true one.
+    /// count. Ends when, with the share of inliers of the best plane so far, all compared pairs
+    /// contain an outlier with a probability of at most 0.1 % (Fischler and Bolles 1981).
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
-        constexpr double missed = 1e-3;
+        constexpr double failure_probability = 1e-3;
         const std::size_t step = (size() + most_counted - 1) / most_counted;
         const weights weight = weights_by_quadrant(step);
-        double whole = 0.0;
-        for (std::size_t j = 0; j * step < size(); ++j) whole += weight[j];
+        const double whole = std::accumulate(weight.begin(), weight.end(), 0.0);
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
         auto needed = static_cast<double>(trials);
-        for (int trial = 0; trial < needed; ++trial) {
+        for (int drawn = 0, compared = 0; drawn < trials && compared < needed; ++drawn) {
             const Vector a = difference(at(random.bits() % size()), x_);
             const Vector b = difference(at(random.bits() % size()), x_);
             const Vector n = cross(a, b);
@@ -97,14 +97,16 @@ class seen_points {
             if (!(area > elongated * length(a) * length(b))) continue;
             const plane candidate{scaled(1.0 / area, n), dot(n, x_) / area};
             if (!(std::abs(candidate.offset) > grazing_cosine * length(x_))) continue;
+            ++compared;
             double cost = 0.0;
             for (std::size_t j = 0; j * step < size() && cost < least; ++j)
                 cost += weight[j] * std::min(1.0, squared_deviation(candidate, at(j * step)));
             if (!(cost < least)) continue;
             least = cost;
             best = candidate;
-            const double share = std::max(0.0, 1.0 - least / whole);
-            needed = std::min(needed, std::log(missed) / std::log1p(-share * share));
+            // Pairs are drawn from all neighbors, but planes are compared by quadrant.
+            const double share = std::min(share_on(candidate), std::max(0.0, 1.0 - cost / whole));
+            needed = std::min(needed, std::log(failure_probability) / std::log1p(-share * share));
         }
         return best;
     }
@@ -138,7 +140,7 @@ class seen_points {
         };
         std::array<typename Vector::Scalar, 4> counts{};
         for (std::size_t j = 0; j * step < size(); ++j) counts[quadrant(j)] += 1.0;
-        weights weight;
+        weights weight{};
         for (std::size_t j = 0; j * step < size(); ++j) weight[j] = 1.0 / counts[quadrant(j)];
         return weight;
     }

@@ -147,8 +147,9 @@ class visibility {
     }
 
   private:
-    /// The elevations in which something is seen, and two pixels more, about the given pole or the
-    /// axis along which all rays vary least, which may lie amid those of an image: it has its own.
+    /// Finds the range of elevations with returns, enlarged by two pixels, about the given pole or
+    /// the axis along which all rays vary least. The images have poles of their own, since the
+    /// common axis may lie within the field of view of one of them.
     void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)

@@ -29,8 +29,13 @@ namespace gnomon {
 /// @param pixels   its width, and the noise along the rays from the view points or the origin
 /// @param surface  their n surface elements, as estimate_normals(points, pixels) returns them; of
 ///                 estimates without `spectrum`, flat edges may be lost
+/// @param options  `min_points` counts pixels away from edges; segments that one plane explains
+///                 within the noise are merged whatever `max_angle` and `oriented` are
+/// @param run      `sequential{}` or `threads{n}`
+/// @return the segments, largest first; pixels without a return are unlabeled
 /// @throws std::invalid_argument  also for what `raster` does not accept
-/// Complexity: O(n). The same bytes for every execution.
+/// Complexity: O(n r + m log m) for windows of radius r and m pairs of adjacent segments. The same
+/// bytes for every execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] segments segment_surfaces(const R& points, const raster& pixels,
@@ -46,11 +51,12 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
     of_twice_the_angle.max_angle = std::min(radians(2.0 * options.max_angle.radians()), right);
     const detail::smooth_link<Surface> wide_link(surface, of_twice_the_angle, p.size());
     return detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
-        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.most(), team);
+        const detail::image_links links(p, viewpoints, pixels.noise, image, pixels.largest_radius(),
+                                        team);
         detail::image_surfaces found(links, surface,
-                                     detail::epsilon_of<position_view<R, Proj>>(points));
-        return detail::segments_of(
-            found.labels(link, wide_link, options.max_distance, options.min_points, team));
+                                     detail::epsilon_of<position_view<R, Proj>>(points),
+                                     options.max_distance);
+        return detail::segments_of(found.labels(link, wide_link, options.min_points, team));
     });
 }
 

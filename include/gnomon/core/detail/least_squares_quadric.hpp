@@ -27,8 +27,8 @@ struct quadric {
     }
 };
 
-/// Least-squares fit of all six coefficients, and of the plane that is their first three. Solves
-/// the normal equations, so x and y should be of order 1. Needs six points.
+/// Least-squares fit of all six coefficients. Solves the normal equations, so x and y should be of
+/// order 1. Needs six points.
 class least_squares_quadric {
   public:
     /// Adds the point (x, y, z) with a weight. O(1).
@@ -65,11 +65,8 @@ class least_squares_quadric {
         for (std::size_t i = 0; i < 6; ++i) {
             for (std::size_t k = 0; k < i; ++k) right_[i] -= left_[i][k] * right_[k];
         }
-        of_plane_ = heights_;
-        for (std::size_t i = 0; i < 6; ++i) {
+        for (std::size_t i = 0; i < 6; ++i)
             heights_ = std::max(0.0, heights_ - right_[i] * right_[i] / left_[i][i]);
-            if (i == 2) of_plane_ = heights_;
-        }
         for (std::size_t i = 6; i-- > 0;) {
             right_[i] /= left_[i][i];
             for (std::size_t k = i + 1; k < 6; ++k) right_[i] -= left_[k][i] * right_[k];
@@ -85,14 +82,11 @@ class least_squares_quadric {
 
     /// The weighted sum of squares [m^2] of the heights over the quadric. Precondition: solved.
     [[nodiscard]] double squared_residual() const { return heights_; }
-    /// The same over the plane z = constant + e x + f y that fits best. Precondition: solved.
-    [[nodiscard]] double squared_residual_of_plane() const { return of_plane_; }
 
   private:
     square_array<6> left_ = {};         // A, then L and D; lower triangle
     std::array<double, 6> right_ = {};  // r, then the coefficients
     double heights_ = 0.0;              // sum of w z^2, then what the quadric leaves of it [m^2]
-    double of_plane_ = 0.0;             // what the plane leaves of it [m^2]
 };
 
 }  // namespace gnomon::detail

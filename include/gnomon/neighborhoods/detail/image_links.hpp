@@ -41,7 +41,6 @@ struct pixel_rectangle {
 
 /// The ways from a pixel along its row and its column.
 enum class way : unsigned { left, right, up, down };
-inline constexpr std::array all_ways{way::left, way::right, way::up, way::down};
 
 /// The pixels of a rectangle and their links. (A template, so that only its users compile it.)
 template <class Number = double, class Index = point_index>
@@ -142,12 +141,15 @@ class image_links {
         constexpr double steepest = 5.67;   // tan(80 degrees)
         constexpr double deviations = 3.0;  // the 99.7 % quantile
         const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
+        if (!has_length(to_a) || !has_length(to_b)) return 0;  // at its view point: no return
         const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
         const double along = std::abs(dot(d, to_a)) / length(to_a);
         const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
         const Number sine = across / (static_cast<double>(gap) * length(to_b));
-        spacing_[a] = std::min(spacing_[a], sine);
-        spacing_[b] = std::min(spacing_[b], sine);
+        if (sine > Number{}) {
+            spacing_[a] = std::min(spacing_[a], sine);
+            spacing_[b] = std::min(spacing_[b], sine);
+        }
         const double noise = deviations * std::sqrt(variance_[a] + variance_[b]);
         return along <= steepest * across + noise ? gap : 0;
     }

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cstddef>
-#include <cstdint>
 #include <vector>
 
 #include <gnomon/core/detail/scratch.hpp>
@@ -29,12 +28,18 @@ inline namespace GNOMON_LANES {
 /// The vectors of some instructions.
 template <class Instructions>
 struct vectors_of {
-    using type = two_numbers;
+    using type = four_numbers;
 };
 #if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
 template <>
 struct vectors_of<avx2_instructions> {
-    using type = four_numbers;
+    using type = four_numbers_of_avx2;
+};
+#endif
+#if GNOMON_LANE_BITS == 512
+template <>
+struct vectors_of<avx512_instructions> {
+    using type = four_numbers_of_avx2;
 };
 #endif
 
@@ -79,8 +84,6 @@ class window_neighbors {
     std::size_t center_;
     std::size_t count_ = 0;
 };
-
-}  // namespace GNOMON_LANES
 
 /// The windows of all pixels of a rectangle. (A template, so that only its users compile it.)
 template <class Number = double, class Index = point_index>
@@ -191,4 +194,5 @@ class image_windows {
     scratch<Index> before_;  // the number of returns before each pixel
 };
 
+}  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

@@ -19,29 +19,20 @@
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
-/// Vectors of two numbers.
-struct two_numbers {
-    static constexpr std::size_t size = 2;
-    using numbers [[gnu::vector_size(16)]] = double;
-    using bits [[gnu::vector_size(16)]] = std::int64_t;
-    static constexpr std::int64_t masks[] = {-1, -1, 0};  // from the end: of 1 and of 2 numbers
-
-    [[gnu::always_inline]] static void take_roots(numbers& a) {
-#if GNOMON_LANE_BITS == 128
-        a = static_cast<numbers>(_mm_sqrt_pd(static_cast<__m128d>(a)));
-#else
-        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
-#endif
-    }
-};
-#if GNOMON_LANE_BITS == 256 || defined(GNOMON_LANES_UP_TO_AVX2)
-/// Vectors of four numbers, in functions that are compiled for AVX2.
+/// Vectors of four numbers. All processors add in the same order, so that sums are the same bytes.
 struct four_numbers {
     static constexpr std::size_t size = 4;
     using numbers [[gnu::vector_size(32)]] = double;
     using bits [[gnu::vector_size(32)]] = std::int64_t;
     static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
 
+    [[gnu::always_inline]] static void take_roots(numbers& a) {
+        for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
+    }
+};
+#if GNOMON_LANE_BITS >= 256 || defined(GNOMON_LANES_UP_TO_AVX2)
+/// The same in functions that are compiled for AVX2.
+struct four_numbers_of_avx2 : four_numbers {
     [[GNOMON_WITH_AVX2]] static void take_roots(numbers& a) { a = __builtin_ia32_sqrtpd256(a); }
 };
 #endif

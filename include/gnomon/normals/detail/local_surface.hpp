@@ -166,40 +166,42 @@ class local_fits {
     return 2.0 * noise / (r * std::sqrt(static_cast<double>(k)));
 }
 
-/// The simplest surface that the noise does not reject near a point, by a neighborhood of `judged`
-/// points at least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
+/// The simplest surface that the noise does not reject near a point, tested on 16 neighbors at
+/// least, fitted to its first k neighbors; the plane, unsettled, if both are rejected.
 /// Precondition: 2 <= k <= around.last().
 /// @param around  a `surroundings`
 /// @param noise   across the surface [m]
 [[nodiscard]] local_surface simplest_surface(const auto& around, std::size_t k, double noise,
                                              double min_aspect_ratio) {
-    constexpr std::size_t judged = 16;
-    constexpr std::size_t fewest = 9;  // neighbors, for a quadric to be rejected by
-    constexpr double bent = 0.01;      // share of the plane's residuals that a bend leaves
-    constexpr double digits = 1e-6;    // of the radius, that count as noise
-    constexpr double sure = 0.01;      // standard deviation of the slopes [rad]
-    const std::size_t wide = std::min(std::max(k, judged), around.last());
+    constexpr std::size_t tested_neighbors = 16, fewest_tested = 9;
+    constexpr double relative_rounding = 1e-6;  // of the radius, that counts as noise
+    // Chosen on the tuning half of known_normals.
+    constexpr double bend_residuals = 0.01;       // share of the plane's that a quadric leaves
+    constexpr double max_slope_deviation = 0.01;  // of a settled surface [rad]
+    const std::size_t wide = std::min(std::max(k, tested_neighbors), around.last());
     const local_fits fits(around, k, min_aspect_ratio);
     local_surface surface = fits.plane();
-    if (wide < fewest || !usable(surface.fit.trust)) return surface;
+    if (wide < fewest_tested || !usable(surface.fit.trust)) return surface;
 
     const local_fits all = k < wide ? local_fits(around, wide, min_aspect_ratio) : fits;
     if (!usable(all.plane().fit.trust)) return surface;
-    const double least = std::max(noise, digits * around.radius(wide));
+    const double least = std::max(noise, relative_rounding * around.radius(wide));
     // Three standard deviations of a sum of squares above its mean.
     const auto limit = [&](double freedom) {
         return least * least * (freedom + 3.0 * std::sqrt(2.0 * freedom));
     };
     double left = all.left_by_plane() / all.freedom_of_plane();
     if (all.left_by_plane() > limit(all.freedom_of_plane())) {
-        const bool accepted = all.has_quadric() && fits.has_quadric() &&
-                              all.left_by_quadric() <= std::max(limit(all.freedom_of_quadric()),
-                                                                bent * all.left_by_plane());
+        const bool accepted =
+            all.has_quadric() && fits.has_quadric() &&
+            all.left_by_quadric() <=
+                std::max(limit(all.freedom_of_quadric()), bend_residuals * all.left_by_plane());
         if (!accepted) return surface;
         surface = fits.curved();
         left = all.left_by_quadric() / all.freedom_of_quadric();
     }
-    surface.settled = deviation_of_slope(std::sqrt(left), around.radius(k), k) < sure;
+    surface.settled =
+        deviation_of_slope(std::sqrt(left), around.radius(k), k) < max_slope_deviation;
     return surface;
 }
 

@@ -21,8 +21,8 @@
 
 namespace gnomon::detail {
 
-/// About exp(-x), x >= 0: (1 - x / 16)^16, which is less by 0.017 at most, and 0 from 16 on. A
-/// handful of multiplications, and the same bytes with every library of mathematics.
+/// (1 - x / 16)^16, within 0.018 below exp(-x), and 0 from x = 16 on: five multiplications instead
+/// of an exponential (performance only).
 [[nodiscard]] inline double decay(double x) {
     double power = std::max(0.0, 1.0 - x / 16.0);
     for (int i = 0; i < 4; ++i) power *= power;

@@ -127,12 +127,16 @@ class occlusion_merger {
                    : std::numeric_limits<double>::infinity();
     }
 
-    /// Whether the centroid of the smaller segment is near the plane of the larger one, in place of
-    /// rho_o, Eq. (4.6), which is the smaller distance of both.
+    /// Whether the centroid of the smaller segment is near the plane of the larger one (of equal
+    /// ones both, so that their order does not count), in place of rho_o, Eq. (4.6), which is the
+    /// smaller distance of both.
     [[nodiscard]] bool is_near(const planar_region& a, const planar_region& b) const {
-        const planar_region& wide = a.sums.count >= b.sums.count ? a : b;
         const Eigen::Vector3d between = difference(b.fit.centroid, a.fit.centroid);
-        return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
+        const auto is_on = [&](const planar_region& wide) {
+            return std::abs(dot(wide.fit.plane.normal, between)) <= options_.max_offset;
+        };
+        return (a.sums.count < b.sums.count || is_on(a)) &&
+               (b.sums.count < a.sums.count || is_on(b));
     }
 
     /// Whether the gap is narrow, or the policy accepts most of the lines across it; unless one of

@@ -3,11 +3,13 @@
 /// Smooth surfaces of an organized image. Alg. 4.2 joins neighboring points whose normals turn by a
 /// small angle. With normals of wide windows this leaks: across an edge they turn gradually. Hence
 /// pixels join nothing at first whose window is no plane, as its variance exceeds that of the
-/// noise, or whose normal disagrees with that of any pixel next to them. Each of these goes to a
-/// surface next to it afterwards, if a plane explains it.
+/// noise, or whose normal disagrees with that of a pixel a quarter of its window away. Each of
+/// these is assigned to an adjacent segment whose tangent plane explains it. Then adjacent segments
+/// that one plane explains are merged.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -36,17 +38,19 @@ namespace gnomon::detail {
 template <class Links, class Surface, class Index = point_index>
 class image_surfaces {
   public:
-    /// @param epsilon  machine epsilon of the numbers that the points came in
-    image_surfaces(const Links& links, const Surface& surface, double epsilon)
-        : links_(links), surface_(surface), epsilon_(epsilon) {}
+    /// @param epsilon       machine epsilon of the numbers that the points came in
+    /// @param max_distance  no pixels of one segment are next to each other that are farther [m]
+    image_surfaces(const Links& links, const Surface& surface, double epsilon, double max_distance)
+        : links_(links),
+          surface_(surface),
+          epsilon_(epsilon),
+          max_squared_(max_distance * max_distance) {}
 
     /// The labels of the segments of at least `min_points` pixels, largest first.
     /// @param link      link(i, q): whether the normals of i and of q, next to it, agree
     /// @param agrees    the same for pixels that are farther apart
-    /// @param distance  no link is longer [m]
     template <execution X>
-    [[nodiscard]] auto labels(auto&& link, auto&& agrees, double distance, std::size_t min_points,
-                              const X& run) {
+    [[nodiscard]] auto labels(auto&& link, auto&& agrees, std::size_t min_points, const X& run) {
         const std::size_t n = links_.part().size();
         is_plane_.assign(n, 0);
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
@@ -60,12 +64,10 @@ class image_surfaces {
         for_each_chunk(run, n, [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 if (is_inner_[i] == 0) continue;
-                for_each_before(i, [&](std::size_t j) {
+                for_each_linked(i, before, [&](std::size_t j) {
                     const auto a = static_cast<Index>(i), b = static_cast<Index>(j);
                     const neighbor q{squared_distance(links_[i], links_[j]), b};
-                    if (is_inner_[j] != 0 && q.squared_distance <= distance * distance &&
-                        link(i, q))
-                        sets.unite(a, b);
+                    if (is_inner_[j] != 0 && link(i, q)) sets.unite(a, b);
                 });
             }
         });
@@ -79,15 +81,17 @@ class image_surfaces {
   private:
     static constexpr Index none = std::numeric_limits<Index>::max();
 
-    /// Calls each(j) for the pixels before i in its row and column that it is linked with.
-    void for_each_before(std::size_t i, auto&& each) const {
-        for (const way to : {way::left, way::up})
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
-    }
-    /// The same for those before and after it.
-    void for_each_linked(std::size_t i, auto&& each) const {
-        for (const way to : all_ways)
-            if (links_.gap(i, to) > 0) each(links_.next(i, to));
+    static constexpr std::array before{way::left, way::up};
+    static constexpr std::array around{way::left, way::right, way::up, way::down};
+
+    /// Calls each(j) for the pixels on these ways that i is linked with, none farther than the
+    /// limit.
+    void for_each_linked(std::size_t i, const auto& ways, auto&& each) const {
+        for (const way to : ways) {
+            if (links_.gap(i, to) == 0) continue;
+            const std::size_t j = links_.next(i, to);
+            if (squared_distance(links_[i], links_[j]) <= max_squared_) each(j);
+        }
     }
 
     [[nodiscard]] double rounding_at(std::size_t i) const {
@@ -102,6 +106,7 @@ class image_surfaces {
         const Eigen::Vector3d ray = links_.ray(i);
         const double rounding = rounding_at(i), along = dot(ray, normal);
         const double variance = flatness * flatness + rounding * rounding + links_.variance(i);
+        if (!has_length(ray)) return variance;
         return variance * std::max(along * along / dot(ray, ray), least_cosine * least_cosine);
     }
 
@@ -130,7 +135,7 @@ class image_surfaces {
         std::size_t quarter = 1;  // of the width of the window [pixels]
         if constexpr (requires { surface_[i].neighbors; })
             quarter = std::max(quarter, quarter_of_window(surface_[i].neighbors));
-        for (const way to : all_ways) {
+        for (const way to : around) {
             std::size_t j = i;
             for (std::size_t moved = 0; moved < quarter && links_.gap(j, to) > 0;) {
                 moved += links_.gap(j, to);
@@ -169,7 +174,7 @@ class image_surfaces {
             scratch<Index> next;
             for (std::size_t f = 0; f < front.size(); ++f) {
                 if (found[f] == none) continue;
-                for_each_linked(front[f], [&](std::size_t j) {
+                for_each_linked(front[f], around, [&](std::size_t j) {
                     if (seed[j] == none) next.push_back(static_cast<Index>(j));
                 });
             }
@@ -184,20 +189,14 @@ class image_surfaces {
     [[nodiscard]] Index best_seed(std::size_t i, const scratch<Index>& seed) const {
         Index best = none;
         double least = most_deviations;
-        for_each_linked(i, [&](std::size_t j) {
+        for_each_linked(i, around, [&](std::size_t j) {
             if (seed[j] == none || seed[j] == best) return;
             const double off = deviations(i, seed[j]);
-            if (off > least || (off == least && seed[j] > best)) return;
+            if (!(off <= least) || (off == least && seed[j] > best)) return;
             least = off;
             best = seed[j];
         });
         return best;
-    }
-
-    /// Every second pixel, as on a checkerboard: enough for planes, in half of the time.
-    [[nodiscard]] bool is_sampled(std::size_t i) const {
-        const std::size_t width = links_.part().width;
-        return (i / width + i % width) % 2 == 0;
     }
 
     /// Merges segments next to each other that one plane explains: where noise is correlated,
@@ -206,13 +205,15 @@ class image_surfaces {
         const auto last = std::max_element(labels.begin(), labels.end());
         if (last == labels.end() || *last < 1) return;
         scratch<planar_region> regions(static_cast<Index>(*last) + std::size_t{1});
+        scratch<char> skip(regions.size(), 0);
         scratch<region_pair> pairs;
         const Eigen::Vector3d origin = links_[static_cast<std::size_t>(last - labels.begin())];
         for (std::size_t i = 0; i < labels.size(); ++i) {
             if (labels[i] == unlabeled) continue;
             const auto own = static_cast<Index>(labels[i]);
-            if (is_sampled(i)) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
-            for_each_before(i, [&](std::size_t j) {
+            if (skip[own] == 0) regions[own].sums.add(difference(links_[i], origin), noise_at(i));
+            skip[own] ^= 1;  // every second pixel of each: performance only
+            for_each_linked(i, before, [&](std::size_t j) {
                 if (labels[j] == unlabeled || labels[j] == labels[i]) return;
                 add_once(region_pair(std::minmax(own, static_cast<Index>(labels[j]))), pairs);
             });
@@ -238,7 +239,7 @@ class image_surfaces {
 
     const Links& links_;
     const Surface& surface_;
-    double epsilon_;
+    double epsilon_, max_squared_;
     scratch<char> is_plane_, is_inner_;
 };
 
