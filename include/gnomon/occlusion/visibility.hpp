@@ -4,7 +4,6 @@
 /// one for each of several scans, or one for each point of a sensor that moves. Therefore queries
 /// are places, not pixels of one image, and gaps between points are sampled in space. View points
 /// in a cube as wide as the typical noise share an image.
-///
 /// Klasing 2010, Sec. 4.3.5, with the depth of the line at the ray of each pixel instead of an
 /// interpolated one (docs/thesis-notes.md, A19).
 #pragma once
