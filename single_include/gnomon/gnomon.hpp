@@ -8819,6 +8819,7 @@ template <class Index>
     const std::size_t step = std::max<std::size_t>(1, points.finite() / samples);
     for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
         if (points.is_finite(i) && finite++ % step == 0) chosen.push_back(i);
+    max_k = std::min(max_k, points.finite());  // there are no more
 
     double sigma = 0.0;
     std::vector<neighbor> neighbors;
@@ -18658,8 +18659,8 @@ class image_links {
     }
     /// The variance of the noise along the ray [m^2].
     [[nodiscard]] double variance(std::size_t l) const { return variance_[l]; }
-    /// The sine of the angle between the rays of neighboring pixels, the smaller one of rows and
-    /// columns; infinite if there are none.
+    /// Twice the sine of half of the angle between the rays of neighboring pixels, the smaller one
+    /// of rows and columns; infinite if there are none.
     [[nodiscard]] double spacing(std::size_t l) const { return spacing_[l]; }
     /// How far the next pixel on a way from l is [pixels] if l is linked with it, else 0.
     [[nodiscard]] std::size_t gap(std::size_t l, way to) const { return gaps(to)[l]; }
@@ -18715,10 +18716,13 @@ class image_links {
         constexpr double steepest = 5.67;   // tan(80 degrees)
         constexpr double deviations = 3.0;  // the 99.7 % quantile
         const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
+        const double range_a = length(to_a), range_b = length(to_b);
+        // Between both rays, so that mirrored images have the same links.
+        const Eigen::Vector3d middle = combined(1.0 / range_a, to_a, 1.0 / range_b, to_b);
         const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
-        const double along = std::abs(dot(d, to_a)) / length(to_a);
+        const double along = std::abs(dot(d, middle)) / length(middle);
         const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
-        const Number sine = across / (static_cast<double>(gap) * length(to_b));
+        const Number sine = 2.0 * across / (static_cast<double>(gap) * (range_a + range_b));
         spacing_[a] = std::min(spacing_[a], sine);
         spacing_[b] = std::min(spacing_[b], sine);
         const double noise = deviations * std::sqrt(variance_[a] + variance_[b]);
@@ -18926,6 +18930,10 @@ class image_windows {
         : links_(points, viewpoints, noise, part, most, run) {
         for (scratch<Index>* const each : {&left_, &right_, &up_, &down_, &radius_, &before_})
             each->resize(part.size() + 1);
+        // No window of a larger radius has more pixels.
+        const std::size_t whole = std::max<std::size_t>(1, std::max(part.width, part.height));
+        least = std::min(least, whole);
+        most = std::min(most, whole);
         for (std::size_t l = 0; l < part.size(); ++l)
             before_[l + 1] = before_[l] + (links_.has_return(l) ? 1 : 0);
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {

@@ -40,6 +40,7 @@ template <class Index>
     const std::size_t step = std::max<std::size_t>(1, points.finite() / samples);
     for (std::size_t i = 0, finite = 0; i < points.size(); ++i)
         if (points.is_finite(i) && finite++ % step == 0) chosen.push_back(i);
+    max_k = std::min(max_k, points.finite());  // there are no more
 
     double sigma = 0.0;
     std::vector<neighbor> neighbors;
