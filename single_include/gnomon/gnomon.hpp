@@ -6435,7 +6435,7 @@ namespace gnomon {
 
 /// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph
 /// has no points.
-/// @param graph   its content is replaced; its arrays allocate only to grow
+/// @param graph   its content is replaced; its arrays allocate only to grow, but by a `raster`
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range
@@ -6444,7 +6444,12 @@ template <class R, indexed_neighborhood N, execution X = sequential, class Proj 
     requires neighborhood<N, R, Proj>
 void neighborhoods_into(adjacency& graph, const R& points, const N& policy, const X& run = {},
                         Proj projection = {}) {
-    graph = detail::graph_of(policy, points, run, projection, graph.release());
+    if constexpr (detail::needs_no_index<N>) {
+        (void)graph.release();
+        graph = policy(points, run, projection);
+    } else {
+        graph = detail::graph_of(policy, points, run, projection, graph.release());
+    }
 }
 
 }  // namespace gnomon
@@ -12617,8 +12622,8 @@ template <class R, neighborhood_graph G, normal_range Surface,
     return detail::curvatures_of(run, p, detail::stored_neighborhoods(graph), surface, estimate);
 }
 
-/// Estimates the curvature at every point from a neighborhood policy. If the policy can search
-/// point by point, no graph is stored.
+/// Estimates the curvature at every point from a neighborhood policy. If the policy searches
+/// an index point by point, no graph is stored.
 /// @param policy  any neighborhood; the other parameters and the result are as above
 /// @throws std::invalid_argument  if a parameter of the policy is out of range, e.g. k = 0, or if
 ///                                points and surface differ in size
@@ -12630,7 +12635,7 @@ template <class R, class N, normal_range Surface, curvature_estimator C = shape_
                                       const C& estimate = {}, const X& run = {},
                                       Proj projection = {})
     -> std::vector<detail::curvature_result_t<C>> {
-    if constexpr (indexed_neighborhood<N>) {
+    if constexpr (indexed_neighborhood<N> && !detail::needs_no_index<N>) {
         detail::require_valid(policy);
         const auto& team = detail::staying(run);
         const auto& index = detail::index_of(points, team, projection);

@@ -279,8 +279,11 @@ TEST(raster, takes_the_width_of_a_scan) {
     EXPECT_EQ(gnomon::raster{}(scan), gnomon::raster{.width = 40}(scan.points));
     EXPECT_EQ(gnomon::raster{.width = 30}(scan), gnomon::raster{.width = 30}(scan.points));
     gnomon::adjacency graph;
-    gnomon::neighborhoods_into(graph, scan, gnomon::raster{.width = 40});
+    gnomon::neighborhoods_into(graph, scan, gnomon::raster{});
     EXPECT_EQ(graph, gnomon::raster{}(scan));
+    EXPECT_THROW(gnomon::neighborhoods_into(graph, scan.points, gnomon::raster{}),
+                 std::invalid_argument);
+    EXPECT_EQ(graph.size(), 0u);
 }
 
 TEST(raster, refuses_what_is_no_image) {
