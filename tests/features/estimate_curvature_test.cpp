@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <cmath>
+#include <cstddef>
 #include <deque>
 #include <numbers>
 #include <stdexcept>
@@ -10,10 +11,12 @@
 #include "features/patches.hpp"
 #include "laws/clouds.hpp"
 #include "laws/curvature_laws.hpp"
+#include <gnomon/core/scan.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/estimate_curvature.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
+#include <gnomon/neighborhoods/raster.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/plane_pca.hpp>
@@ -167,6 +170,17 @@ TEST(estimate_curvature, takes_any_policy) {
     const auto graph = ball(sheet.points);
     const auto counted = gnomon::estimate_curvature(sheet.points, ball, sheet.surface, count);
     for (std::size_t i = 0; i < 300; ++i) EXPECT_EQ(counted[i].neighbors, graph[i].size());
+}
+
+TEST(estimate_curvature, takes_the_width_of_a_scan) {
+    gnomon::scan scan;
+    scan.points = clouds::in_cube(480, 1);
+    scan.width = 24;
+    const gnomon::raster pixels;
+    const auto surface = estimate_normals(scan, pixels, gnomon::plane_pca{});
+    const auto result = estimate_curvature(scan, pixels, surface);
+    const auto expected = estimate_curvature(scan, pixels(scan), surface);
+    for (std::size_t i = 0; i < scan.size(); ++i) EXPECT_EQ(result[i].trust, expected[i].trust);
 }
 
 /// The trust of a curvature is no better than that of its normal; a missing normal passes its trust

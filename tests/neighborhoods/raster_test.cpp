@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <numbers>
 #include <set>
 #include <stdexcept>
@@ -14,6 +15,7 @@
 #include "laws/clouds.hpp"
 #include "laws/images.hpp"
 #include "laws/neighborhood_laws.hpp"
+#include <gnomon/core/random.hpp>
 #include <gnomon/core/range_noise.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/core/subset_view.hpp>
@@ -37,7 +39,7 @@ clouds::cloud room(std::size_t width, std::size_t height, std::uint64_t seed) {
 }
 
 /// The neighbors by the definition: along the column, and from there along the rows, while the line
-/// between the last two returns is at most 80 degrees from being across the ray, but for noise.
+/// between the last two returns is at most 80 degrees from being across their rays, but for noise.
 class brute_force {
   public:
     brute_force(const clouds::cloud& image, const gnomon::raster& policy)
@@ -61,7 +63,7 @@ class brute_force {
                 for (long k = 1; k <= most; ++k) {
                     const long j = moved(static_cast<long>(i), k * direction, in_row);
                     if (j < 0 || !gnomon::is_finite(at(j))) continue;
-                    const double sine = at(j).normalized().cross(image_[i].normalized()).norm();
+                    const double sine = (at(j).normalized() - image_[i].normalized()).norm();
                     pitch = std::min(pitch, sine / static_cast<double>(k));
                     break;
                 }
@@ -94,8 +96,9 @@ class brute_force {
     }
     [[nodiscard]] bool is_linked(const Eigen::Vector3d& a, const Eigen::Vector3d& b) const {
         const double noise = 3.0 * std::hypot(policy_.noise.along(a), policy_.noise.along(b));
-        const double along = std::abs((b - a).dot(a.normalized()));
-        const double across = (b - a).cross(a.normalized()).norm();
+        const Eigen::Vector3d middle = (a.normalized() + b.normalized()).normalized();
+        const double along = std::abs((b - a).dot(middle));
+        const double across = (b - a).cross(middle).norm();
         return along - noise <= 5.67 * across;
     }
     /// The pixels with a return that i reaches along its row or column, itself included.
@@ -230,6 +233,45 @@ TEST(raster, links_nothing_with_a_point_at_its_view_point) {
     for (std::size_t i = 0; i < image.size(); ++i) EXPECT_LE(graph[i].size(), 48u);
 }
 
+TEST(raster, finds_the_mirrored_windows_in_a_mirrored_image) {
+    constexpr std::size_t width = 24, height = 20, n = width * height;
+    auto steps = images::of_planes({{{0, 0, 1}, 2.0}}, width, height);
+    gnomon::random_stream random(7);
+    for (Eigen::Vector3d& p : steps) p *= random.uniform(0.5, 1.5);  // about the steepest surface
+    const gnomon::raster policy{.width = width, .noise = little_noise};
+    const auto graph = policy(steps);
+    for (const bool in_row : {false, true}) {
+        const auto mirrored = [&](std::size_t i) {
+            return in_row ? i / width * width + width - 1 - i % width
+                          : n - width - i / width * width + i % width;
+        };
+        clouds::cloud image(n);
+        for (std::size_t i = 0; i < n; ++i) image[mirrored(i)] = steps[i];
+        const auto other = policy(image);
+        for (std::size_t i = 0; i < n; ++i) {
+            std::set<std::size_t> expected;
+            for (const std::size_t j : graph[i]) expected.insert(mirrored(j));
+            const auto found = other[mirrored(i)];
+            EXPECT_EQ(std::set<std::size_t>(found.begin(), found.end()), expected);
+        }
+    }
+}
+
+/// Also where rays coincide, so that windows grow without end.
+TEST(raster, takes_any_radius) {
+    auto image = room(12, 10, 8);
+    image[30] = image[29];
+    const auto of_all = gnomon::raster{.width = 12, .noise = little_noise, .radius = 12}(image);
+    const auto grown = gnomon::raster{.width = 12, .noise = little_noise, .max_radius = 12}(image);
+    constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+    for (const std::size_t radius : {std::size_t{1} << 32, (std::size_t{1} << 32) + 1, most}) {
+        EXPECT_EQ((gnomon::raster{.width = 12, .noise = little_noise, .radius = radius}(image)),
+                  of_all);
+        EXPECT_EQ((gnomon::raster{.width = 12, .noise = little_noise, .max_radius = radius}(image)),
+                  grown);
+    }
+}
+
 TEST(raster, keeps_its_digits_far_from_the_origin) {
     const auto image = room(40, 30, 4);
     const Eigen::Vector3d far(6e5, 4.8e6, 300.0);
@@ -246,8 +288,11 @@ TEST(raster, takes_the_width_of_a_scan) {
     EXPECT_EQ(gnomon::raster{}(scan), gnomon::raster{.width = 40}(scan.points));
     EXPECT_EQ(gnomon::raster{.width = 30}(scan), gnomon::raster{.width = 30}(scan.points));
     gnomon::adjacency graph;
-    gnomon::neighborhoods_into(graph, scan, gnomon::raster{.width = 40});
+    gnomon::neighborhoods_into(graph, scan, gnomon::raster{});
     EXPECT_EQ(graph, gnomon::raster{}(scan));
+    EXPECT_THROW(gnomon::neighborhoods_into(graph, scan.points, gnomon::raster{}),
+                 std::invalid_argument);
+    EXPECT_EQ(graph.size(), 0u);
 }
 
 TEST(raster, refuses_what_is_no_image) {

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <stdexcept>
 #include <vector>
 
@@ -204,6 +205,14 @@ TEST(feature_preserving, survives_degenerate_clouds) {
             }
         }
     }
+}
+
+TEST(feature_preserving, takes_more_neighbors_than_there_are) {
+    const auto few = clouds::in_cube(10, 1);
+    const auto all = estimate_normals(few, feature_preserving{});
+    const auto more =
+        estimate_normals(few, feature_preserving{.max_k = std::numeric_limits<std::size_t>::max()});
+    for (std::size_t i = 0; i < few.size(); ++i) EXPECT_EQ(all[i].normal, more[i].normal);
 }
 
 TEST(feature_preserving, rejects_invalid_options) {

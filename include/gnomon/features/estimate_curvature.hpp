@@ -112,8 +112,8 @@ template <class R, neighborhood_graph G, normal_range Surface,
     return detail::curvatures_of(run, p, detail::stored_neighborhoods(graph), surface, estimate);
 }
 
-/// Estimates the curvature at every point from a neighborhood policy. If the policy can search
-/// point by point, no graph is stored.
+/// Estimates the curvature at every point from a neighborhood policy. If the policy searches
+/// an index point by point, no graph is stored.
 /// @param policy  any neighborhood; the other parameters and the result are as above
 /// @throws std::invalid_argument  if a parameter of the policy is out of range, e.g. k = 0, or if
 ///                                points and surface differ in size
@@ -125,7 +125,7 @@ template <class R, class N, normal_range Surface, curvature_estimator C = shape_
                                       const C& estimate = {}, const X& run = {},
                                       Proj projection = {})
     -> std::vector<detail::curvature_result_t<C>> {
-    if constexpr (indexed_neighborhood<N>) {
+    if constexpr (indexed_neighborhood<N> && !detail::needs_no_index<N>) {
         detail::require_valid(policy);
         const auto& team = detail::staying(run);
         const auto& index = detail::index_of(points, team, projection);

@@ -17,7 +17,7 @@ namespace gnomon {
 
 /// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph
 /// has no points.
-/// @param graph   its content is replaced; its arrays allocate only to grow
+/// @param graph   its content is replaced; its arrays allocate only to grow, but by a `raster`
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range
@@ -26,7 +26,12 @@ template <class R, indexed_neighborhood N, execution X = sequential, class Proj 
     requires neighborhood<N, R, Proj>
 void neighborhoods_into(adjacency& graph, const R& points, const N& policy, const X& run = {},
                         Proj projection = {}) {
-    graph = detail::graph_of(policy, points, run, projection, graph.release());
+    if constexpr (detail::needs_no_index<N>) {
+        (void)graph.release();
+        graph = policy(points, run, projection);
+    } else {
+        graph = detail::graph_of(policy, points, run, projection, graph.release());
+    }
 }
 
 }  // namespace gnomon

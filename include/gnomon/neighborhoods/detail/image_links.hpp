@@ -84,8 +84,8 @@ class image_links {
     }
     /// The variance of the noise along the ray [m^2].
     [[nodiscard]] double variance(std::size_t l) const { return variance_[l]; }
-    /// The sine of the angle between the rays of neighboring pixels, the smaller one of rows and
-    /// columns; infinite if there are none.
+    /// Twice the sine of half of the angle between the rays of neighboring pixels, the smaller one
+    /// of rows and columns; infinite if there are none.
     [[nodiscard]] double spacing(std::size_t l) const { return spacing_[l]; }
     /// How far the next pixel on a way from l is [pixels] if l is linked with it, else 0.
     [[nodiscard]] std::size_t gap(std::size_t l, way to) const { return gaps(to)[l]; }
@@ -142,10 +142,13 @@ class image_links {
         constexpr double deviations = 3.0;  // the 99.7 % quantile
         const Eigen::Vector3d to_a = ray(a), to_b = ray(b);
         if (!has_length(to_a) || !has_length(to_b)) return 0;  // at its view point: no return
+        const double range_a = length(to_a), range_b = length(to_b);
+        // Between both rays, so that mirrored images have the same links.
+        const Eigen::Vector3d middle = combined(1.0 / range_a, to_a, 1.0 / range_b, to_b);
         const Eigen::Vector3d d = difference((*this)[b], (*this)[a]);
-        const double along = std::abs(dot(d, to_a)) / length(to_a);
+        const double along = std::abs(dot(d, middle)) / length(middle);
         const double across = std::sqrt(std::max(0.0, dot(d, d) - along * along));
-        const Number sine = across / (static_cast<double>(gap) * length(to_b));
+        const Number sine = 2.0 * across / (static_cast<double>(gap) * (range_a + range_b));
         if (sine > Number{}) {
             spacing_[a] = std::min(spacing_[a], sine);
             spacing_[b] = std::min(spacing_[b], sine);

@@ -99,6 +99,10 @@ class image_windows {
         : links_(points, viewpoints, noise, part, most, run) {
         for (scratch<Index>* const each : {&left_, &right_, &up_, &down_, &radius_, &before_})
             each->resize(part.size() + 1);
+        // No window of a larger radius has more pixels.
+        const std::size_t whole = std::max<std::size_t>(1, std::max(part.width, part.height));
+        least = std::min(least, whole);
+        most = std::min(most, whole);
         for (std::size_t l = 0; l < part.size(); ++l)
             before_[l + 1] = before_[l] + (links_.has_return(l) ? 1 : 0);
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
