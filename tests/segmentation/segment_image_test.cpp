@@ -27,14 +27,14 @@ const Eigen::Vector3d optical_axis(0.0, 0.0, 1.0);
 const gnomon::noise_curve kinect(gnomon::noises::structured_light(), optical_axis);
 
 /// A corner of a room with a board before the wall, as the first Kinect measures it.
-struct corner {
+struct room_corner {
     static constexpr std::size_t width = 320, height = 240;
     std::vector<int> truth;
     clouds::cloud image = images::of_planes(
         {{{0, 0, 1}, 3.5}, {{0, 1, 0}, 0.7}, {{1, 0, 0.2}, 1.3}, {{-0.6, 0, 0.8}, 2.9}}, width,
         height, &truth);
 
-    explicit corner(double lost = 0.05) {
+    explicit room_corner(double lost = 0.05) {
         for (std::size_t y = 40; y < 100; ++y) {
             for (std::size_t x = 60; x < 140; ++x) {
                 image[y * width + x] = 2.0 * images::ray(x, y, width, height);
@@ -69,7 +69,7 @@ std::size_t returns(const clouds::cloud& image) {
 }
 
 TEST(image_surfaces, of_a_depth_camera_are_whole_in_spite_of_noise_and_steps) {
-    const corner scene;
+    const room_corner scene;
     const raster pixels{.width = scene.width, .noise = kinect};
     const auto surface = gnomon::estimate_normals(scene.image, pixels, plane_pca{});
     const auto parts = gnomon::segment_surfaces(scene.image, pixels, surface);
@@ -85,7 +85,7 @@ TEST(image_surfaces, of_a_depth_camera_are_whole_in_spite_of_noise_and_steps) {
 }
 
 TEST(image_surfaces, are_the_same_far_from_the_origin) {
-    const corner scene;
+    const room_corner scene;
     const Eigen::Vector3d far(6e5, 4.8e6, 300.0);
     const auto moved = clouds::moved(scene.image, Eigen::Matrix3d::Identity(), far);
     const raster pixels{.width = scene.width, .noise = kinect};
@@ -128,7 +128,7 @@ TEST(image_surfaces, end_at_jumps_at_long_links_and_where_normals_turn) {
 }
 
 TEST(image_surfaces, label_points_only) {
-    const corner scene(0.3);
+    const room_corner scene(0.3);
     const raster pixels{.width = scene.width, .noise = kinect};
     const auto surface = gnomon::estimate_normals(scene.image, pixels, plane_pca{});
     const auto labels = gnomon::segment_surfaces(scene.image, pixels, surface).labels();
@@ -141,7 +141,7 @@ TEST(image_surfaces, label_points_only) {
 }
 
 TEST(image_surfaces, refuse_what_is_no_image) {
-    const corner scene;
+    const room_corner scene;
     const raster pixels{.width = scene.width, .noise = kinect};
     auto surface = gnomon::estimate_normals(scene.image, pixels, plane_pca{});
     const auto refuses = [&](const raster& wrong) {
