@@ -14930,10 +14930,9 @@ namespace gnomon::detail {
 /// plane is at most 2.5 times the larger of those about their own, which count as 1 to 2.5 times
 /// that of the noise.
 [[nodiscard]] double dissimilarity_of_neighbors(const auto& a, const auto& b) {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
-    if (!(a.sums.count > 0 && b.sums.count > 0) || are_at_edge(a, b)) return infinity;
+    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();
     const region_plane both = plane_of_both(a, b);
-    if (!both.is_determined) return infinity;
+    if (!both.is_determined) return std::numeric_limits<double>::infinity();
     const double worst = std::max(a.sums.chi2_about(both.plane), b.sums.chi2_about(both.plane));
     return worst / (region_plane::most_excess * std::max(a.fit.excess(), b.fit.excess()));
 }
@@ -15055,9 +15054,11 @@ class plane_regions {
     template <execution X>
     void cut(const X& run) {
         const label_groups parts(labels_);
-        scratch<std::optional<plane>> cuts(parts.size());
-        run(parts.size(),
-            [&](std::size_t r) { cuts[r] = edge_cut(cloud_, parts[r], regions_[r], min_points_); });
+        const auto cut_of = [&](std::size_t r) {
+            return edge_cut(cloud_, parts[r], regions_[r], min_points_);
+        };
+        scratch<decltype(cut_of(0))> cuts(parts.size());
+        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(r); });
         auto next = static_cast<std::int32_t>(regions_.size());
         for (std::size_t r = 0; r < parts.size(); ++r) {
             if (!cuts[r]) continue;

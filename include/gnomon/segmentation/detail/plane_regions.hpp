@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <utility>
 
 #include <gnomon/core/detail/scratch.hpp>
@@ -59,9 +58,11 @@ class plane_regions {
     template <execution X>
     void cut(const X& run) {
         const label_groups parts(labels_);
-        scratch<std::optional<plane>> cuts(parts.size());
-        run(parts.size(),
-            [&](std::size_t r) { cuts[r] = edge_cut(cloud_, parts[r], regions_[r], min_points_); });
+        const auto cut_of = [&](std::size_t r) {
+            return edge_cut(cloud_, parts[r], regions_[r], min_points_);
+        };
+        scratch<decltype(cut_of(0))> cuts(parts.size());
+        run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(r); });
         auto next = static_cast<std::int32_t>(regions_.size());
         for (std::size_t r = 0; r < parts.size(); ++r) {
             if (!cuts[r]) continue;
