@@ -15,7 +15,7 @@ import tempfile
 
 from instructions import hold, instructions, require_valgrind
 
-LIMIT = 2.01
+LIMIT = 2.0
 LOOP = """\
 #include <array>
 #include <cstddef>

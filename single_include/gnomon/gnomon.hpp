@@ -3941,7 +3941,7 @@ concept finds_into_scratch = requires(const N& policy, const spatial_index& inde
                                       scratch<neighbor>& found) { policy.find(index, 0, found); };
 
 /// Whether the policy sweeps over points without an index too, and faster: policy.sweep(points,
-/// run, make_visitor, projection).
+/// run, make_visitor, projection). policy.image_of(points) throws where it does not fit them.
 template <class N>
 concept needs_no_index = requires { requires N::needs_no_index; };
 
@@ -6435,7 +6435,8 @@ namespace gnomon {
 
 /// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph
 /// has no points.
-/// @param graph   its content is replaced; its arrays allocate only to grow, but by a `raster`
+/// @param graph   its content is replaced; its arrays allocate only to grow; a `raster`
+///                makes new ones
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range
@@ -8129,7 +8130,11 @@ void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const auto& poi
     sweep([&] { return sweep_visitor(estimate, points, viewpoints, epsilon, surface); });
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (is_finite(points[i])) continue;
+            if constexpr (requires { points.is_finite(i); }) {  // an index knows
+                if (points.is_finite(i)) continue;
+            } else {
+                if (is_finite(points[i])) continue;
+            }
             surface[i] = {};
             surface[i].trust = trust::not_finite;
         }
@@ -8523,6 +8528,12 @@ struct local_surface {
     }
 };
 
+/// Adds the height of x [m] over a plane, with coordinates in the plane that are scaled [1/m].
+void add_height(auto& heights, const tangent_basis& base, double scale, const Eigen::Vector3d& x,
+                double weight = 1.0) {
+    heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x), weight);
+}
+
 /// The plane of least squares of a point and its first k neighbors, and the quadric over it.
 /// Precondition: k >= 2. (Generic for compile time only.)
 class local_fits {
@@ -8540,17 +8551,16 @@ class local_fits {
         const tangent_basis& base = plane_.base;
         const double scale = 1.0 / around.radius(k);
         least_squares_quadric heights;
-        for (std::size_t l = 0; l <= k; ++l) {
-            const Eigen::Vector3d& x = around.offset[l];
-            heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x));
-        }
+        for (std::size_t l = 0; l <= k; ++l) add_height(heights, base, scale, around.offset[l]);
         has_quadric_ = heights.solve() > least_independence;
         if (!has_quadric_) return;
         quadric_ = heights.solution(scale, scale);
         of_quadric_ = heights.squared_residual();
     }
 
-    /// What a quadric's coefficients must have of their own, else they are not determined.
+    /// The part of each column of the normal equations, of no unit, that the columns before it must
+    /// leave unexplained, else the quadric is not determined: its rounding error is 1e-15, and the
+    /// relative error of a coefficient is that over this part (numerical).
     static constexpr double least_independence = 1e-6;
 
     [[nodiscard]] const local_surface& plane() const { return plane_; }
@@ -8718,7 +8728,7 @@ namespace gnomon::detail {
 /// @param deviation  distance from the surface at which the weight is exp(-1/2) [m]
 [[nodiscard]] local_surface refitted(const auto& around, std::size_t k, local_surface surface,
                                      double deviation, double min_aspect_ratio) {
-    constexpr int rounds = 3;
+    constexpr int rounds = 3;  // chosen on the tuning half of known_normals
     const double scale = 1.0 / around.radius(k);
     for (int i = 0; i < rounds; ++i) {
         weighted_moments m;
@@ -8728,9 +8738,7 @@ namespace gnomon::detail {
             const Eigen::Vector3d& x = around.offset[l];
             const double weight = gaussian(surface.residual(x) / deviation);
             m.add(x, weight);
-            if (surface.curved)
-                heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x),
-                            weight);
+            if (surface.curved) add_height(heights, base, scale, x, weight);
         }
         if (!(m.weight > 0.0)) break;
         const plane_fit fit = plane_of_least_spread(m.covariance(), min_aspect_ratio);
@@ -8755,6 +8763,7 @@ namespace gnomon::detail {
 /// @param deviation  standard deviation of points from each other's surfaces [m]
 [[nodiscard]] Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
                                               const auto& surfaces, double deviation) {
+    // Chosen on the tuning half of known_normals.
     constexpr double agreement = 0.6;  // standard deviation of the sine of the angle
     constexpr double nearness = 0.5;   // standard deviation of the distance, in radii
     const local_surface& own = surfaces[around.index[0]];
@@ -8824,7 +8833,7 @@ template <class Index>
     max_k = std::min(max_k, points.finite());  // there are no more
 
     double sigma = 0.0;
-    std::vector<neighbor> neighbors;
+    scratch<neighbor> neighbors;
     surroundings around;
     std::vector<double> spread, radius;
     for (std::size_t k = std::min<std::size_t>(16, max_k);; k = std::min(2 * k, max_k)) {
@@ -8932,9 +8941,9 @@ class feature_preserving_sweeps {
     /// The surfaces of sweep 2, from those of sweep 1.
     [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
         // Chosen on the tuning half of known_normals.
-        constexpr double inlier_deviations = 2.4;  // of the noise, that a point may be off,
-        constexpr double relative_bend = 0.004;    // and radii of the neighbors, where planes bend
-        constexpr double refit_widening = 2.0;     // once the side is decided: less noise
+        constexpr double inlier_deviations = 2.4;  // of a point from its surface, in noise
+        constexpr double relative_bend = 0.004;    // of a plane, in radii of the neighborhood
+        constexpr double refit_widening = 2.0;     // of both, as more inliers average more noise
         return made_by(run, [&](const surroundings& around) {
             local_surface s = surfaces[around.index[0]];
             if (!usable(s.fit.trust) || s.settled) return s;
@@ -8957,7 +8966,7 @@ class feature_preserving_sweeps {
     [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
                                                           const auto& run) const {
         constexpr std::size_t fewest = 16;
-        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as above, for normals
+        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as in sweep 2
         std::vector<surfel<plane_fit>> result(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (!points_.is_finite(i)) result[i].trust = trust::not_finite;
@@ -8987,7 +8996,7 @@ class feature_preserving_sweeps {
     /// each(i, around) for every finite point.
     void for_each_point(const auto& run, const auto& each) const {
         const auto make_visitor = [&] {
-            return [this, &each, sorted = std::vector<neighbor>(), around = surroundings()](
+            return [this, &each, sorted = scratch<neighbor>(), around = surroundings()](
                        std::size_t i, const auto& found) mutable {
                 found.sort_into(sorted);
                 around.assign(points_, i, sorted);
@@ -11565,10 +11574,11 @@ class seen_points {
     /// count. Ends when, with the share of inliers of the best plane so far, all compared pairs
     /// contain an outlier with a probability of at most 0.1 % (Fischler and Bolles 1981).
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
-        constexpr double failure_probability = 1e-3;
+        constexpr double failure_probability = 1e-3;  // of no unit; as that of 60 trials, below
         const std::size_t step = (size() + most_counted - 1) / most_counted;
         const weights weight = weights_by_quadrant(step);
-        const double whole = std::accumulate(weight.begin(), weight.end(), 0.0);
+        double whole = 0.0;
+        for (const double w : weight) whole += w;
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();
@@ -18623,6 +18633,26 @@ struct pixel_rectangle {
     [[nodiscard]] std::size_t index_of(std::size_t l) const {
         return width == image_width ? first + l : first + l / width * image_width + l % width;
     }
+
+    /// Calls each(l) for the first pixel of each row; rows of about `chunk_size` pixels at a time.
+    void for_each_row(const auto& run, auto&& each) const {
+        for_each_line(run, height, 1 + chunk_size / std::max<std::size_t>(width, 1),
+                      [&](std::size_t y) { each(y * width); });
+    }
+    /// The same for each column.
+    void for_each_column(const auto& run, auto&& each) const {
+        constexpr std::size_t at_a_time = 16;  // performance only: two cache lines
+        for_each_line(run, width, at_a_time, each);
+    }
+
+  private:
+    static void for_each_line(const auto& run, std::size_t lines, std::size_t at_a_time,
+                              auto&& each) {
+        run((lines + at_a_time - 1) / at_a_time, [&](std::size_t c) {
+            const std::size_t end = std::min(lines, (c + 1) * at_a_time);
+            for (std::size_t line = c * at_a_time; line < end; ++line) each(line);
+        });
+    }
 };
 
 /// The ways from a pixel along its row and its column.
@@ -18645,13 +18675,11 @@ class image_links {
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
         });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        for_each_line(run, part.height, rows, [&](std::size_t y) {
-            link(y * part.width, 1, part.width, way::left, way::right);
+        part.for_each_row(
+            run, [&](std::size_t first) { link(first, 1, part.width, way::left, way::right); });
+        part.for_each_column(run, [&](std::size_t first) {
+            link(first, part.width, part.height, way::up, way::down);
         });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        for_each_line(run, part.width, columns,
-                      [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
     }
 
     /// By which the arrays of coordinates are longer, so that whole vectors can be read.
@@ -18679,15 +18707,6 @@ class image_links {
     [[nodiscard]] std::size_t next(std::size_t l, way to) const {
         const std::size_t step = to < way::up ? gap(l, to) : gap(l, to) * part_.width;
         return to == way::left || to == way::up ? l - step : l + step;
-    }
-
-    /// Calls each(line) for all lines, of which `many` are one chunk of work.
-    template <execution X>
-    static void for_each_line(const X& run, std::size_t lines, std::size_t many, auto&& each) {
-        run((lines + many - 1) / many, [&](std::size_t c) {
-            const std::size_t end = std::min(lines, (c + 1) * many);
-            for (std::size_t line = c * many; line < end; ++line) each(line);
-        });
     }
 
   private:
@@ -18949,13 +18968,11 @@ class image_windows {
             for (std::size_t l = begin; l < end; ++l)
                 radius_[l] = static_cast<Index>(radius_of(l, least, most, precision));
         });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
-            reach(y * part.width, 1, part.width, most, left_, right_, way::left);
+        part.for_each_row(run, [&](std::size_t first) {
+            reach(first, 1, part.width, most, left_, right_, way::left);
         });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
-            reach(x, part.width, part.height, most, up_, down_, way::up);
+        part.for_each_column(run, [&](std::size_t first) {
+            reach(first, part.width, part.height, most, up_, down_, way::up);
         });
     }
 
@@ -19133,8 +19150,8 @@ struct raster {
         detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
     }
 
-    /// The image of all points, row by row: the points of PCL, whose height is 1 if they are none,
-    /// are an image if they have more rows.
+    /// The image of all points, row by row. A range that has a height, as those of PCL, is an image
+    /// if that is more than 1.
     /// @throws std::invalid_argument  as operator()
     template <detail::indexed_range R>
     [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {
@@ -19423,7 +19440,8 @@ namespace gnomon {
 ///                 within the noise are merged whatever `max_angle` and `oriented` are
 /// @param run      `sequential{}` or `threads{n}`
 /// @return the segments, largest first; pixels without a return are unlabeled
-/// @throws std::invalid_argument  also for what `raster` does not accept
+/// @throws std::invalid_argument  if points and surface differ in size, for options out of range,
+///                                and where `raster` throws
 /// Complexity: O(n r + m log m) for windows of radius r and m pairs of adjacent segments. The same
 /// bytes for every execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>

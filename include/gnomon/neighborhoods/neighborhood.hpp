@@ -130,7 +130,7 @@ concept finds_into_scratch = requires(const N& policy, const spatial_index& inde
                                       scratch<neighbor>& found) { policy.find(index, 0, found); };
 
 /// Whether the policy sweeps over points without an index too, and faster: policy.sweep(points,
-/// run, make_visitor, projection).
+/// run, make_visitor, projection). policy.image_of(points) throws where it does not fit them.
 template <class N>
 concept needs_no_index = requires { requires N::needs_no_index; };
 

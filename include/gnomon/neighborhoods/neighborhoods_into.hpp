@@ -17,7 +17,8 @@ namespace gnomon {
 
 /// policy(points, run, projection), in the memory of `graph`. Where the policy throws, the graph
 /// has no points.
-/// @param graph   its content is replaced; its arrays allocate only to grow, but by a `raster`
+/// @param graph   its content is replaced; its arrays allocate only to grow; a `raster`
+///                makes new ones
 /// @param points  any point range, or an index of them
 /// @param policy  a neighborhood on an index, such as `knn`
 /// @throws std::invalid_argument  if the policy's parameters are out of range

@@ -112,8 +112,8 @@ struct raster {
         detail::require(precision >= radians(0), "raster: precision must not be negative or NaN");
     }
 
-    /// The image of all points, row by row: the points of PCL, whose height is 1 if they are none,
-    /// are an image if they have more rows.
+    /// The image of all points, row by row. A range that has a height, as those of PCL, is an image
+    /// if that is more than 1.
     /// @throws std::invalid_argument  as operator()
     template <detail::indexed_range R>
     [[nodiscard]] detail::pixel_rectangle image_of(const R& points) const {

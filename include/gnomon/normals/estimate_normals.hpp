@@ -55,7 +55,11 @@ void estimate_swept(std::vector<surfel<estimate_t<E>>>& surface, const auto& poi
     sweep([&] { return sweep_visitor(estimate, points, viewpoints, epsilon, surface); });
     for_each_chunk(run, points.size(), [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
-            if (is_finite(points[i])) continue;
+            if constexpr (requires { points.is_finite(i); }) {  // an index knows
+                if (points.is_finite(i)) continue;
+            } else {
+                if (is_finite(points[i])) continue;
+            }
             surface[i] = {};
             surface[i].trust = trust::not_finite;
         }

@@ -30,6 +30,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
@@ -88,9 +89,9 @@ class feature_preserving_sweeps {
     /// The surfaces of sweep 2, from those of sweep 1.
     [[nodiscard]] auto shifted(const auto& surfaces, const auto& run) const {
         // Chosen on the tuning half of known_normals.
-        constexpr double inlier_deviations = 2.4;  // of the noise, that a point may be off,
-        constexpr double relative_bend = 0.004;    // and radii of the neighbors, where planes bend
-        constexpr double refit_widening = 2.0;     // once the side is decided: less noise
+        constexpr double inlier_deviations = 2.4;  // of a point from its surface, in noise
+        constexpr double relative_bend = 0.004;    // of a plane, in radii of the neighborhood
+        constexpr double refit_widening = 2.0;     // of both, as more inliers average more noise
         return made_by(run, [&](const surroundings& around) {
             local_surface s = surfaces[around.index[0]];
             if (!usable(s.fit.trust) || s.settled) return s;
@@ -113,7 +114,7 @@ class feature_preserving_sweeps {
     [[nodiscard]] std::vector<surfel<plane_fit>> filtered(const auto& surfaces,
                                                           const auto& run) const {
         constexpr std::size_t fewest = 16;
-        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as above, for normals
+        constexpr double inlier_deviations = 2.0, relative_bend = 0.05;  // as in sweep 2
         std::vector<surfel<plane_fit>> result(points_.size());
         for (std::size_t i = 0; i < points_.size(); ++i)
             if (!points_.is_finite(i)) result[i].trust = trust::not_finite;
@@ -143,7 +144,7 @@ class feature_preserving_sweeps {
     /// each(i, around) for every finite point.
     void for_each_point(const auto& run, const auto& each) const {
         const auto make_visitor = [&] {
-            return [this, &each, sorted = std::vector<neighbor>(), around = surroundings()](
+            return [this, &each, sorted = scratch<neighbor>(), around = surroundings()](
                        std::size_t i, const auto& found) mutable {
                 found.sort_into(sorted);
                 around.assign(points_, i, sorted);

@@ -18,6 +18,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
@@ -43,7 +44,7 @@ template <class Index>
     max_k = std::min(max_k, points.finite());  // there are no more
 
     double sigma = 0.0;
-    std::vector<neighbor> neighbors;
+    scratch<neighbor> neighbors;
     surroundings around;
     std::vector<double> spread, radius;
     for (std::size_t k = std::min<std::size_t>(16, max_k);; k = std::min(2 * k, max_k)) {

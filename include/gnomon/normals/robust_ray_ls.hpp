@@ -13,7 +13,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <numeric>
 #include <type_traits>
 
 #include <Eigen/Core>
@@ -80,10 +79,11 @@ class seen_points {
     /// count. Ends when, with the share of inliers of the best plane so far, all compared pairs
     /// contain an outlier with a probability of at most 0.1 % (Fischler and Bolles 1981).
     [[nodiscard]] plane consensus(int trials, std::uint64_t seed) const {
-        constexpr double failure_probability = 1e-3;
+        constexpr double failure_probability = 1e-3;  // of no unit; as that of 60 trials, below
         const std::size_t step = (size() + most_counted - 1) / most_counted;
         const weights weight = weights_by_quadrant(step);
-        const double whole = std::accumulate(weight.begin(), weight.end(), 0.0);
+        double whole = 0.0;
+        for (const double w : weight) whole += w;
         random_stream random(seed);
         plane best{{0.0, 0.0, 0.0}, 0.0};
         double least = std::numeric_limits<double>::infinity();

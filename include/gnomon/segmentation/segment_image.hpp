@@ -33,7 +33,8 @@ namespace gnomon {
 ///                 within the noise are merged whatever `max_angle` and `oriented` are
 /// @param run      `sequential{}` or `threads{n}`
 /// @return the segments, largest first; pixels without a return are unlabeled
-/// @throws std::invalid_argument  also for what `raster` does not accept
+/// @throws std::invalid_argument  if points and surface differ in size, for options out of range,
+///                                and where `raster` throws
 /// Complexity: O(n r + m log m) for windows of radius r and m pairs of adjacent segments. The same
 /// bytes for every execution.
 template <class R, surfel_range Surface, execution X = sequential, class Proj = std::identity>

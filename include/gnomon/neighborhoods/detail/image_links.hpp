@@ -37,6 +37,26 @@ struct pixel_rectangle {
     [[nodiscard]] std::size_t index_of(std::size_t l) const {
         return width == image_width ? first + l : first + l / width * image_width + l % width;
     }
+
+    /// Calls each(l) for the first pixel of each row; rows of about `chunk_size` pixels at a time.
+    void for_each_row(const auto& run, auto&& each) const {
+        for_each_line(run, height, 1 + chunk_size / std::max<std::size_t>(width, 1),
+                      [&](std::size_t y) { each(y * width); });
+    }
+    /// The same for each column.
+    void for_each_column(const auto& run, auto&& each) const {
+        constexpr std::size_t at_a_time = 16;  // performance only: two cache lines
+        for_each_line(run, width, at_a_time, each);
+    }
+
+  private:
+    static void for_each_line(const auto& run, std::size_t lines, std::size_t at_a_time,
+                              auto&& each) {
+        run((lines + at_a_time - 1) / at_a_time, [&](std::size_t c) {
+            const std::size_t end = std::min(lines, (c + 1) * at_a_time);
+            for (std::size_t line = c * at_a_time; line < end; ++line) each(line);
+        });
+    }
 };
 
 /// The ways from a pixel along its row and its column.
@@ -59,13 +79,11 @@ class image_links {
         for_each_chunk(run, part.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t l = begin; l < end; ++l) read(l, points[part.index_of(l)], noise);
         });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        for_each_line(run, part.height, rows, [&](std::size_t y) {
-            link(y * part.width, 1, part.width, way::left, way::right);
+        part.for_each_row(
+            run, [&](std::size_t first) { link(first, 1, part.width, way::left, way::right); });
+        part.for_each_column(run, [&](std::size_t first) {
+            link(first, part.width, part.height, way::up, way::down);
         });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        for_each_line(run, part.width, columns,
-                      [&](std::size_t x) { link(x, part.width, part.height, way::up, way::down); });
     }
 
     /// By which the arrays of coordinates are longer, so that whole vectors can be read.
@@ -93,15 +111,6 @@ class image_links {
     [[nodiscard]] std::size_t next(std::size_t l, way to) const {
         const std::size_t step = to < way::up ? gap(l, to) : gap(l, to) * part_.width;
         return to == way::left || to == way::up ? l - step : l + step;
-    }
-
-    /// Calls each(line) for all lines, of which `many` are one chunk of work.
-    template <execution X>
-    static void for_each_line(const X& run, std::size_t lines, std::size_t many, auto&& each) {
-        run((lines + many - 1) / many, [&](std::size_t c) {
-            const std::size_t end = std::min(lines, (c + 1) * many);
-            for (std::size_t line = c * many; line < end; ++line) each(line);
-        });
     }
 
   private:

@@ -109,13 +109,11 @@ class image_windows {
             for (std::size_t l = begin; l < end; ++l)
                 radius_[l] = static_cast<Index>(radius_of(l, least, most, precision));
         });
-        const std::size_t rows = 1 + chunk_size / std::max<std::size_t>(part.width, 1);
-        links_.for_each_line(run, part.height, rows, [&](std::size_t y) {
-            reach(y * part.width, 1, part.width, most, left_, right_, way::left);
+        part.for_each_row(run, [&](std::size_t first) {
+            reach(first, 1, part.width, most, left_, right_, way::left);
         });
-        constexpr std::size_t columns = 16;  // of a chunk; performance only: two cache lines
-        links_.for_each_line(run, part.width, columns, [&](std::size_t x) {
-            reach(x, part.width, part.height, most, up_, down_, way::up);
+        part.for_each_column(run, [&](std::size_t first) {
+            reach(first, part.width, part.height, most, up_, down_, way::up);
         });
     }
 

@@ -107,6 +107,12 @@ struct local_surface {
     }
 };
 
+/// Adds the height of x [m] over a plane, with coordinates in the plane that are scaled [1/m].
+void add_height(auto& heights, const tangent_basis& base, double scale, const Eigen::Vector3d& x,
+                double weight = 1.0) {
+    heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x), weight);
+}
+
 /// The plane of least squares of a point and its first k neighbors, and the quadric over it.
 /// Precondition: k >= 2. (Generic for compile time only.)
 class local_fits {
@@ -124,17 +130,16 @@ class local_fits {
         const tangent_basis& base = plane_.base;
         const double scale = 1.0 / around.radius(k);
         least_squares_quadric heights;
-        for (std::size_t l = 0; l <= k; ++l) {
-            const Eigen::Vector3d& x = around.offset[l];
-            heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x));
-        }
+        for (std::size_t l = 0; l <= k; ++l) add_height(heights, base, scale, around.offset[l]);
         has_quadric_ = heights.solve() > least_independence;
         if (!has_quadric_) return;
         quadric_ = heights.solution(scale, scale);
         of_quadric_ = heights.squared_residual();
     }
 
-    /// What a quadric's coefficients must have of their own, else they are not determined.
+    /// The part of each column of the normal equations, of no unit, that the columns before it must
+    /// leave unexplained, else the quadric is not determined: its rounding error is 1e-15, and the
+    /// relative error of a coefficient is that over this part (numerical).
     static constexpr double least_independence = 1e-6;
 
     [[nodiscard]] const local_surface& plane() const { return plane_; }

@@ -69,7 +69,7 @@ namespace gnomon::detail {
 /// @param deviation  distance from the surface at which the weight is exp(-1/2) [m]
 [[nodiscard]] local_surface refitted(const auto& around, std::size_t k, local_surface surface,
                                      double deviation, double min_aspect_ratio) {
-    constexpr int rounds = 3;
+    constexpr int rounds = 3;  // chosen on the tuning half of known_normals
     const double scale = 1.0 / around.radius(k);
     for (int i = 0; i < rounds; ++i) {
         weighted_moments m;
@@ -79,9 +79,7 @@ namespace gnomon::detail {
             const Eigen::Vector3d& x = around.offset[l];
             const double weight = gaussian(surface.residual(x) / deviation);
             m.add(x, weight);
-            if (surface.curved)
-                heights.add(scale * dot(base.b1, x), scale * dot(base.b2, x), dot(base.normal, x),
-                            weight);
+            if (surface.curved) add_height(heights, base, scale, x, weight);
         }
         if (!(m.weight > 0.0)) break;
         const plane_fit fit = plane_of_least_spread(m.covariance(), min_aspect_ratio);
@@ -106,6 +104,7 @@ namespace gnomon::detail {
 /// @param deviation  standard deviation of points from each other's surfaces [m]
 [[nodiscard]] Eigen::Vector3d filtered_normal(const surroundings& around, std::size_t k,
                                               const auto& surfaces, double deviation) {
+    // Chosen on the tuning half of known_normals.
     constexpr double agreement = 0.6;  // standard deviation of the sine of the angle
     constexpr double nearness = 0.5;   // standard deviation of the distance, in radii
     const local_surface& own = surfaces[around.index[0]];
