@@ -12,7 +12,9 @@
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///  4. cut      What two planes at an edge explain better is cut in two, merged and competed for.
 ///
-/// All of it once more in what is left, by twice the angle, as edges blend normals. All lengths
+/// All of it once more in what is left, by twice the angle, as edges blend normals. Where noise is
+/// independent from point to point, which that of a depth camera is not, planes that meet at an
+/// angle of only 3 degrees are cut apart in the end. All lengths
 /// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 #pragma once
 
@@ -30,6 +32,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/wide_noise.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
@@ -52,18 +55,20 @@ inline void require_valid(const segment_planes_options& options) {
 }
 
 /// The regions of the planes of a cloud.
-/// @param graph, near  those of `plane_regions`
+/// @param graph, near        those of `plane_regions`
+/// @param noise_is_independent  from point to point; else it bends planes, as that of cameras
 template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
 [[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
                                                        const Near& near, const S& surface,
                                                        std::size_t min_points, angle max_angle,
-                                                       const X& run) {
+                                                       bool noise_is_independent, const X& run) {
     plane_regions regions(cloud, graph, near, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
-    regions.cut(run);
+    regions.cut_edges(run);
     regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle
-    regions.cut(run);
+    regions.cut_edges(run);
+    if (noise_is_independent) regions.cut_creases(run);
     return regions;
 }
 
@@ -95,10 +100,11 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    return detail::numbered_segments_of(detail::regions_of_planes(cloud, graph, graph, surface,
-                                                                  options.min_points,
-                                                                  options.max_angle, team)
-                                            .labels());
+    const bool is_independent = !index.viewpoints.empty() && !detail::is_of_camera(index);
+    return detail::numbered_segments_of(
+        detail::regions_of_planes(cloud, graph, graph, surface, options.min_points,
+                                  options.max_angle, is_independent, team)
+            .labels());
 }
 
 }  // namespace gnomon

@@ -27,6 +27,15 @@ namespace gnomon::detail {
     return has_length(axis_of_cone(rays));
 }
 
+/// The same of about 3,000 points of an index.
+[[nodiscard]] bool is_of_camera(const auto& index) {
+    const std::size_t step = std::max<std::size_t>(index.size() / sampled_planes, 1);
+    scratch<point_index> some;
+    for (std::size_t i = 0; i < index.size(); i += step)
+        if (index.is_finite(i)) some.push_back(static_cast<point_index>(i));
+    return are_of_camera(index, some);
+}
+
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
 /// measured, and is more.
 /// @param noise   that of small neighborhoods

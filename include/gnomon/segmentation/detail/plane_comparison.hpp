@@ -33,18 +33,32 @@ namespace gnomon::detail {
     return region.fit.excess() * region.sums.noise_across(n) * spread / (own * own);
 }
 
-/// Whether two planes certainly meet at an edge: they are turned by more than 60 degrees, and by
-/// more than three standard deviations more.
-[[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
-    // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
-    // an office (pcl_office1_kinect).
-    constexpr angle least = degrees(60);
+/// Whether two planes are turned by more than an angle, and by more than three standard deviations
+/// more.
+[[nodiscard]] bool are_turned(const auto& a, const auto& b, angle least) {
     if (!a.fit.is_determined || !b.fit.is_determined) return false;
     const double cosine = std::abs(dot(a.fit.plane.normal, b.fit.plane.normal));
     if (cosine >= cos(least)) return false;
     const Eigen::Vector3d axis = direction_of(cross(a.fit.plane.normal, b.fit.plane.normal));
     const double beyond = std::acos(cosine) - least.radians();
     return beyond > most_deviations * std::sqrt(tilt_variance(a, axis) + tilt_variance(b, axis));
+}
+
+/// Whether two planes certainly meet at an edge, even of a surface that is rough.
+[[nodiscard]] bool are_at_edge(const auto& a, const auto& b) {
+    // By less, rough surfaces are several planes; chosen on furnished rooms 20,001 to 20,012 and
+    // an office (pcl_office1_kinect).
+    constexpr angle least = degrees(60);
+    return are_turned(a, b, least);
+}
+
+/// Whether two planes meet at a crease: noise explains either of them, though perhaps both by a
+/// common one as well.
+[[nodiscard]] bool are_at_crease(const auto& a, const auto& b) {
+    // By less, walls bend; chosen on streets 20,001 to 20,003 and scans of range finders
+    // (asl_apartment_0, lms400_table_scene_1cm, pcl_room_scan1).
+    constexpr angle least = degrees(3);
+    return std::max(a.fit.chi2, b.fit.chi2) <= region_plane::most_excess && are_turned(a, b, least);
 }
 
 /// How much worse one plane explains two regions next to each other than two planes do; at most 1

@@ -49,17 +49,36 @@ class plane_regions {
     void grow(const S& surface, double min_cosine, const X& run) {
         plane_growth(cloud_, graph_, surface, min_points_, min_cosine, labels_)(
             static_cast<std::int32_t>(regions_.size()), run);
-        refit();
-        settle(run);
-        compact();
+        settle_again(run);
     }
 
     /// Cuts regions at edges, and settles them.
     template <execution X>
-    void cut(const X& run) {
+    void cut_edges(const X& run) {
+        cut(run, [](const auto& a, const auto& b) { return are_at_edge(a, b); });
+    }
+
+    /// Cuts regions at creases too, where noise is independent from point to point, and moves the
+    /// borders between regions there; from now on a crease keeps regions apart.
+    template <execution X>
+    void cut_creases(const X& run) {
+        keeps_creases_ = true;
+        const auto is_crease = [](const auto& a, const auto& b) { return are_at_crease(a, b); };
+        for (int round = 0; round < most_rounds; ++round) {
+            const bool has_cut = cut(run, is_crease);
+            if (!move_to_creases(run) && !has_cut) return;
+        }
+    }
+
+  private:
+    /// Cuts regions where two planes explain them better, and settles them.
+    /// @param is_edge  is_edge(part, part): whether their planes meet at an edge
+    /// @return whether there were any
+    template <execution X>
+    bool cut(const X& run, auto&& is_edge) {
         const label_groups parts(labels_);
         const auto cut_of = [&](std::size_t r) {
-            return edge_cut(cloud_, parts[r], regions_[r], min_points_);
+            return edge_cut(cloud_, parts[r], regions_[r], min_points_, is_edge, keeps_creases_);
         };
         scratch<decltype(cut_of(0))> cuts(parts.size());
         run(parts.size(), [&](std::size_t r) { cuts[r] = cut_of(r); });
@@ -70,13 +89,46 @@ class plane_regions {
                 if (cuts[r]->signed_distance(cloud_.offsets[i]) > 0.0) labels_[i] = next;
             ++next;
         }
-        if (next == static_cast<std::int32_t>(regions_.size())) return;
+        if (next == static_cast<std::int32_t>(regions_.size())) return false;
+        settle_again(run);
+        return true;
+    }
+
+    /// Moves the borders between regions to the creases at which they meet, and settles them. A
+    /// region is in one pair at a time, the first of them.
+    /// @return whether a point has moved
+    template <execution X>
+    bool move_to_creases(const X& run) {
+        scratch<char> is_border = borders_of(near_, labels_, run);
+        const auto pairs = compete(cloud_, near_, regions_, labels_, is_border, run).touching;
+        const label_groups parts(labels_);
+        scratch<char> has_changed(regions_.size(), false);
+        for (const auto& [a, b] : pairs) {
+            if (has_changed[a] != 0 || has_changed[b] != 0) continue;
+            const auto cut =
+                crease_cut(cloud_, {parts[a], parts[b]}, {regions_[a], regions_[b]}, min_points_);
+            if (!cut) continue;
+            for (const point_index r : {a, b}) {
+                for (const point_index i : parts[r]) {
+                    const bool is_of_b = cut->signed_distance(cloud_.offsets[i]) > 0.0;
+                    const auto to = static_cast<std::int32_t>(is_of_b ? b : a);
+                    if (labels_[i] != to) has_changed[a] = has_changed[b] = true;
+                    labels_[i] = to;
+                }
+            }
+        }
+        if (std::ranges::find(has_changed, true) == has_changed.end()) return false;
+        settle_again(run);
+        return true;
+    }
+
+    template <execution X>
+    void settle_again(const X& run) {
         refit();
         settle(run);
         compact();
     }
 
-  private:
     /// Merges regions next to each other that one plane explains. Then, in at most `most_rounds`
     /// rounds, each point goes to the region, among those of its neighbors and its own, that
     /// explains it best, or to none if all are too far, and regions are merged again.
@@ -102,8 +154,10 @@ class plane_regions {
         });
         union_find sets = agglomeration(regions_)(
             std::move(pairs),
-            [](const planar_region& a, const planar_region& b) {
-                return dissimilarity_of_neighbors(a, b);
+            [this](const planar_region& a, const planar_region& b) {
+                return keeps_creases_ && are_at_crease(a, b)
+                           ? std::numeric_limits<double>::infinity()
+                           : dissimilarity_of_neighbors(a, b);
             },
             [](point_index, point_index) { return true; },
             [](union_find&) { return scratch<region_pair>(); });
@@ -160,6 +214,7 @@ class plane_regions {
     const G& graph_;
     const Near& near_;
     std::size_t min_points_;
+    bool keeps_creases_ = false;
     scratch<std::int32_t> labels_;
     scratch<planar_region> regions_;
 };

@@ -101,6 +101,12 @@ struct plane_sums {
         return f;
     }
 
+    /// The sum of the squared deviations from the plane that is fit to the points, in variances of
+    /// their noise.
+    [[nodiscard]] double squares(const region_plane& own) const {
+        return static_cast<double>(count) * own.chi2;
+    }
+
     /// The mean squared deviation of the points from a plane, in variances of their noise.
     [[nodiscard]] double chi2_about(const gnomon::plane& to) const {
         const Eigen::Vector3d& n = to.normal;

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// A region in parallel strips, and the cut between two of them after which two planes explain the
+/// points best. All cuts follow from the sums of the strips.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <optional>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/segmentation/detail/plane_sums.hpp>
+
+namespace gnomon::detail {
+
+/// `count` strips of a width across a direction; the first and the last one have no end.
+template <std::size_t count>
+class strips {
+  public:
+    /// @param along  of unit length
+    /// @param first  the position of the first strip along it, from the origin of the cloud [m]
+    strips(const Eigen::Vector3d& along, double first, double width)
+        : along_(along), first_(first), width_(width) {}
+
+    /// @param cloud  a planar_cloud
+    void add(const auto& cloud, std::size_t i) { cloud.add(i, sums_[strip_of(cloud.offsets[i])]); }
+
+    /// The cut after which two planes explain the points best.
+    /// @param accepts     accepts(side, side): whether these may be two planes
+    /// @param not_curved  whether it is none if a parabola explains the points better
+    /// @param least       the squared deviations that it must be below; becomes those after it
+    [[nodiscard]] std::optional<plane> best_cut(std::size_t min_points, auto&& accepts,
+                                                bool not_curved, double& least) const {
+        double deviations = least;
+        std::size_t best = 0;
+        for (std::size_t cut = 1; cut < count; ++cut) {
+            const auto [a, b] = sides_of(cut);
+            if (std::min(a.sums.summands, b.sums.summands) < min_points || !accepts(a, b)) continue;
+            const double both = a.sums.squares(a.fit) + b.sums.squares(b.fit);
+            if (!(both < deviations)) continue;
+            deviations = both;
+            best = cut;
+        }
+        if (best == 0 || (not_curved && is_curved(best))) return std::nullopt;
+        least = deviations;
+        return plane{along_, first_ + width_ * static_cast<double>(best)};
+    }
+
+  private:
+    [[nodiscard]] std::size_t strip_of(const Eigen::Vector3d& offset) const {
+        const double strip = (dot(along_, offset) - first_) / width_;
+        return static_cast<std::size_t>(std::clamp(strip, 0.0, static_cast<double>(count - 1)));
+    }
+
+    /// The two sides of a cut before a strip, with their planes.
+    [[nodiscard]] std::array<planar_region, 2> sides_of(std::size_t cut) const {
+        std::array<planar_region, 2> sides;
+        for (std::size_t s = 0; s < count; ++s) sides[s < cut ? 0 : 1].sums.add(sums_[s]);
+        for (planar_region& side : sides) side.fit = side.sums.fit();
+        return sides;
+    }
+
+    /// Whether a surface that is curved along the strips, a parabola, explains their means better
+    /// than the two planes of a cut: the residuals of either are compared, where the parabola is
+    /// fit by making its terms orthogonal one after the other.
+    [[nodiscard]] bool is_curved(std::size_t cut) const {
+        const auto [a, b] = sides_of(cut);
+        plane_sums all = a.sums;
+        all.add(b.sums);
+        const region_plane whole = all.fit();
+        const Eigen::Vector3d across = cross(whole.plane.normal, along_);
+        std::array<double, count> height{}, one{}, square{}, first{}, second{};
+        double of_planes = 0.0;
+        for (std::size_t s = 0; s < count; ++s) {
+            if (sums_[s].count == 0) continue;
+            const Eigen::Vector3d mean = sums_[s].positions.mean();
+            const Eigen::Vector3d offset = difference(mean, whole.centroid);
+            const double off = (s < cut ? a : b).fit.plane.signed_distance(mean);
+            of_planes += sums_[s].positions.weight * off * off;
+            one[s] = 1.0;
+            first[s] = dot(along_, offset);
+            second[s] = dot(across, offset);
+            square[s] = first[s] * first[s];
+            height[s] = whole.plane.signed_distance(mean);
+        }
+        remove(one, first);
+        remove(one, second);
+        remove(first, second);
+        for (const auto* of_plane : {&one, &first, &second}) {
+            remove(*of_plane, square);
+            remove(*of_plane, height);
+        }
+        remove(square, height);
+        return of_planes > product(height, height);
+    }
+
+    /// Of values of the strips, weighted.
+    [[nodiscard]] double product(const auto& a, const auto& b) const {
+        double sum = 0.0;
+        for (std::size_t s = 0; s < count; ++s) sum += sums_[s].positions.weight * a[s] * b[s];
+        return sum;
+    }
+
+    /// Makes values orthogonal to others.
+    void remove(const auto& others, auto& from) const {
+        const double squared = product(others, others);
+        if (!(squared > 0.0)) return;
+        const double part = product(others, from) / squared;
+        for (std::size_t s = 0; s < count; ++s) from[s] -= part * others[s];
+    }
+
+    Eigen::Vector3d along_;
+    double first_;
+    double width_;
+    std::array<plane_sums, count> sums_{};
+};
+
+}  // namespace gnomon::detail
