@@ -245,7 +245,8 @@ TEST(convex_hull, names_degenerate_sets) {
 
 TEST(convex_hull, of_a_cube_has_its_size) {
     for (const double size : {1e-100, 1e-3, 1.0, 1e40}) {
-        clouds::cloud points = clouds::on_grid(3000, 4, size);  // 0, 1
+        clouds::cloud points = clouds::on_grid(3000, 4, 1.0);  // 0, 1
+        for (Eigen::Vector3d& p : points) p *= size;
         points.push_back({clouds::nan, 0, 0});
         const auto hull = convex_hull::of(points);
         EXPECT_EQ(hull.vertices.size(), 8u);
