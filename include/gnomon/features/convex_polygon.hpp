@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The convex outline of a planar segment: the convex hull of its points, projected to its plane. In
-/// no umbrella: include it by name.
+/// The convex outline of a planar segment: the convex hull of its points, projected to its plane.
+/// In no umbrella: include it by name.
 ///
 ///     const auto wall = gnomon::convex_polygon::of(gnomon::subset_view(scan, parts[s]), plane);
 ///     draw(wall.corner(0), wall.corner(1));  // counterclockwise seen from the side of the normal

@@ -56,9 +56,8 @@ class smallest_box {
         best_ = refined(best_, corners);
         join_extremes_along_a_lattice();
         join(best_);
-        constexpr std::size_t exact_corners = 200;
-        const double tolerance = corners.size() <= exact_corners ? 1e-8 : 3e-4;
-        constexpr std::size_t largest_core = 400;  // performance only
+        constexpr double tolerance = 1e-7;         // numerical
+        constexpr std::size_t largest_core = 200;  // performance only: all of smaller hulls
         while (core_.size() <= largest_core) {
             const polytope hull(core_);
             const flush_boxes search(hull, best_.volume * (1.0 - tolerance));
@@ -92,8 +91,8 @@ class smallest_box {
         return is_new;
     }
 
-    /// Adds the extremes along the 13 axes through the neighbors in a cubic lattice aligned with the
-    /// box, which is stretched to a cube.
+    /// Adds the extremes along the 13 axes through the neighbors in a cubic lattice aligned with
+    /// the box, which is stretched to a cube.
     void join_extremes_along_a_lattice() {
         for (int code = 0; code < 13; ++code) {
             Eigen::Vector3d direction(0.0, 0.0, 0.0);
@@ -152,10 +151,11 @@ class smallest_box {
 /// line, without any finite point it is at its defaults.
 /// @param points      any point range of n points [m]
 /// @param projection  maps an element of the range to a point
-/// @return the smallest box, to a relative precision of 1e-7 for hulls of up to 200 vertices, else
-///         3e-4 wherever a core of 400 vertices proves it; never larger than that of `principal_frame`
+/// @return the smallest box, to 1e-7 of its volume for hulls of up to 200 vertices, and for larger
+///         ones wherever 200 of them prove it; never larger than that of `principal_frame`
 /// @throws std::invalid_argument  if n is 2^32 - 1 or more
-/// Complexity: that of `convex_hull`, O(h) for its h vertices, and O(e^2) for the e edges of the core.
+/// Complexity: that of `convex_hull`, O(h) for its h vertices, and O(e^2) for the e edges of the
+/// core.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] oriented_box minimum_volume_box(const R& points, Proj projection = {}) {
@@ -170,9 +170,9 @@ template <class R, class Proj = std::identity>
     const position_view<R, Proj> p(points, std::move(projection));
     const principal_frame frame = detail::principal_axes_of(detail::moments_about_first(p));
     const detail::local_points local(corners);
-    const detail::smallest_box search(local.positions, {detail::column(frame.axes, 0),
-                                                        detail::column(frame.axes, 1),
-                                                        detail::column(frame.axes, 2)});
+    const detail::smallest_box search(local.positions,
+                                      {detail::column(frame.axes, 0), detail::column(frame.axes, 1),
+                                       detail::column(frame.axes, 2)});
     return detail::box_of(search.best(), local);
 }
 

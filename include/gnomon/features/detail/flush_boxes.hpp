@@ -2,8 +2,8 @@
 /// @file
 /// The boxes around a convex polyhedron that have an edge of it on each of two adjacent faces. The
 /// box of smallest volume is among them (O'Rourke 1985). For each pair of edges they are a family
-/// with one parameter, in which the volume is piecewise a rational function; the pieces are searched
-/// by branch and bound on Bernstein coefficients.
+/// with one parameter, in which the volume is piecewise a rational function; the pieces are
+/// searched by branch and bound on Bernstein coefficients.
 #pragma once
 
 #include <algorithm>
@@ -28,7 +28,9 @@ class flush_boxes {
     /// Searches for the smallest box of a volume below `limit`, to a relative precision of 1e-9.
     /// O(e^2) for e edges, times the number of pieces.
     flush_boxes(const polytope& hull, double limit)
-        : hull_(hull), limit_(limit), supports_{hull.start(), hull.start(), hull.start(), hull.start()} {
+        : hull_(hull),
+          limit_(limit),
+          supports_{hull.start(), hull.start(), hull.start(), hull.start()} {
         const auto& arcs = hull.arcs();
         for (std::size_t i = 0; i < arcs.size(); ++i) {
             for (std::size_t j = i + 1; j < arcs.size(); ++j) search_pair(arcs[i], arcs[j]);
@@ -41,6 +43,7 @@ class flush_boxes {
 
   private:
     static constexpr std::size_t supports = 4;
+    static constexpr int most_visits = 10000;  // numerical: no endless search among rounding errors
 
     /// A member of the family of two edges, with an edge on the face of outward normal u, the other
     /// on that of v, and w = u x v; these are not of unit length: u and v are linear in s.
@@ -73,6 +76,7 @@ class flush_boxes {
             const Eigen::Vector3d across =
                 cross(combined(1.0 - middle, a.first, middle, a.last), b.direction);
             side_ = dot(across, b.first) + dot(across, b.last) < 0.0 ? -1.0 : 1.0;
+            visits_ = most_visits;
             const member from = make(breaks[i]);
             search(from, make(breaks[i + 1]));
         }
@@ -90,15 +94,13 @@ class flush_boxes {
         m.u = combined(1.0 - s, a_->first, s, a_->last);
         m.v = scaled(side_, cross(m.u, b_->direction));
         m.w = cross(m.u, m.v);
-        const std::array<Eigen::Vector3d, supports> directions{scaled(-1.0, m.u),
-                                                               scaled(-1.0, m.v), m.w,
-                                                               scaled(-1.0, m.w)};
+        const std::array<Eigen::Vector3d, supports> directions{scaled(-1.0, m.u), scaled(-1.0, m.v),
+                                                               m.w, scaled(-1.0, m.w)};
         for (std::size_t k = 0; k < supports; ++k)
             m.far[k] = supports_[k] = hull_.farthest(directions[k], supports_[k]);
-        constexpr double rounding = 1e-18;  // of v as one edge is orthogonal to both
+        if (is_singular(m)) return m;
         const double uu = dot(m.u, m.u);
         const double vv = dot(m.v, m.v);
-        if (!(vv > rounding * uu)) return m;
         const std::array<Eigen::Vector3d, 3> d = spans(m);
         const double volume = dot(d[0], m.u) * dot(d[1], m.v) * dot(d[2], m.w) / (uu * vv);
         if (volume < limit_) {
@@ -107,6 +109,13 @@ class flush_boxes {
             found_ = true;
         }
         return m;
+    }
+
+    /// Whether the second edge is orthogonal to its face, within rounding. Any v will do then; the
+    /// smallest box with this u has another edge on another face.
+    [[nodiscard]] static bool is_singular(const member& m) {
+        constexpr double rounding = 1e-16;  // of a squared sine
+        return !(dot(m.v, m.v) > rounding * dot(m.u, m.u));
     }
 
     /// Vectors between supporting corners of opposite faces.
@@ -118,7 +127,10 @@ class flush_boxes {
 
     void search(const member& from, const member& to) {
         constexpr double finest = 1e-10;  // rounding
-        if (to.s - from.s < finest || exceeds(from, to, from) || exceeds(from, to, to)) return;
+        if (to.s - from.s < finest || (is_singular(from) && is_singular(to)) || visits_ == 0)
+            return;
+        if (exceeds(from, to, from) || exceeds(from, to, to)) return;
+        --visits_;
         const member middle = make(split(from, to));
         search(from, middle);
         search(middle, to);
@@ -128,8 +140,8 @@ class flush_boxes {
     /// support one of them, `of`, lie in all: volume - limit has Bernstein coefficients >= 0.
     [[nodiscard]] bool exceeds(const member& from, const member& to, const member& of) const {
         const std::array<Eigen::Vector3d, 3> d = spans(of);
-        const quadratic uv = product(dot(d[0], from.u), dot(d[0], to.u), dot(d[1], from.v),
-                                     dot(d[1], to.v));
+        const quadratic uv =
+            product(dot(d[0], from.u), dot(d[0], to.u), dot(d[1], from.v), dot(d[1], to.v));
         const quadratic w{dot(d[2], from.w),
                           0.5 * (dot(d[2], cross(from.u, to.v)) + dot(d[2], cross(to.u, from.v))),
                           dot(d[2], to.w)};
@@ -175,6 +187,7 @@ class flush_boxes {
     const edge_arc* a_ = nullptr;
     const edge_arc* b_ = nullptr;
     double side_ = 1.0;
+    int visits_ = 0;  // that are left to the family
     bool found_ = false;
     axes best_;
 };

@@ -92,8 +92,8 @@ class polytope {
                 while (neighbors_[back] != p) ++back;
                 const Eigen::Vector3d edge = difference(points_[q], points_[p]);
                 if (has_length(left_[n]) && has_length(left_[back]) && has_length(edge))
-                    add_arc({p, direction_of(edge), direction_of(left_[n]),
-                             direction_of(left_[back])});
+                    add_arc(
+                        {p, direction_of(edge), direction_of(left_[n]), direction_of(left_[back])});
             }
         }
     }
@@ -115,7 +115,8 @@ class polytope {
     std::span<const Eigen::Vector3d> points_;
     std::vector<std::uint32_t> first_neighbor_;
     std::vector<std::uint32_t> neighbors_;
-    std::vector<Eigen::Vector3d> left_;  // the normal of the triangle left of the edge to a neighbor
+    std::vector<Eigen::Vector3d>
+        left_;  // the normal of the triangle left of the edge to a neighbor
     std::vector<edge_arc> arcs_;
     std::uint32_t start_ = 0;
 };

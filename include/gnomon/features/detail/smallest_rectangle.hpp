@@ -49,8 +49,8 @@ struct planar_rectangle {
         planar_rectangle r;
         r.c = x / length;
         r.s = y / length;
-        const std::array<planar_rectangle, 3> turned{
-            r, planar_rectangle{-r.s, r.c, {}, {}}, planar_rectangle{-r.c, -r.s, {}, {}}};
+        const std::array<planar_rectangle, 3> turned{r, planar_rectangle{-r.s, r.c, {}, {}},
+                                                     planar_rectangle{-r.c, -r.s, {}, {}}};
         std::size_t start = next;
         for (std::size_t k = 0; k < 3; ++k) {  // they follow each other around the polygon
             if (edge == 0) support[k] = start;
