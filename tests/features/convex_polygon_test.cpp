@@ -54,7 +54,9 @@ void expect_convex(const convex_polygon& polygon, const clouds::cloud& points, d
         const Eigen::Vector2d a = polygon.outline[i];
         const Eigen::Vector2d ab = polygon.outline[(i + 1) % n] - a;
         const Eigen::Vector2d ac = polygon.outline[(i + 2) % n] - a;
-        if (n > 2) EXPECT_GT(ab.x() * ac.y() - ab.y() * ac.x(), 0.0);
+        if (n > 2) {
+            EXPECT_GT(ab.x() * ac.y() - ab.y() * ac.x(), 0.0);
+        }
         const Eigen::Vector2d b = a + ab - polygon.outline[0];
         twice_area += (a - polygon.outline[0]).x() * b.y() - (a - polygon.outline[0]).y() * b.x();
         for (const Eigen::Vector3d& p : points) {

@@ -88,7 +88,9 @@ TEST(minimum_area_rectangle, recovers_a_table_top_at_utm_coordinates) {
         EXPECT_NEAR(box.lengths[0], 2.0, 1e-8);
         EXPECT_NEAR(box.lengths[1], width, 1e-8);
         EXPECT_NEAR((box.center - center).norm(), 0.0, 1e-8);
-        if (width < 1.9995) EXPECT_NEAR(std::abs(box.axes.col(0).dot(turn.col(0))), 1.0, 1e-6);
+        if (width < 1.9995) {
+            EXPECT_NEAR(std::abs(box.axes.col(0).dot(turn.col(0))), 1.0, 1e-6);
+        }
         expect_rectangle_around(box, polygon, 1e-8);
     }
 }

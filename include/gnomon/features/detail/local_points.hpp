@@ -99,7 +99,7 @@ struct local_points {
     }
 
     /// Sorts the points into cells of 1/8, by the Morton order of these; those of one cell keep
-    /// their order. What is near in space is then near in memory. O(n).
+    /// their order. Points that are near in space are then near in memory. O(n).
     void sort_into_cells() {
         constexpr std::uint32_t cells_per_axis = 16;  // performance only
         std::vector<std::uint32_t> begin(cells_per_axis * cells_per_axis * cells_per_axis + 1, 0);

@@ -69,17 +69,14 @@ class quickhull {
         };
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             const face& here = faces_[f];
-            if (here.corners[0] == none) continue;
             for (std::size_t i = 0; i < 3; ++i) {
                 const face& there = faces_[here.neighbors[i]];
-                const std::uint32_t from = here.corners[i];
-                const std::uint32_t to = here.corners[(i + 1) % 3];
-                if (here.neighbors[i] < f) continue;  // each edge once
-                std::size_t opposite = 0;
-                while (there.corners[opposite] == from || there.corners[opposite] == to) ++opposite;
-                if (height(here, there.corners[opposite]) == 0.0) continue;
-                note(from);
-                note(to);
+                if (here.corners[0] == none || here.neighbors[i] < f) continue;  // each edge once
+                std::size_t back = 0;
+                while (there.neighbors[back] != f) ++back;
+                if (height(here, there.corners[(back + 2) % 3]) == 0.0) continue;
+                note(here.corners[i]);
+                note(here.corners[(i + 1) % 3]);
             }
         }
         std::vector<std::uint32_t> result;
