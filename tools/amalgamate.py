@@ -81,7 +81,10 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    for umbrella in ("gnomon/gnomon.hpp", "gnomon/segmentation/segment_image.hpp",
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/features/convex_hull.hpp",
+                     "gnomon/features/minimum_area_rectangle.hpp",
+                     "gnomon/features/minimum_volume_box.hpp",
+                     "gnomon/segmentation/segment_image.hpp",
                      "gnomon/perception.hpp", "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()

@@ -20,6 +20,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/spectrum.hpp>
+#include <gnomon/features/oriented_box.hpp>
 
 namespace gnomon {
 
@@ -36,6 +37,9 @@ struct principal_frame {
     /// The axis of smallest variance, a unit vector of arbitrary sign: the normal of a planar
     /// segment.
     [[nodiscard]] Eigen::Vector3d normal() const { return detail::column(axes, 2); }
+
+    /// The box by itself.
+    [[nodiscard]] oriented_box box() const { return {box_center, axes, box_size}; }
 
     /// The principal frame of the finite points of a range, by the eigenvectors of their
     /// covariance.

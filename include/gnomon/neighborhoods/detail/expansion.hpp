@@ -26,6 +26,12 @@ struct expansion {
         if (term != 0.0) terms[size++] = term;
     }
     [[nodiscard]] int sign() const { return size == 0 ? 0 : (terms[size - 1] > 0.0 ? 1 : -1); }
+    /// The sum in double, of the same sign and with a relative error of a few rounding units.
+    [[nodiscard]] double value() const {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < size; ++i) sum += terms[i];
+        return sum;
+    }
 };
 
 /// The rounding error of sum = a + b. Knuth's two-sum.
@@ -83,13 +89,31 @@ template <std::size_t N>
     return result;
 }
 
-/// x times y, where y has up to four terms.
+/// a - b.
+[[nodiscard]] inline expansion<2> exact_difference(double a, double b) {
+    expansion<2> result;
+    const double difference = a - b;
+    result.append(sum_error(a, -b, difference));
+    result.append(difference);
+    return result;
+}
+
+/// x times term i of y, which is zero if y has fewer terms.
+template <std::size_t N, std::size_t M>
+[[nodiscard]] expansion<2 * N> times_term(const expansion<N>& x, const expansion<M>& y,
+                                          std::size_t i) {
+    return i < y.size ? x * y.terms[i] : expansion<2 * N>{};
+}
+
+/// x times y, where y has up to two, or up to four terms.
+template <std::size_t N>
+[[nodiscard]] auto operator*(const expansion<N>& x, const expansion<2>& y) {
+    return times_term(x, y, 0) + times_term(x, y, 1);
+}
 template <std::size_t N>
 [[nodiscard]] auto operator*(const expansion<N>& x, const expansion<4>& y) {
-    const auto term = [&](std::size_t i) {
-        return i < y.size ? x * y.terms[i] : expansion<2 * N>{};
-    };
-    return (term(0) + term(1)) + (term(2) + term(3));
+    return (times_term(x, y, 0) + times_term(x, y, 1)) +
+           (times_term(x, y, 2) + times_term(x, y, 3));
 }
 
 /// The sign of a b - c d.
