@@ -21,66 +21,68 @@ namespace gnomon::detail {
 
 /// A point of a regression, relative to the centroid of all of them.
 struct regression_point {
-    enum class residual : char { of_distance, of_range, left_out };
-
     Eigen::Vector3d at;
     Eigen::Vector3d ray;  ///< unit vector from its view point; zero where that is unknown
     double deviation;     ///< of its noise, along the ray or in all directions
-    residual kind = residual::of_distance;
 
     [[nodiscard]] bool has_ray() const { return dot(ray, ray) > 0.0; }
 };
 
-/// The point of a surface that a ray meets near the point x: x + along * ray.
-template <class Foot>
-struct ray_crossing {
-    Foot foot;
-    double along = 0.0;
-    double cosine = 0.0;  ///< of ray and outward normal
-    bool is_found = false;
+/// The residual of a point, near a surface: weight times the distance of `from` from the surface,
+/// less `offset`. It has no unit and the variance 1.
+struct regression_term {
+    Eigen::Vector3d from;
+    double weight;  ///< 0: the point is left out
+    double offset = 0.0;
 
-    /// By Newton's method from x, on the side of the surface that x is on. The distance from the
-    /// surface is a convex function along a line, so the method converges from the second step on.
+    /// The orthogonal distance of a point, whatever its ray.
+    explicit regression_term(const regression_point& p) : from(p.at), weight(1.0 / p.deviation) {}
+
+    /// The orthogonal distance, less the mean that noise in all directions gives it:
+    /// E|x| = R + variance / 2 (k1 + k2) for principal curvatures k1 and k2.
+    /// @param shown  the variance that the residuals show, in that of the noise
     template <class Surface>
-    ray_crossing(const Surface& s, const Eigen::Vector3d& x, const Eigen::Vector3d& ray) {
-        constexpr int most_steps = 12;         // performance only: quadratic convergence
-        constexpr double close_enough = 1e-9;  // numerical: its square is below the rounding error
-        for (int i = 0; i < most_steps && !is_found; ++i) {
-            foot = s.foot_of(combined(1.0, x, along, ray));
-            const double c = dot(foot.normal, ray);
-            if (!(i == 0 ? c != 0.0 : c * cosine > 0.0)) return;
-            cosine = c;
-            const double step = foot.distance / c;
-            along -= step;
-            is_found = std::abs(step) < close_enough * (1.0 + std::abs(along));
-        }
+    regression_term(const regression_point& p, const Surface& s, double shown)
+        : regression_term(p) {
+        constexpr double most_bend = 0.3;  // numerical: beyond, the series does not hold
+        const double bend = s.foot_of(from).curvature * p.deviation;
+        offset = 0.5 * shown * std::min(bend, most_bend);
     }
+
+    /// The difference of the range along the ray and that of the surface, which the ray meets at
+    /// the point `from`; linear in the distance of that point from surfaces near this one.
+    /// @param along  from the point to where the ray meets the surface
+    /// @param c      cosine of ray and outward normal there
+    regression_term(const regression_point& p, double along, double c)
+        : from(combined(1.0, p.at, along, p.ray)),
+          weight(1.0 / (c * p.deviation)),
+          offset(along / p.deviation) {}
 };
 
-/// The residual of a point and its derivatives, both divided by the deviation.
+/// The term of a point whose ray is known. The point where the ray meets the surface is found by
+/// Newton's method, on the side of the surface that the point is on; the distance from the surface
+/// is a convex function along a line, so the method converges. Left out if the ray does not meet
+/// the surface, or is oblique.
 template <class Surface>
-struct whitened_residual {
-    std::array<double, Surface::parameters> gradient;
-    double value;  ///< NaN where the ray does not meet the surface
-
-    /// @param shown  the factor of the variance that displaces distances from a curved surface
-    whitened_residual(const Surface& s, const regression_point& p, double shown) {
-        if (p.kind == regression_point::residual::of_range) {
-            const ray_crossing<decltype(s.foot_of(p.at))> c(s, p.at, p.ray);
-            value = c.is_found ? -c.along / p.deviation : std::numeric_limits<double>::quiet_NaN();
-            gradient = s.gradient(c.foot);
-            for (double& g : gradient) g /= c.cosine * p.deviation;
-        } else {
-            // E|x| = R + sigma^2 / 2 (k1 + k2) + ..., which no longer holds for large curvature.
-            constexpr double most_bend = 0.3;  // numerical: of sigma times the curvature
-            const auto foot = s.foot_of(p.at);
-            const double bend = std::min(foot.curvature * p.deviation, most_bend);
-            value = foot.distance / p.deviation - 0.5 * shown * bend;
-            gradient = s.gradient(foot);
-            for (double& g : gradient) g /= p.deviation;
-        }
+[[nodiscard]] regression_term term_along_ray(const regression_point& p, const Surface& s) {
+    constexpr int most_steps = 20;         // performance only: convergence is quadratic
+    constexpr double close_enough = 1e-9;  // numerical: its square is below the rounding error
+    constexpr double least_cosine = 0.2;   // chosen: of ray and normal, 78 degrees
+    double along = 0.0, cosine = 0.0;
+    for (int i = 0; i < most_steps; ++i) {
+        const auto foot = s.foot_of(combined(1.0, p.at, along, p.ray));
+        const double c = dot(foot.normal, p.ray);
+        if (!(i == 0 ? c != 0.0 : c * cosine > 0.0)) break;
+        cosine = c;
+        const double step = foot.distance / c;
+        if (std::abs(step) < close_enough && std::abs(c) >= least_cosine)
+            return {p, along - step, c};
+        along -= step;
     }
-};
+    regression_term left_out(p);
+    left_out.weight = 0.0;
+    return left_out;
+}
 
 /// A surface with the normal equations of the points about it.
 template <class Surface>
@@ -88,35 +90,72 @@ struct fitted_surface {
     Surface surface;
     normal_equations<Surface::parameters> equations;
     bool is_converged = false;
+    int iterations = 0;
 };
 
 /// The least-squares regression of one kind of surface on the same points.
 template <class Surface, execution X>
 class surface_regression {
   public:
-    using equations_type = normal_equations<Surface::parameters>;
+    static constexpr std::size_t n = Surface::parameters;
 
     /// Keeps references to the points and the execution.
-    surface_regression(std::span<regression_point> points, const X& run)
-        : points_(points), run_(run) {}
+    surface_regression(std::span<const regression_point> points, const X& run)
+        : points_(points), run_(run), terms_(points.begin(), points.end()) {}
 
-    /// The surface of least squared distances from the points whatever their rays.
+    /// The surface of least squared orthogonal distances, whatever the rays.
     [[nodiscard]] fitted_surface<Surface> from(const Surface& start, int most_iterations) const {
-        return minimized({start, equations_of(start)}, most_iterations);
+        fitted_surface<Surface> at{start, equations_of(start)};
+        constexpr double negligible = 1e-13;  // numerical: of a step, as the points span about one
+        constexpr double unseen = 1e-15;      // numerical: of the sum of squares
+        constexpr double first_damping = 1e-3, last_damping = 1e12,
+                         factor = 10.0;  // Marquardt 1963
+        double damping = first_damping;
+        if (!std::isfinite(at.equations.squares)) return at;
+        scaled_equations<n> scaled(at.equations);
+        while (at.iterations < most_iterations && !at.is_converged && damping < last_damping) {
+            ++at.iterations;
+            const auto step = scaled.step(damping);
+            double largest = 0.0, gain = 0.0;
+            for (std::size_t k = 0; k < n; ++k) {
+                largest = std::max(largest, std::abs(step[k]));
+                gain -= step[k] * at.equations.right[k];
+            }
+            at.is_converged = gain <= unseen * at.equations.squares || largest <= negligible;
+            const Surface next = at.surface.moved(step);
+            if (next.is_valid()) {
+                const normal_equations<n> there = equations_of(next);
+                if (there.squares <= at.equations.squares) {
+                    at.surface = next;
+                    at.equations = there;
+                    scaled = scaled_equations<n>(there);
+                    damping /= factor * factor;
+                    continue;
+                }
+            }
+            damping *= factor;
+        }
+        return at;
     }
 
-    /// The surface of least squared residuals in ranges where rays are known, with the bias of
-    /// distances removed elsewhere.
-    /// @param start  near the result
-    [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> start,
-                                                  int most_iterations) {
-        constexpr int rounds = 2;  // the first determines which rays meet the surface
-        for (int round = 0; round < rounds; ++round) {
-            select(start.surface);
-            start.equations = equations_of(start.surface);
-            start = minimized(start, most_iterations);
+    /// The surface of least squared residuals in ranges where rays are known, and in distances
+    /// without their bias elsewhere: the fixed point of residuals about the surface that they give.
+    /// @param at  the surface of least squared distances
+    [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
+        constexpr int most_rounds = 8;  // performance only: two to four are the rule
+        double shown = variance_of_distances(at.surface);
+        for (int round = 0; round < most_rounds; ++round) {
+            for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
+                for (std::size_t i = begin; i < end; ++i)
+                    terms_[i] = points_[i].has_ray()
+                                    ? term_along_ray(points_[i], at.surface)
+                                    : regression_term(points_[i], at.surface, shown);
+            });
+            at = from(at.surface, most_iterations);
+            if (at.iterations <= 1) break;
+            shown = variance_of_distances(at.surface);
         }
-        return start;
+        return at;
     }
 
     /// Root mean square distance of all points.
@@ -130,79 +169,43 @@ class surface_regression {
     }
 
   private:
-    /// Chooses the residual of each point, and the factor of the variance.
-    void select(const Surface& s) {
-        constexpr double least_cosine = 0.2;  // chosen: of rays and normals, 78 degrees
-        double squares = 0.0;
-        std::size_t count = 0;
-        for (regression_point& p : points_) {
-            if (p.has_ray()) {
-                const ray_crossing<decltype(s.foot_of(p.at))> c(s, p.at, p.ray);
-                p.kind = c.is_found && std::abs(c.cosine) >= least_cosine
-                             ? regression_point::residual::of_range
-                             : regression_point::residual::left_out;
-            } else {
-                const double r = whitened_residual<Surface>(s, p, shown_).value;
-                squares += r * r;
-                ++count;
-            }
-        }
-        if (count > Surface::parameters)
-            shown_ = std::min(1.0, squares / static_cast<double>(count - Surface::parameters));
-    }
-
     /// Sums of fixed chunks of the points, so that they do not depend on the threads.
-    [[nodiscard]] equations_type equations_of(const Surface& s) const {
-        scratch<equations_type> parts(chunk_count(points_.size()));
-        for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
-            equations_type sum;
+    [[nodiscard]] normal_equations<n> equations_of(const Surface& s) const {
+        scratch<normal_equations<n>> parts(chunk_count(terms_.size()));
+        for_each_chunk(run_, terms_.size(), [&](std::size_t begin, std::size_t end) {
+            normal_equations<n> sum;
             for (std::size_t i = begin; i < end; ++i) {
-                if (points_[i].kind == regression_point::residual::left_out) continue;
-                const whitened_residual<Surface> r(s, points_[i], shown_);
-                sum.add(r.gradient, r.value);
+                const regression_term& t = terms_[i];
+                if (t.weight == 0.0) continue;
+                const auto foot = s.foot_of(t.from);
+                auto gradient = s.gradient(foot);
+                for (double& g : gradient) g *= t.weight;
+                sum.add(gradient, t.weight * foot.distance - t.offset);
             }
             parts[begin / chunk_size] = sum;
         });
-        equations_type all;
-        for (const equations_type& part : parts) all.add(part);
+        normal_equations<n> all;
+        for (const normal_equations<n>& part : parts) all.add(part);
         return all;
     }
 
-    [[nodiscard]] fitted_surface<Surface> minimized(fitted_surface<Surface> at,
-                                                    int most_iterations) const {
-        constexpr double negligible = 1e-13;  // numerical: of a step, as the points span about one
-        constexpr double unseen = 1e-15;      // numerical: of the sum of squares
-        constexpr double first_damping = 1e-3, last_damping = 1e12,
-                         factor = 10.0;  // Marquardt 1963
-        double damping = first_damping;
-        at.is_converged = false;
-        if (!std::isfinite(at.equations.squares)) return at;
-        scaled_equations<Surface::parameters> scaled(at.equations);
-        for (int i = 0; i < most_iterations && !at.is_converged && damping < last_damping; ++i) {
-            const auto step = scaled.step(damping);
-            double largest = 0.0, gain = 0.0;
-            for (std::size_t k = 0; k < step.size(); ++k) {
-                largest = std::max(largest, std::abs(step[k]));
-                gain -= step[k] * at.equations.right[k];
-            }
-            at.is_converged = gain <= unseen * at.equations.squares || largest <= negligible;
-            const Surface next = at.surface.moved(step);
-            const equations_type there = next.is_valid() ? equations_of(next) : equations_type();
-            if (there.count > 0 && there.squares <= at.equations.squares) {
-                at.surface = next;
-                at.equations = there;
-                scaled = scaled_equations<Surface::parameters>(there);
-                damping /= factor * factor;
-            } else {
-                damping *= factor;
-            }
+    /// The mean squared residual of the points without a ray, at most 1.
+    [[nodiscard]] double variance_of_distances(const Surface& s) const {
+        double squares = 0.0;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            if (points_[i].has_ray()) continue;
+            const double r =
+                terms_[i].weight * s.foot_of(terms_[i].from).distance - terms_[i].offset;
+            squares += r * r;
+            ++count;
         }
-        return at;
+        return count > n ? std::min(1.0, squares / static_cast<double>(count - n)) : 0.0;
     }
 
-    std::span<regression_point> points_;
+    std::span<const regression_point> points_;
     const X& run_;
-    double shown_ = 0.0;
+    scratch<regression_term> terms_;
 };
 
 }  // namespace gnomon::detail
