@@ -32,8 +32,9 @@ struct surface_fit {
         not_converged,   ///< the parameters are those of the last iteration
         too_few_points,  ///< fewer finite points than parameters and one more
         /// The points do not determine the parameters: they are coplanar, collinear or one place,
-        /// or, within their noise, flat. The test: three deviations of a parameter are the radius,
-        /// or 1 rad, or more.
+        /// or flat within their noise. The test: the standard deviation of a parameter is 0.34
+        /// radii (sphere), 0.29 (cylinder), 0.27 (cone) or more, or as many radians; .3 % of planes
+        /// pass.
         degenerate
     };
 

@@ -32,7 +32,7 @@ namespace gnomon::detail {
 /// The finite points of a regression, in lengths of `1 / per_metre` about their centroid.
 struct regression_cloud {
     scratch<regression_point> points;
-    scratch<oriented_sample> samples;          ///< of about 1,000 of the points at most
+    scratch<oriented_sample> samples;          ///< of about 300 of the points at most
     scratch<regression_point> sampled_points;  ///< the same points
     Eigen::Vector3d centroid{0.0, 0.0, 0.0};   ///< [m]
     double per_metre = 1.0;                    ///< a power of two: multiplication by it is exact
@@ -66,7 +66,7 @@ struct regression_cloud {
         if (!has_volume || !std::isnormal(e.values[0])) return;
         per_metre = power_to_one(std::sqrt(e.values[0]));
         points.reserve(n);
-        constexpr double enough = 1000.0;  // performance only
+        constexpr double enough = 300.0;  // performance only
         random_stream random(0);
         for (std::size_t i = 0; i < p.size(); ++i) {
             const Eigen::Vector3d x = p[i];
@@ -152,9 +152,12 @@ struct tested_surface : surface_fit {
     }
 
   private:
-    /// Whether three standard deviations of each parameter are below the radius, or 1 rad.
+    /// Whether the deviation of each parameter is well below the radius, or 1 rad. A plane has
+    /// three parameters; the others are determined by noise alone if the points are flat, so that
+    /// the square of the curvature in its variance is at most a chi-square.
     [[nodiscard]] bool is_determined() const {
-        constexpr double deviations = 3.0;  // 99.7 % of a normal distribution
+        constexpr std::size_t of_plane = 3;
+        const double deviations = std::sqrt(chi_square_limit(n - of_plane));
         for (std::size_t i = 0; i < n; ++i) {
             const double most = Surface::is_length[i] ? surface.radius : 1.0;
             if (!(deviations * std::sqrt(covariance[i][i]) < most)) return false;

@@ -62,12 +62,12 @@ struct regression_term {
 /// The term of a point whose ray is known. The point where the ray meets the surface is found by
 /// Newton's method, on the side of the surface that the point is on; the distance from the surface
 /// is a convex function along a line, so the method converges. Left out if the ray does not meet
-/// the surface, or is oblique.
+/// the surface, or more obliquely than at `least_cosine` of ray and normal.
 template <class Surface>
-[[nodiscard]] regression_term term_along_ray(const regression_point& p, const Surface& s) {
+[[nodiscard]] regression_term term_along_ray(const regression_point& p, const Surface& s,
+                                             double least_cosine) {
     constexpr int most_steps = 20;         // performance only: convergence is quadratic
     constexpr double close_enough = 1e-9;  // numerical: its square is below the rounding error
-    constexpr double least_cosine = 0.2;   // chosen: of ray and normal, 78 degrees
     double along = 0.0, cosine = 0.0;
     for (int i = 0; i < most_steps; ++i) {
         const auto foot = s.foot_of(combined(1.0, p.at, along, p.ray));
@@ -107,7 +107,7 @@ class surface_regression {
     [[nodiscard]] fitted_surface<Surface> from(const Surface& start, int most_iterations) const {
         fitted_surface<Surface> at{start, equations_of(start)};
         constexpr double negligible = 1e-13;  // numerical: of a step, as the points span about one
-        constexpr double unseen = 1e-15;      // numerical: of the sum of squares
+        constexpr double unseen = 1e-12;      // numerical: of the sum of squares, rounded terms
         constexpr double first_damping = 1e-3, last_damping = 1e12,
                          factor = 10.0;  // Marquardt 1963
         double damping = first_damping;
@@ -142,15 +142,11 @@ class surface_regression {
     /// without their bias elsewhere: the fixed point of residuals about the surface that they give.
     /// @param at  the surface of least squared distances
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
-        constexpr int most_rounds = 8;  // performance only: two to four are the rule
+        constexpr int most_rounds = 8;      // performance only: two to four are the rule
+        constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
         double shown = variance_of_distances(at.surface);
         for (int round = 0; round < most_rounds; ++round) {
-            for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
-                for (std::size_t i = begin; i < end; ++i)
-                    terms_[i] = points_[i].has_ray()
-                                    ? term_along_ray(points_[i], at.surface)
-                                    : regression_term(points_[i], at.surface, shown);
-            });
+            set_terms(at.surface, shown, round < choosing_rounds);
             at = from(at.surface, most_iterations);
             if (at.iterations <= 1) break;
             shown = variance_of_distances(at.surface);
@@ -169,6 +165,22 @@ class surface_regression {
     }
 
   private:
+    /// The terms about a surface.
+    /// @param choose  whether points may be left out or in; else, as far as possible, they stay
+    void set_terms(const Surface& s, double shown, bool choose) {
+        constexpr double least_cosine = 0.2;  // chosen: of ray and normal, 78 degrees
+        const double least = choose ? least_cosine : 0.5 * least_cosine;
+        for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t i = begin; i < end; ++i) {
+                const regression_point& p = points_[i];
+                if (!p.has_ray())
+                    terms_[i] = regression_term(p, s, shown);
+                else if (choose || terms_[i].weight != 0.0)
+                    terms_[i] = term_along_ray(p, s, least);
+            }
+        });
+    }
+
     /// Sums of fixed chunks of the points, so that they do not depend on the threads.
     [[nodiscard]] normal_equations<n> equations_of(const Surface& s) const {
         scratch<normal_equations<n>> parts(chunk_count(terms_.size()));
