@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the headers of images, perception,
-the simulator and all that they include.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the headers of images and of curved
+surfaces, perception, the simulator and all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          compares that file with what would be written
@@ -82,7 +82,8 @@ def main():
 
     amalgamation = Amalgamation()
     for umbrella in ("gnomon/gnomon.hpp", "gnomon/segmentation/segment_image.hpp",
-                     "gnomon/perception.hpp", "gnomon/simulation.hpp"):
+                     "gnomon/features/fit_sphere.hpp", "gnomon/features/fit_cylinder.hpp",
+                     "gnomon/features/fit_cone.hpp", "gnomon/perception.hpp", "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()
 

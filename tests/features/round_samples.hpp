@@ -166,6 +166,7 @@ double largest_error(bool is_viewed) {
         d.height = random.uniform(0.5, 4.0);
         d.half_angle = random.uniform(0.05, 0.45);
         d.normal_noise = seed % 2 == 0 ? 0.0 : 0.3;
+        d.points = seed % 3 == 0 ? 2000 : 100;  // more than the start uses, or not
         d.along_rays = is_viewed;
         const sample s = draw<Kind>(d, seed, d.radius * Eigen::Vector3d(0.7, -2.1, 1.3));
         const gnomon::noise_curve noise = gnomon::constant_noise{0.01 * d.radius};

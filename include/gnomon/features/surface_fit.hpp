@@ -14,6 +14,10 @@
 ///
 /// To the variance of the noise is added that of the rounding of the coordinates. Unevenness of the
 /// surface itself is stated as noise: `noise.plus(0.002)`.
+///
+/// Covariances are of first order: where noise is at most .05 radii and angles have deviations of
+/// at most .05 rad, squared errors are within 10 % of them. Without noise, parameters are exact to
+/// the rounding of the coordinates.
 #pragma once
 
 #include <cstddef>

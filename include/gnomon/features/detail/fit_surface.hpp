@@ -90,7 +90,7 @@ struct regression_cloud {
 
 /// The surface that fits the sample best, from all first values.
 template <class Surface>
-[[nodiscard]] Surface best_start(regression_cloud& cloud) {
+[[nodiscard]] fitted_surface<Surface> best_start(regression_cloud& cloud) {
     constexpr int iterations = 20;  // performance only: minima are compared, not reached
     const sequential here;
     const surface_regression<Surface, sequential> regression(cloud.sampled_points, here);
@@ -101,7 +101,7 @@ template <class Surface>
         if (best.equations.count == 0 || found.equations.squares < best.equations.squares)
             best = found;
     }
-    return best.surface;
+    return best;
 }
 
 /// The upper .3 % quantile of chi-square, by Wilson and Hilferty 1931.
@@ -130,8 +130,7 @@ struct tested_surface : surface_fit {
         if (!cloud.has_volume) return;
         constexpr int iterations = 100;  // performance only: some ten are the rule
         surface_regression<Surface, X> regression(cloud.points, run);
-        const auto fit =
-            regression.refined(regression.from(best_start<Surface>(cloud), iterations), iterations);
+        const auto fit = regression.refined(best_start<Surface>(cloud), iterations);
         points = fit.equations.count;
         if (points <= n) {
             status = outcome::too_few_points;

@@ -91,6 +91,13 @@ struct fitted_surface {
     normal_equations<Surface::parameters> equations;
     bool is_converged = false;
     int iterations = 0;
+
+    /// Of the residuals, at most 1, which is that of the noise; 0 if it is not known.
+    [[nodiscard]] double variance() const {
+        const auto& [left, right, squares, count] = equations;
+        if (count <= Surface::parameters) return 0.0;
+        return std::min(1.0, squares / static_cast<double>(count - Surface::parameters));
+    }
 };
 
 /// The least-squares regression of one kind of surface on the same points.
@@ -140,16 +147,14 @@ class surface_regression {
 
     /// The surface of least squared residuals in ranges where rays are known, and in distances
     /// without their bias elsewhere: the fixed point of residuals about the surface that they give.
-    /// @param at  the surface of least squared distances
+    /// @param at  a surface of least squared distances, of these points or some of them
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
         constexpr int most_rounds = 8;      // performance only: two to four are the rule
         constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
-        double shown = variance_of_distances(at.surface);
         for (int round = 0; round < most_rounds; ++round) {
-            set_terms(at.surface, shown, round < choosing_rounds);
+            set_terms(at.surface, at.variance(), round < choosing_rounds);
             at = from(at.surface, most_iterations);
             if (at.iterations <= 1) break;
-            shown = variance_of_distances(at.surface);
         }
         return at;
     }
@@ -199,20 +204,6 @@ class surface_regression {
         normal_equations<n> all;
         for (const normal_equations<n>& part : parts) all.add(part);
         return all;
-    }
-
-    /// The mean squared residual of the points without a ray, at most 1.
-    [[nodiscard]] double variance_of_distances(const Surface& s) const {
-        double squares = 0.0;
-        std::size_t count = 0;
-        for (std::size_t i = 0; i < points_.size(); ++i) {
-            if (points_[i].has_ray()) continue;
-            const double r =
-                terms_[i].weight * s.foot_of(terms_[i].from).distance - terms_[i].offset;
-            squares += r * r;
-            ++count;
-        }
-        return count > n ? std::min(1.0, squares / static_cast<double>(count - n)) : 0.0;
     }
 
     std::span<const regression_point> points_;
