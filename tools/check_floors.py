@@ -4,11 +4,11 @@
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
 contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
-needs Boost, and the headers of organized images and curved surfaces, which few need), gnomon.hpp every umbrella but
-that of the simulator. gnomon/perception.hpp, which composes all floors, is in no umbrella and is
-included by name. Adapters to other libraries see all
-floors, and no header sees them; they have no umbrella. Some foreign headers are kept out, for what
-they cost or break. No header includes itself in a circle.
+needs Boost, and the headers of organized images and of curved surfaces, which few need), gnomon.hpp
+every umbrella but that of the simulator. gnomon/perception.hpp, which composes all floors, is in no
+umbrella and is included by name. Adapters to other libraries see all floors, and no header sees
+them; they have no umbrella. Some foreign headers are kept out, for what they cost or
+break. No header includes itself in a circle.
 """
 
 import pathlib

@@ -40,10 +40,10 @@ void expect_derivatives(std::uint64_t seed) {
     for (std::size_t k = 0; k < Surface::parameters; ++k) {
         std::array<double, Surface::parameters> step{};
         step[k] = h;
-        const double up = s.moved(step).foot_of(x).distance;
+        const double after = s.moved(step).foot_of(x).distance;
         step[k] = -h;
-        const double down = s.moved(step).foot_of(x).distance;
-        EXPECT_NEAR(gradient[k], (up - down) / (2.0 * h), 1e-7) << "parameter " << k;
+        const double before = s.moved(step).foot_of(x).distance;
+        EXPECT_NEAR(gradient[k], (after - before) / (2.0 * h), 1e-7) << "parameter " << k;
     }
     const Eigen::Vector3d on = x - foot.distance * foot.normal;
     EXPECT_NEAR(s.foot_of(on).distance, 0.0, 1e-12);
