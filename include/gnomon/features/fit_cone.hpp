@@ -62,17 +62,15 @@ struct cone_estimate : surface_fit {
 ///                    points are known, noise lies along the rays, else it is the same in all
 ///                    directions
 /// @param surface     n surface elements with normals, such as the result of `estimate_normals`,
-/// for
-///                    a first cone; signs do not matter, and normals that are missing or not finite
-///                    are left out, their points are not
+///                    for a first cone. Signs do not matter. Normals that are missing or not
+///                    finite are left out, their points are not.
 /// @param members     the indices of the points of the fit; those that are not finite are left out
 /// @param noise       of the sensor
 /// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
 /// @param projection  maps an element of the range to a point
 /// @return the cone, its covariance and the outcome; see `surface_fit`
 /// @throws std::invalid_argument  if points, surface or view points differ in number, or an index
-/// is
-///                                not below n
+///                                is not below n
 /// Complexity: O(members).
 template <class R, normal_range Surface, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
