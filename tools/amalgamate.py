@@ -82,6 +82,10 @@ def main():
 
     amalgamation = Amalgamation()
     for umbrella in ("gnomon/gnomon.hpp", "gnomon/segmentation/segment_image.hpp",
+                     "gnomon/features/describe_points.hpp", "gnomon/features/spin_image.hpp",
+                     "gnomon/features/shape_context.hpp",
+                     "gnomon/features/harmonic_shape_context.hpp",
+                     "gnomon/features/zernike_descriptor.hpp",
                      "gnomon/perception.hpp", "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()

@@ -4,7 +4,7 @@
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
 contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
-needs Boost, and the headers of organized images, which few need), gnomon.hpp every umbrella but
+needs Boost, and the headers of organized images and of descriptors, which few need), gnomon.hpp every umbrella but
 that of the simulator. gnomon/perception.hpp, which composes all floors, is in no umbrella and is
 included by name. Adapters to other libraries see all
 floors, and no header sees them; they have no umbrella. Some foreign headers are kept out, for what
@@ -44,9 +44,12 @@ FORBIDDEN = {
     "ranges": "clang with libstdc++ refuses its views, and too expensive to compile",
     "regex": "too expensive to compile",
 }
-# Included by name: the registry needs Boost; few users have organized images.
+# Included by name: the registry needs Boost; few users have organized images, or need descriptors.
+DESCRIPTORS = {f"gnomon/features/{name}.hpp" for name in (
+    "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
+    "zernike_descriptor")}
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
-           "gnomon/segmentation/segment_image.hpp"}
+           "gnomon/segmentation/segment_image.hpp"} | DESCRIPTORS
 CMATH_HOME = "gnomon/core/detail/cmath.hpp"
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.M)

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <deque>
-#include <limits>
+#include <span>
 #include <stdexcept>
 #include <vector>
 
@@ -9,12 +11,15 @@
 
 #include "laws/clouds.hpp"
 #include "laws/descriptor_laws.hpp"
+#include <gnomon/core/random.hpp>
+#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/describe_points.hpp>
 #include <gnomon/features/harmonic_shape_context.hpp>
 #include <gnomon/features/shape_context.hpp>
 #include <gnomon/features/spin_image.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/orient.hpp>
 
 namespace {
 
@@ -64,8 +69,8 @@ TEST(describe_points, describes_some_points) {
     const std::vector<point_index> keypoints{1999, 7, 7, 0, 512, 7, 1024};
     const auto compare = [&](const auto& describe) {
         const auto all = describe_points(index, sheet.surface, describe);
-        const auto some = describe_points(index, sheet.surface, keypoints, describe,
-                                          gnomon::threads{2});
+        const auto some =
+            describe_points(index, sheet.surface, keypoints, describe, gnomon::threads{2});
         ASSERT_EQ(some.size(), keypoints.size());
         for (std::size_t r = 0; r < keypoints.size(); ++r) {
             ASSERT_LT(laws::share_that_differs(some[r], all[keypoints[r]]), 1e-12);
@@ -77,8 +82,35 @@ TEST(describe_points, describes_some_points) {
     compare(gnomon::angular_spin_image{});
     compare(gnomon::shape_context{.inner_radius = 0.01, .radial_bins = 3, .density_radius = 0.02});
     compare(gnomon::harmonic_shape_context{});
-    EXPECT_EQ(describe_points(index, sheet.surface, std::vector<point_index>{}, count_above{}).size(),
-              0u);
+    EXPECT_EQ(
+        describe_points(index, sheet.surface, std::vector<point_index>{}, count_above{}).size(),
+        0u);
+}
+
+/// Where three surfaces meet, the image is another one than on a surface; and alike in a moved
+/// copy.
+TEST(describe_points, distinguishes_places) {
+    clouds::cloud points{{0, 0, 0}, {0.5, 0.5, 0}, {0.5, 0.6, 0}};
+    gnomon::random_stream random(9);
+    for (int i = 0; i < 6000; ++i) {
+        Eigen::Vector3d p(random.uniform(), random.uniform(), random.uniform());
+        p[i % 3] = 0.002 * random.gaussian();
+        points.push_back(p);
+    }
+    const std::vector<point_index> keypoints{0, 1, 2};
+    // [describe]
+    const gnomon::spatial_index index(points);
+    auto surface = gnomon::estimate_normals(index, gnomon::knn{.k = 30});
+    gnomon::orient_normals(gnomon::with_viewpoint(points, {1, 1, 1}), surface);
+
+    const gnomon::spin_image describe{.radius = 0.2, .height = 0.2};
+    const gnomon::point_descriptors rows =
+        gnomon::describe_points(index, surface, keypoints, describe);
+    const double to_corner = describe.distance(rows[0], rows[1]);
+    const double on_floor = describe.distance(rows[1], rows[2]);
+    // [describe]
+    EXPECT_LT(on_floor, 0.1);
+    EXPECT_GT(to_corner, 2.0 * on_floor);
 }
 
 TEST(describe_points, reads_any_container) {
@@ -165,8 +197,8 @@ TEST(describe_points, takes_duplicates_and_any_radius) {
     }
     for (const double radius : {10.0, 1e10, 1e160, 1e300})
         EXPECT_EQ(describe_points(points, surface, count_above{radius})[40][1], 40.0);
-    const auto images = describe_points(points, surface, spin_image{.radial_bins = 2,
-                                                                    .axial_bins = 1});
+    const auto images =
+        describe_points(points, surface, spin_image{.radial_bins = 2, .axial_bins = 1});
     EXPECT_EQ(images[0][0], 39.0);
     EXPECT_EQ(images.trust[40], trust::too_few_neighbors);
 }

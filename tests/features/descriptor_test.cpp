@@ -21,8 +21,7 @@ struct uncallable_descriptor {
 
 /// The least of the three forms.
 struct of_positions : uncallable_descriptor {
-    trust operator()(const auto&, const auto&, gnomon::neighborhood_view,
-                     std::span<double>) const {
+    trust operator()(const auto&, const auto&, gnomon::neighborhood_view, std::span<double>) const {
         return trust::good;
     }
 };
@@ -52,8 +51,7 @@ struct not_const : uncallable_descriptor {
     }
 };
 struct without_trust : uncallable_descriptor {
-    void operator()(const auto&, const auto&, gnomon::neighborhood_view, std::span<double>) const {
-    }
+    void operator()(const auto&, const auto&, gnomon::neighborhood_view, std::span<double>) const {}
 };
 
 static_assert(gnomon::descriptor<of_positions>);

@@ -40,8 +40,11 @@ void expect_near(const std::vector<double>& a, const std::vector<double>& b, dou
 /// Any rotation about the normal, to 1e-12 of the number of neighbors.
 TEST(harmonic_shape_context, is_invariant_under_rotation_about_the_normal) {
     for (const std::size_t shells : {1u, 4u}) {
-        const harmonic_shape_context s{.radius = 0.5, .inner_radius = 0.01, .bandwidth = 16,
-                                       .radial_bins = shells, .normalize = true};
+        const harmonic_shape_context s{.radius = 0.5,
+                                       .inner_radius = 0.01,
+                                       .bandwidth = 16,
+                                       .radial_bins = shells,
+                                       .normalize = true};
         for (std::uint64_t seed = 0; seed < 50; ++seed) {
             const auto neighbors = harmonic_neighbors(seed);
             const Eigen::Vector3d normal = clouds::random_rotation(seed).col(0);
@@ -80,12 +83,11 @@ TEST(harmonic_shape_context, is_invariant_under_rigid_motion) {
 TEST(harmonic_shape_context, has_the_amplitudes_of_one_direction) {
     const double theta = 0.7, c = std::cos(theta), s = std::sin(theta), pi = std::numbers::pi;
     const clouds::cloud one{{0.3 * s, 0.0, 0.3 * c}};
-    const auto row =
-        harmonics_of({.radius = 0.5, .bandwidth = 3}, {0, 0, 1}, one);
+    const auto row = harmonics_of({.radius = 0.5, .bandwidth = 3}, {0, 0, 1}, one);
     const std::vector<double> expected{
-        std::sqrt(1 / (4 * pi)),           std::sqrt(3 / (4 * pi)) * c,
-        std::sqrt(3 / (8 * pi)) * s,       std::sqrt(5 / (16 * pi)) * (3 * c * c - 1),
-        std::sqrt(15 / (8 * pi)) * s * c,  std::sqrt(15 / (32 * pi)) * s * s};
+        std::sqrt(1 / (4 * pi)),          std::sqrt(3 / (4 * pi)) * c,
+        std::sqrt(3 / (8 * pi)) * s,      std::sqrt(5 / (16 * pi)) * (3 * c * c - 1),
+        std::sqrt(15 / (8 * pi)) * s * c, std::sqrt(15 / (32 * pi)) * s * s};
     expect_near(row, expected, 1e-14);
 }
 
@@ -97,8 +99,8 @@ TEST(harmonic_shape_context, has_a_dimension_by_its_bandwidth) {
 
 /// A neighbor is in one shell alone, and the shells add up.
 TEST(harmonic_shape_context, has_shells) {
-    const harmonic_shape_context s{.radius = 0.5, .inner_radius = 0.05, .bandwidth = 1,
-                                   .radial_bins = 2};
+    const harmonic_shape_context s{
+        .radius = 0.5, .inner_radius = 0.05, .bandwidth = 1, .radial_bins = 2};
     const double limit = std::sqrt(0.5 * 0.05), y00 = std::sqrt(1 / (4 * std::numbers::pi));
     const clouds::cloud neighbors{{limit + 1e-9, 0, 0}, {0, limit - 1e-9, 0}, {0, 0, 0.05},
                                   {0.5, 0, 0},          {0.04, 0, 0},         {0, 0, 0}};

@@ -27,8 +27,7 @@ const Eigen::Vector3d context_center(3, -2, 1);
 /// Neighbors in a cube about a point, some beyond the ball of radius 0.2.
 clouds::cloud context_neighbors(std::uint64_t seed, std::size_t n = 300) {
     clouds::cloud all = clouds::in_cube(n, seed);
-    for (Eigen::Vector3d& q : all)
-        q = context_center + 0.5 * (q - Eigen::Vector3d(0.5, 0.5, 0.5));
+    for (Eigen::Vector3d& q : all) q = context_center + 0.5 * (q - Eigen::Vector3d(0.5, 0.5, 0.5));
     return all;
 }
 
@@ -59,9 +58,9 @@ std::vector<double> context_one_by_one(const shape_context& s, const Eigen::Vect
         const double elevation = std::acos(normal.dot(d) / r) / std::numbers::pi;
         std::size_t shell = 0;
         while (shell + 1 < s.radial_bins &&
-               r >= s.inner_radius * std::pow(s.radius / s.inner_radius,
-                                              static_cast<double>(shell + 1) /
-                                                  static_cast<double>(s.radial_bins)))
+               r >= s.inner_radius *
+                        std::pow(s.radius / s.inner_radius, static_cast<double>(shell + 1) /
+                                                                static_cast<double>(s.radial_bins)))
             ++shell;
         const auto a = static_cast<std::size_t>(azimuth * static_cast<double>(s.azimuth_bins));
         const auto e = static_cast<std::size_t>(elevation * static_cast<double>(s.elevation_bins));
@@ -72,8 +71,10 @@ std::vector<double> context_one_by_one(const shape_context& s, const Eigen::Vect
 
 TEST(shape_context, counts_the_neighbors_of_each_bin) {
     for (std::uint64_t seed = 0; seed < 60; ++seed) {
-        const shape_context s{.radius = 0.2, .inner_radius = seed % 2 == 0 ? 0.0 : 0.05,
-                              .azimuth_bins = 1 + seed % 13, .elevation_bins = 1 + seed % 7,
+        const shape_context s{.radius = 0.2,
+                              .inner_radius = seed % 2 == 0 ? 0.0 : 0.05,
+                              .azimuth_bins = 1 + seed % 13,
+                              .elevation_bins = 1 + seed % 7,
                               .radial_bins = seed % 2 == 0 ? 1 : 1 + seed % 5};
         const auto neighbors = context_neighbors(seed);
         const Eigen::Vector3d normal = context_normal(seed);
@@ -89,8 +90,8 @@ TEST(shape_context, conserves_mass) {
         const Eigen::Vector3d normal = context_normal(seed);
         neighbors[5] = context_center + 0.1 * normal;  // no azimuth
         for (const double inner : {0.0, 0.05}) {
-            shape_context s{.radius = 0.2, .inner_radius = inner,
-                            .radial_bins = inner > 0.0 ? 15u : 1u};
+            shape_context s{
+                .radius = 0.2, .inner_radius = inner, .radial_bins = inner > 0.0 ? 15u : 1u};
             double inside = 0.0;
             for (const Eigen::Vector3d& q : neighbors) {
                 const double r = (q - context_center).norm();
@@ -144,8 +145,12 @@ TEST(shape_context, distance_is_the_least_over_azimuths) {
 
 /// Frome's weights: the volumes of the bins add up to that of the shells, and densities divide.
 TEST(shape_context, weighs_by_volume_and_density) {
-    const shape_context s{.radius = 0.2, .inner_radius = 0.05, .azimuth_bins = 5,
-                          .elevation_bins = 4, .radial_bins = 3, .density_radius = 0.1};
+    const shape_context s{.radius = 0.2,
+                          .inner_radius = 0.05,
+                          .azimuth_bins = 5,
+                          .elevation_bins = 4,
+                          .radial_bins = 3,
+                          .density_radius = 0.1};
     const auto neighbors = context_neighbors(3, 40000);
     const std::vector<double> one(neighbors.size(), 1.0), four(neighbors.size(), 4.0);
     const Eigen::Vector3d normal = context_normal(3);
@@ -170,8 +175,8 @@ TEST(shape_context, weighs_by_volume_and_density) {
 TEST(shape_context, is_given_densities) {
     const auto points = clouds::sheet(600, 8);
     const std::vector<laws::described_normal> surface(points.size(), {{0, 0, 1}});
-    const shape_context s{.radius = 0.2, .inner_radius = 0.01, .radial_bins = 4,
-                          .density_radius = 0.07};
+    const shape_context s{
+        .radius = 0.2, .inner_radius = 0.01, .radial_bins = 4, .density_radius = 0.07};
     const auto rows = gnomon::describe_points(points, surface, s);
     for (std::size_t i = 0; i < points.size(); i += 37) {
         clouds::cloud neighbors;
@@ -179,10 +184,9 @@ TEST(shape_context, is_given_densities) {
         for (std::size_t j = 0; j < points.size(); ++j) {
             if (j == i || (points[j] - points[i]).norm() > 0.2) continue;
             neighbors.push_back(points[j]);
-            densities.push_back(static_cast<double>(
-                std::count_if(points.begin(), points.end(), [&](const Eigen::Vector3d& q) {
-                    return (q - points[j]).norm() <= 0.07;
-                })));
+            densities.push_back(static_cast<double>(std::count_if(
+                points.begin(), points.end(),
+                [&](const Eigen::Vector3d& q) { return (q - points[j]).norm() <= 0.07; })));
         }
         std::vector<double> row(s.dimension(), 0.0);
         (void)s(points[i], {0, 0, 1}, neighbors, row, densities);
@@ -206,8 +210,7 @@ TEST(shape_context, refuses_numbers_out_of_range) {
     };
     for (const double bad : {0.0, -1.0, clouds::nan, clouds::infinity}) refused({.radius = bad});
     for (const double bad : {-1.0, 0.1, clouds::nan}) refused({.inner_radius = bad});
-    for (const double bad : {-1.0, clouds::nan, clouds::infinity})
-        refused({.density_radius = bad});
+    for (const double bad : {-1.0, clouds::nan, clouds::infinity}) refused({.density_radius = bad});
     refused({.azimuth_bins = 0});
     refused({.elevation_bins = 0});
     refused({.radial_bins = 0});
@@ -218,8 +221,8 @@ TEST(shape_context, refuses_numbers_out_of_range) {
 
 TEST(shape_context, obeys_the_laws) {
     laws::descriptor_laws(shape_context{.radius = 0.1});
-    laws::descriptor_laws(shape_context{.radius = 0.2, .inner_radius = 0.02, .radial_bins = 3,
-                                        .density_radius = 0.05});
+    laws::descriptor_laws(shape_context{
+        .radius = 0.2, .inner_radius = 0.02, .radial_bins = 3, .density_radius = 0.05});
 }
 
 }  // namespace

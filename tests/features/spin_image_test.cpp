@@ -68,8 +68,8 @@ std::vector<double> counted_one_by_one(const spin_image& s, const spun_sample& s
 
 TEST(spin_image, counts_the_neighbors_of_each_bin) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
-        const spin_image s{.radius = 0.3, .height = 0.5, .radial_bins = 1 + seed % 6,
-                           .axial_bins = 1 + seed % 7};
+        const spin_image s{
+            .radius = 0.3, .height = 0.5, .radial_bins = 1 + seed % 6, .axial_bins = 1 + seed % 7};
         const spun_sample sample(400, s.support_radius(), seed);
         const auto image = image_of(s, sample.p, sample.normal, sample.neighbors);
         ASSERT_EQ(image, counted_one_by_one(s, sample));
@@ -108,8 +108,12 @@ TEST(spin_image, is_that_of_pcl_if_interpolated) {
     for (std::uint64_t seed = 0; seed < 50; ++seed) {
         const double radius = 0.05 + 0.01 * static_cast<double>(seed);
         const spun_sample sample(300, std::sqrt(2.0) * radius, seed);
-        const spin_image s{.radius = radius, .height = 2 * radius, .radial_bins = 8,
-                           .axial_bins = 16, .interpolate = true, .normalize = true};
+        const spin_image s{.radius = radius,
+                           .height = 2 * radius,
+                           .radial_bins = 8,
+                           .axial_bins = 16,
+                           .interpolate = true,
+                           .normalize = true};
         const auto image = image_of(s, sample.p, sample.normal, sample.neighbors);
         const auto expected = as_in_pcl(8, radius, sample);
         ASSERT_EQ(image.size(), expected.size());
@@ -125,8 +129,8 @@ TEST(spin_image, sums_up_to_the_neighbors_in_the_cylinder) {
             std::size_t inside = 0;
             for (const Eigen::Vector3d& q : sample.neighbors) {
                 const double beta = sample.normal.dot(q - sample.p);
-                inside += std::abs(beta) <= 0.05 &&
-                          (q - sample.p - beta * sample.normal).norm() <= 0.2;
+                inside +=
+                    std::abs(beta) <= 0.05 && (q - sample.p - beta * sample.normal).norm() <= 0.2;
             }
             auto image = image_of(s, sample.p, sample.normal, sample.neighbors);
             const double sum = std::accumulate(image.begin(), image.end(), 0.0);
@@ -151,13 +155,14 @@ TEST(spin_image, does_not_change_with_rotations) {
                 Eigen::AngleAxisd(0.1 + static_cast<double>(seed), sample.normal)
                     .toRotationMatrix();
             const auto turned = clouds::moved(sample.neighbors, turn, sample.p - turn * sample.p);
-            about_normal = std::max(about_normal, laws::share_that_differs(
-                image, image_of(s, sample.p, sample.normal, turned)));
+            about_normal = std::max(
+                about_normal,
+                laws::share_that_differs(image, image_of(s, sample.p, sample.normal, turned)));
             const Eigen::Matrix3d r = clouds::random_rotation(seed);
             const Eigen::Vector3d t(4e5, 5e6, 100);
-            rigid += laws::share_that_differs(
-                image, image_of(s, r * sample.p + t, r * sample.normal,
-                                clouds::moved(sample.neighbors, r, t)));
+            rigid +=
+                laws::share_that_differs(image, image_of(s, r * sample.p + t, r * sample.normal,
+                                                         clouds::moved(sample.neighbors, r, t)));
         }
         EXPECT_LT(about_normal, interpolate ? 1e-12 : 0.01);
         EXPECT_LT(rigid / 100, interpolate ? 1e-6 : 0.01);
@@ -223,8 +228,7 @@ TEST(angular_spin_image, is_the_mean_angle_between_normals) {
             std::vector<double> weights(row.size(), 0.0), angles(row.size(), 0.0);
             for (std::size_t k = 0; k < sample.neighbors.size(); ++k) {
                 if (k == 3) continue;
-                const auto alone =
-                    image_of(bins, sample.p, sample.normal, {sample.neighbors[k]});
+                const auto alone = image_of(bins, sample.p, sample.normal, {sample.neighbors[k]});
                 const double angle = std::acos(std::abs(sample.normal.dot(sample.normals[k])));
                 for (std::size_t b = 0; b < alone.size(); ++b) {
                     weights[b] += alone[b];

@@ -138,9 +138,8 @@ TEST(zernike_descriptor, of_voxels_does_not_depend_on_density) {
     const auto uneven = zernike_descriptor::of(points, {.voxels = 32});
     const auto masses = zernike_descriptor::of(points, {.voxels = 0});
     EXPECT_LT(share_of_values(even, uneven), 0.05);
-    EXPECT_GT(share_of_values(zernike_descriptor::of(
-                                  filled_solid(in_chair, 60, Eigen::Matrix3d::Identity(),
-                                               {0, 0, 0})),
+    EXPECT_GT(share_of_values(zernike_descriptor::of(filled_solid(
+                                  in_chair, 60, Eigen::Matrix3d::Identity(), {0, 0, 0})),
                               masses),
               0.1);
 }
@@ -179,9 +178,9 @@ TEST(zernike_descriptor, rejects_bad_arguments) {
     const auto points = clouds::in_cube(10, 1);
     EXPECT_THROW((void)zernike_descriptor::of(points, {.order = 21}), std::invalid_argument);
     EXPECT_THROW((void)zernike_descriptor::of(points, {.voxels = 1025}), std::invalid_argument);
-    EXPECT_THROW((void)zernike_descriptor::of(points).distance(
-                     zernike_descriptor::of(points, {.order = 4})),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)zernike_descriptor::of(points).distance(zernike_descriptor::of(points, {.order = 4})),
+        std::invalid_argument);
 }
 
 }  // namespace

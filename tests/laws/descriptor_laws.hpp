@@ -116,8 +116,8 @@ void descriptors_do_not_depend_on_execution(const D& describe) {
     const described_sheet sheet(3000, 7);
     const auto expected = gnomon::describe_points(sheet.points, sheet.surface, describe);
     for (const unsigned t : {1u, 2u, 4u}) {
-        const auto rows = gnomon::describe_points(sheet.points, sheet.surface, describe,
-                                                  gnomon::threads{t});
+        const auto rows =
+            gnomon::describe_points(sheet.points, sheet.surface, describe, gnomon::threads{t});
         ASSERT_EQ(rows.values, expected.values);
         ASSERT_EQ(rows.trust, expected.trust);
     }

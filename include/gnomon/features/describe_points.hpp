@@ -117,9 +117,8 @@ class row_writer {
 /// The descriptors of the points of n indices.
 /// @param point_of  the index of row r
 template <descriptor D, normal_range Surface, execution X>
-[[nodiscard]] point_descriptors described_points(const spatial_index& index,
-                                                 const Surface& surface, std::size_t n,
-                                                 auto&& point_of, const D& describe,
+[[nodiscard]] point_descriptors described_points(const spatial_index& index, const Surface& surface,
+                                                 std::size_t n, auto&& point_of, const D& describe,
                                                  const X& run) {
     require_valid(describe);
     require(std::ranges::size(surface) == index.size(),

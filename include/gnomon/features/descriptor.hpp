@@ -30,10 +30,10 @@ namespace detail {
 
 /// d(point, normal, neighbors, row)
 template <class D>
-concept reads_positions = requires(const D& d, const Eigen::Vector3d& v, neighborhood_view n,
-                                   std::span<double> row) {
-    { d(v, v, n, row) } -> std::same_as<trust>;
-};
+concept reads_positions =
+    requires(const D& d, const Eigen::Vector3d& v, neighborhood_view n, std::span<double> row) {
+        { d(v, v, n, row) } -> std::same_as<trust>;
+    };
 
 /// d(point, normal, neighbors, row, normals of the neighbors)
 template <class D>
@@ -62,13 +62,11 @@ concept reads_densities = requires(const D& d, const Eigen::Vector3d& v, neighbo
 /// points within the radius d.density_radius of them (std::span<const double>, empty if that radius
 /// is zero). A member require_valid() throws where a parameter is out of range.
 template <class D>
-concept descriptor =
-    requires(const D& d, std::span<const double> row) {
-        { d.support_radius() } -> std::convertible_to<double>;
-        { d.dimension() } -> std::convertible_to<std::size_t>;
-        { d.distance(row, row) } -> std::convertible_to<double>;
-    } &&
-    (detail::reads_positions<D> || detail::reads_normals<D> || detail::reads_densities<D>);
+concept descriptor = requires(const D& d, std::span<const double> row) {
+    { d.support_radius() } -> std::convertible_to<double>;
+    { d.dimension() } -> std::convertible_to<std::size_t>;
+    { d.distance(row, row) } -> std::convertible_to<double>;
+} && (detail::reads_positions<D> || detail::reads_normals<D> || detail::reads_densities<D>);
 
 /// The descriptors of n points, in one array.
 struct point_descriptors {

@@ -81,7 +81,8 @@ struct shape_context {
             inner_radius, radius, radial_bins,
             "shape_context: inner_radius must be at least 0, above 0 for several radial_bins, and "
             "less than radius, which must be finite");
-        detail::require(azimuth_bins > 0 && elevation_bins > 0, "shape_context: there must be bins");
+        detail::require(azimuth_bins > 0 && elevation_bins > 0,
+                        "shape_context: there must be bins");
         detail::require(density_radius >= 0.0 && std::isfinite(density_radius),
                         "shape_context: density_radius must be finite and not negative");
         detail::require(min_neighbors > 0, "shape_context: min_neighbors must be above 0");

@@ -73,7 +73,8 @@ struct spin_image {
     trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                      neighborhood_view neighbors, std::span<double> row) const {
         const std::size_t inside = bins().for_each_weight(
-            p, normal, neighbors, [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
+            p, normal, neighbors,
+            [at = row.data()](std::int64_t bin, double w, std::size_t) { at[bin] += w; });
         if (normalize && inside > 0) {
             const double share = 1.0 / static_cast<double>(inside);
             for (double& entry : row) entry *= share;

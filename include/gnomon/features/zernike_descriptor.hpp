@@ -50,9 +50,9 @@ struct zernike_options {
 /// The function is 1 in occupied voxels, or a mass of 4 pi / 3 shared by the points. Position and
 /// size of the segment have no effect, beyond the limits of voxels.
 struct zernike_descriptor {
-    std::vector<double> values;               ///< all zero if the trust is not usable
-    Eigen::Vector3d center{0.0, 0.0, 0.0};    ///< of the ball [m]: the centroid
-    double radius = 0.0;                      ///< of the ball [m]
+    std::vector<double> values;             ///< all zero if the trust is not usable
+    Eigen::Vector3d center{0.0, 0.0, 0.0};  ///< of the ball [m]: the centroid
+    double radius = 0.0;                    ///< of the ball [m]
     /// `too_few_neighbors` if no point is finite, `degenerate` if all of them coincide.
     gnomon::trust trust = gnomon::trust::too_few_neighbors;
 
@@ -122,8 +122,7 @@ inline void voxelize(scratch<Eigen::Vector3d>& positions, std::size_t voxels) {
     positions.clear();
     const auto at = [n](std::uint64_t i) { return (2.0 * static_cast<double>(i) + 1.0) / n - 1.0; };
     for (const std::uint64_t c : cells)
-        positions.push_back(
-            {at(c / (voxels * voxels)), at(c / voxels % voxels), at(c % voxels)});
+        positions.push_back({at(c / (voxels * voxels)), at(c / voxels % voxels), at(c % voxels)});
 }
 
 }  // namespace detail

@@ -27,7 +27,8 @@ struct cylinder_bins {
     /// @return the number of neighbors in the cylinder
     std::size_t for_each_weight(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
                                 neighborhood_view neighbors, auto&& add) const {
-        const double across = static_cast<double>(radial_bins), along = static_cast<double>(axial_bins);
+        const double across = static_cast<double>(radial_bins),
+                     along = static_cast<double>(axial_bins);
         const double per_radius = across / radius, per_height = along / height;
         const double half = 0.5 * height, squared_radius = radius * radius;
         std::size_t inside = 0;

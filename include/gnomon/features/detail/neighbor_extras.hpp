@@ -60,7 +60,7 @@ class neighbor_extras {
 
     using value = std::conditional_t<reads_normals<D>, Eigen::Vector3d, double>;
 
-    /// Those of the neighbors at some places, in a buffer; empty if the descriptor wants none.
+    /// Those of the neighbors at some places, in a buffer; empty if the descriptor reads none.
     [[nodiscard]] std::span<const value> at(std::span<const std::uint32_t> places,
                                             scratch<value>& buffer) const {
         buffer.clear();

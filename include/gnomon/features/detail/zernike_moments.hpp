@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// 3D Zernike moments of masses in the unit ball, by M. Novotni and R. Klein, 3D Zernike descriptors
-/// for content based shape retrieval, 2003, and the norms of their vectors.
+/// 3D Zernike moments of masses in the unit ball, by M. Novotni and R. Klein, 3D Zernike
+/// descriptors for content based shape retrieval, 2003, and the norms of their vectors.
 #pragma once
 
 #include <cstddef>
