@@ -111,7 +111,7 @@ struct front_and_back {
 
     double support_radius() const { return radius; }
     static std::size_t dimension() { return 2; }
-    static double distance(std::span<const double> a, std::span<const double> b) {
+    static double distance(std::span<const float> a, std::span<const float> b) {
         return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]);
     }
     gnomon::trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,

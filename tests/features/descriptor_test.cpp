@@ -16,7 +16,7 @@ using gnomon::trust;
 struct uncallable_descriptor {
     static double support_radius() { return 0.1; }
     static std::size_t dimension() { return 1; }
-    static double distance(std::span<const double>, std::span<const double>) { return 0.0; }
+    static double distance(std::span<const float>, std::span<const float>) { return 0.0; }
 };
 
 /// The least of the three forms.

@@ -106,6 +106,8 @@ TEST(shape_context, conserves_mass) {
     }
 }
 
+std::vector<float> stored(const std::vector<double>& row) { return {row.begin(), row.end()}; }
+
 /// Rotations about the normal by whole bins shift the azimuth, which the distance ignores; any
 /// rigid motion leaves the counts over elevation and radius.
 TEST(shape_context, turns_with_the_neighbors) {
@@ -119,7 +121,7 @@ TEST(shape_context, turns_with_the_neighbors) {
         const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, normal).toRotationMatrix();
         const auto turned = context_of(
             s, normal, clouds::moved(neighbors, turn, context_center - turn * context_center));
-        ASSERT_LT(s.distance(row, turned), 2.0);  // one neighbor on a boundary
+        ASSERT_LT(s.distance(stored(row), stored(turned)), 2.0);  // one neighbor on a boundary
 
         const Eigen::Matrix3d r = clouds::random_rotation(seed);
         const auto rotated = context_of(
@@ -136,10 +138,10 @@ TEST(shape_context, turns_with_the_neighbors) {
 
 TEST(shape_context, distance_is_the_least_over_azimuths) {
     const shape_context s{.azimuth_bins = 4, .elevation_bins = 2};
-    const std::vector<double> a{1, 2, 3, 4, 5, 6, 7, 8}, b{5, 6, 7, 8, 1, 2, 3, 5};
+    const std::vector<float> a{1, 2, 3, 4, 5, 6, 7, 8}, b{5, 6, 7, 8, 1, 2, 3, 5};
     EXPECT_DOUBLE_EQ(s.distance(a, b), 1.0);
     EXPECT_DOUBLE_EQ(s.distance(b, a), 1.0);
-    const std::vector<double> within{2, 1, 4, 3, 6, 5, 8, 7};  // elevations are not shifted
+    const std::vector<float> within{2, 1, 4, 3, 6, 5, 8, 7};  // elevations are not shifted
     EXPECT_GT(s.distance(a, within), 1.0);
 }
 
@@ -190,7 +192,7 @@ TEST(shape_context, is_given_densities) {
         }
         std::vector<double> row(s.dimension(), 0.0);
         (void)s(points[i], {0, 0, 1}, neighbors, row, densities);
-        ASSERT_LT(laws::share_that_differs(row, rows[i]), 1e-12);
+        ASSERT_LT(laws::share_that_differs(row, rows[i]), 1e-6);
     }
 }
 

@@ -191,7 +191,7 @@ TEST(spin_image, has_a_trust) {
 
 TEST(spin_image, is_compared_by_correlation) {
     const spin_image s{};
-    const std::vector<double> a{1, 2, 3, 4}, b{10, 20, 30, 40}, c{4, 3, 2, 1}, one{1, 1, 1, 1};
+    const std::vector<float> a{1, 2, 3, 4}, b{10, 20, 30, 40}, c{4, 3, 2, 1}, one{1, 1, 1, 1};
     EXPECT_NEAR(s.distance(a, b), 0.0, 1e-15);
     EXPECT_NEAR(s.distance(a, c), 2.0, 1e-15);
     EXPECT_EQ(s.distance(one, a), 1.0);

@@ -35,11 +35,11 @@ struct described_sheet {
 };
 
 /// The sum of the differences of the entries, as a share of the sum of the first.
-inline double share_that_differs(std::span<const double> a, std::span<const double> b) {
+double share_that_differs(const auto& a, const auto& b) {
     double sum = 0.0, difference = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        sum += std::abs(a[i]);
-        difference += std::abs(a[i] - b[i]);
+        sum += std::abs(static_cast<double>(a[i]));
+        difference += std::abs(static_cast<double>(a[i]) - static_cast<double>(b[i]));
     }
     return sum > 0.0 ? difference / sum : difference;
 }
@@ -61,9 +61,9 @@ void descriptors_are_finite_or_zero(const D& describe) {
             ASSERT_EQ(rows.dimension, describe.dimension());
             for (std::size_t i = 0; i < points.size(); ++i) {
                 ASSERT_EQ(rows[i].size(), rows.dimension);
-                for (const double entry : rows[i])
+                for (const float entry : rows[i])
                     ASSERT_TRUE(gnomon::usable(rows.trust[i]) ? std::isfinite(entry)
-                                                              : entry == 0.0);
+                                                              : entry == 0.0f);
             }
         }
     }
@@ -87,7 +87,7 @@ void descriptors_follow_the_cloud(const D& describe) {
     double moved = 0.0;
     for (std::size_t i = 0; i < order.size(); ++i) {
         ASSERT_EQ(permuted.trust[i], expected.trust[order[i]]);
-        ASSERT_LT(share_that_differs(expected[order[i]], permuted[i]), 1e-12);
+        ASSERT_LT(share_that_differs(expected[order[i]], permuted[i]), 1e-6);
         ASSERT_EQ(far_away.trust[i], expected.trust[i]);
         moved += share_that_differs(expected[i], far_away[i]);
     }

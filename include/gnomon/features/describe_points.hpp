@@ -64,15 +64,15 @@ class row_writer {
     /// @param places  those of the neighbors
     void operator()(std::size_t place, std::span<const std::uint32_t> places) {
         const std::size_t r = row_of_[place];
-        const std::size_t d = result_.dimension;
-        const std::span<double> row(result_.values.data() + r * d, d);
-        const trust found = described(place, places, row);
-        result_.trust[r] = checked(found, result_.trust[r], row);
+        row_.assign(result_.dimension, 0.0);
+        trust found = described(place, places);
+        if (usable(found) && !store(result_.values.data() + r * row_.size()))
+            found = trust::not_finite;
+        if (found != trust::good) result_.trust[r] = found;
     }
 
   private:
-    [[nodiscard]] trust described(std::size_t place, std::span<const std::uint32_t> places,
-                                  std::span<double> row) {
+    [[nodiscard]] trust described(std::size_t place, std::span<const std::uint32_t> places) {
         positions_.resize(places.size());
         for (std::size_t k = 0; k < places.size(); ++k) {
             const auto q = tree_.position(places[k]);
@@ -83,18 +83,21 @@ class row_writer {
         const Eigen::Vector3d normal = unit_normal(surface_[tree_.index()[place]].normal);
         const neighborhood_view neighbors(positions_);
         if constexpr (neighbor_extras<D>::any)
-            return describe_(p, normal, neighbors, row, extras_.at(places, extra_));
+            return describe_(p, normal, neighbors, row_, extras_.at(places, extra_));
         else
-            return describe_(p, normal, neighbors, row);
+            return describe_(p, normal, neighbors, row_);
     }
 
-    /// Enforces two laws on users' own descriptors: a usable row is finite, an unusable one zero.
-    [[nodiscard]] static trust checked(trust found, trust normal, std::span<double> row) {
-        const auto finite = [](double entry) { return std::isfinite(entry); };
-        if (usable(found) && !std::all_of(row.begin(), row.end(), finite))
-            found = trust::not_finite;
-        if (!usable(found)) std::fill(row.begin(), row.end(), 0.0);
-        return found == trust::good ? normal : found;
+    /// Stores the row, which was zero, unless an entry is not finite.
+    /// @return whether it was stored
+    [[nodiscard]] bool store(float* values) const {
+        bool finite = true;
+        for (std::size_t k = 0; k < row_.size(); ++k) {
+            values[k] = static_cast<float>(row_[k]);
+            finite &= std::isfinite(values[k]);
+        }
+        if (!finite) std::fill_n(values, row_.size(), 0.0f);
+        return finite;
     }
 
     const leaf_tree& tree_;
@@ -103,6 +106,7 @@ class row_writer {
     const neighbor_extras<D>& extras_;
     std::span<const point_index> row_of_;
     point_descriptors& result_;
+    scratch<double> row_;
     scratch<Eigen::Vector3d> positions_;
     scratch<typename neighbor_extras<D>::value> extra_;
 };

@@ -55,29 +55,30 @@ concept reads_densities = requires(const D& d, const Eigen::Vector3d& v, neighbo
 /// A const, thread-safe callable d(point, normal, neighbors, row) that writes the entries of the
 /// descriptor into `row`, which is zero before and has d.dimension() entries, and returns a
 /// `trust`. The normal has unit length; the neighbors are all other points within
-/// d.support_radius() [m], in no particular order. d.distance(a, b) compares two descriptors.
+/// d.support_radius() [m], in no particular order. d.distance(a, b) compares two descriptors, as
+/// they are stored: in float.
 ///
 /// A descriptor may read more of its neighbors, by a fifth parameter: their normals
 /// (std::span<const Eigen::Vector3d>, unit vectors, or zero where there is none), or the numbers of
 /// points within the radius d.density_radius of them (std::span<const double>, empty if that radius
 /// is zero). A member require_valid() throws where a parameter is out of range.
 template <class D>
-concept descriptor = requires(const D& d, std::span<const double> row) {
+concept descriptor = requires(const D& d, std::span<const float> row) {
     { d.support_radius() } -> std::convertible_to<double>;
     { d.dimension() } -> std::convertible_to<std::size_t>;
     { d.distance(row, row) } -> std::convertible_to<double>;
 } && (detail::reads_positions<D> || detail::reads_normals<D> || detail::reads_densities<D>);
 
-/// The descriptors of n points, in one array.
+/// The descriptors of n points, in one array of floats, which halves their memory.
 struct point_descriptors {
     std::size_t dimension = 0;         ///< of each descriptor
-    std::vector<double> values;        ///< n rows of this length, one after the other
+    std::vector<float> values;         ///< n rows of this length, one after the other
     std::vector<gnomon::trust> trust;  ///< of each row; a row that is not usable is zero
 
     /// The number of descriptors.
     [[nodiscard]] std::size_t size() const { return trust.size(); }
     /// The descriptor number i. Precondition: i < size().
-    [[nodiscard]] std::span<const double> operator[](std::size_t i) const {
+    [[nodiscard]] std::span<const float> operator[](std::size_t i) const {
         return {values.data() + i * dimension, dimension};
     }
 };

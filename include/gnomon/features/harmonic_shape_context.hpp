@@ -52,7 +52,7 @@ struct harmonic_shape_context {
     [[nodiscard]] double support_radius() const { return radius; }
     /// The number of entries.
     [[nodiscard]] std::size_t dimension() const { return radial_bins * entries_of_shell(); }
-    [[nodiscard]] double distance(std::span<const double> a, std::span<const double> b) const {
+    [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }
     /// @throws std::invalid_argument  if a number is out of range

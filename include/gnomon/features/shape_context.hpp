@@ -63,7 +63,7 @@ struct shape_context {
     }
 
     /// The Euclidean distance of the most similar azimuths. O(azimuth_bins dimension).
-    [[nodiscard]] double distance(std::span<const double> a, std::span<const double> b) const {
+    [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         const std::size_t sector = elevation_bins * radial_bins;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t shift = 0; shift < b.size(); shift += sector) {

@@ -58,7 +58,7 @@ struct spin_image {
         const std::size_t more = interpolate ? 1 : 0;
         return (radial_bins + more) * (axial_bins + more);
     }
-    [[nodiscard]] double distance(std::span<const double> a, std::span<const double> b) const {
+    [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::correlation_distance(a, b);
     }
     /// @throws std::invalid_argument  if a number is out of range
@@ -100,7 +100,7 @@ struct angular_spin_image {
 
     [[nodiscard]] double support_radius() const { return bins.support_radius(); }
     [[nodiscard]] std::size_t dimension() const { return bins.dimension(); }
-    [[nodiscard]] double distance(std::span<const double> a, std::span<const double> b) const {
+    [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }
     /// @throws std::invalid_argument  if a number is out of range

@@ -6,12 +6,17 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
+#include <span>
 
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/pack.hpp>
 #include <gnomon/normals/estimator.hpp>
 
 namespace gnomon::detail {
@@ -30,53 +35,71 @@ struct cylinder_bins {
         const double across = static_cast<double>(radial_bins),
                      along = static_cast<double>(axial_bins);
         const double per_radius = across / radius, per_height = along / height;
-        const double half = 0.5 * height, squared_radius = radius * radius;
+        const double half = 0.5 * height;
         std::size_t inside = 0;
         block_of_neighbors block;
         for (std::size_t first = 0; first < neighbors.size(); first += block_size) {
             const std::size_t size = std::min(block_size, neighbors.size() - first);
-            block.measure(p, normal, neighbors.data() + first, size);
-            // Without a branch for each neighbor, which would often be predicted wrongly.
-            std::array<std::uint32_t, block_size> kept;
-            std::size_t count = 0;
-            for (std::size_t l = 0; l < size; ++l) {
-                kept[count] = static_cast<std::uint32_t>(l);
-                count += static_cast<std::size_t>((block.alpha2[l] <= squared_radius) &
-                                                  (std::abs(block.beta[l]) <= half));
-            }
-            for (std::size_t c = 0; c < count; ++c) {
-                const std::size_t l = kept[c];
+            std::uint32_t kept = block.measure(p, normal, neighbors.subspan(first, size),
+                                               radius * radius, half);
+            inside += static_cast<std::size_t>(std::popcount(kept));
+            // By bits: a branch for each neighbor would often be predicted wrongly.
+            for (; kept != 0; kept &= kept - 1) {
+                const auto l = static_cast<std::size_t>(std::countr_zero(kept));
                 distribute({std::sqrt(block.alpha2[l]) * per_radius, across},
                            {(block.beta[l] + half) * per_height, along}, first + l, add);
             }
-            inside += count;
         }
         return inside;
     }
 
   private:
-    static constexpr std::size_t block_size = 32;  // performance only
+    static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
 
     /// Squares of alpha [m^2], and beta [m], of some neighbors.
     struct block_of_neighbors {
-        std::array<double, block_size> x{}, y{}, z{}, alpha2, beta;
+        std::array<double, block_size> alpha2, beta;
 
-        void measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
-                     const Eigen::Vector3d* first, std::size_t size) {
-            for (std::size_t l = 0; l < size; ++l) {
-                x[l] = first[l][0] - p[0];
-                y[l] = first[l][1] - p[1];
-                z[l] = first[l][2] - p[2];
+        /// @return a bit for each neighbor with alpha^2 <= most_alpha2 and |beta| <= most_beta
+        std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
+                              std::span<const Eigen::Vector3d> neighbors, double most_alpha2,
+                              double most_beta) {
+            std::uint32_t kept = 0;
+            std::array<Eigen::Vector3d, slim_pack::size> last;
+            for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
+                const std::size_t rest = neighbors.size() - l;
+                const Eigen::Vector3d* first = neighbors.data() + l;
+                if (rest < slim_pack::size) {
+                    last.fill(p);
+                    std::copy_n(first, rest, last.begin());
+                    first = last.data();
+                }
+                std::uint32_t bits = measure_pack(p, n, first, l, most_alpha2, most_beta);
+                if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
+                kept |= bits << l;
             }
-            const double nx = n[0], ny = n[1], nz = n[2];
-            for (std::size_t l = 0; l < block_size; ++l) {  // of fixed length, for vectors
-                beta[l] = nx * x[l] + ny * y[l] + nz * z[l];
-                // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
-                const double a = ny * z[l] - nz * y[l];
-                const double b = nz * x[l] - nx * z[l];
-                const double c = nx * y[l] - ny * x[l];
-                alpha2[l] = a * a + b * b + c * c;
-            }
+            return kept;
+        }
+
+      private:
+        [[gnu::always_inline]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
+                                                          const Eigen::Vector3d& n,
+                                                          const Eigen::Vector3d* first,
+                                                          std::size_t l, double most_alpha2,
+                                                          double most_beta) {
+            static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
+            const double* const at = first->data();
+            const slim_pack x = slim_pack(at, stride) - p[0];
+            const slim_pack y = slim_pack(at + 1, stride) - p[1];
+            const slim_pack z = slim_pack(at + 2, stride) - p[2];
+            const slim_pack height = n[0] * x + n[1] * y + n[2] * z;
+            // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
+            const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
+            const slim_pack c = n[0] * y - n[1] * x;
+            const slim_pack squares = a * a + b * b + c * c;
+            std::memcpy(&beta[l], &height, sizeof height);
+            std::memcpy(&alpha2[l], &squares, sizeof squares);
+            return at_most(squares, most_alpha2) & at_most(magnitude(height), most_beta);
         }
     };
 
