@@ -12,6 +12,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -91,11 +92,20 @@ class row_writer {
     /// Stores the row, which was zero, unless an entry is not finite.
     /// @return whether it was stored
     [[nodiscard]] bool store(float* values) const {
-        bool finite = true;
-        for (std::size_t k = 0; k < row_.size(); ++k) {
-            values[k] = static_cast<float>(row_[k]);
-            finite &= std::isfinite(values[k]);
+        constexpr std::size_t block = 8;  // of fixed length, for vector instructions
+        std::array<float, block> zeros{};  // NaN after a value that is not finite
+        std::size_t k = 0;
+        for (; k + block <= row_.size(); k += block) {
+            for (std::size_t l = 0; l < block; ++l) {
+                values[k + l] = static_cast<float>(row_[k + l]);
+                zeros[l] += 0.0f * values[k + l];
+            }
         }
+        for (; k < row_.size(); ++k) {
+            values[k] = static_cast<float>(row_[k]);
+            zeros[0] += 0.0f * values[k];
+        }
+        const bool finite = std::all_of(zeros.begin(), zeros.end(), [](float z) { return z == 0; });
         if (!finite) std::fill_n(values, row_.size(), 0.0f);
         return finite;
     }
