@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Spin images and shape contexts beside those of PCL, on one thread:
+/// Spin images and shape contexts compared with those of PCL, on one thread:
 ///     pcl_descriptors SCAN...      without a scan: on the surface of a box with noise
 /// Spin images must be equal bin by bin to 1e-5, shape contexts in their sums over azimuths, whose
 /// reference PCL draws at random. PCL computes in float: a neighbor at a limit of a bin may be on

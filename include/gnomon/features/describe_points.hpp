@@ -92,7 +92,7 @@ class row_writer {
     /// Stores the row, which was zero, unless an entry is not finite.
     /// @return whether it was stored
     [[nodiscard]] bool store(float* values) const {
-        constexpr std::size_t block = 8;  // of fixed length, for vector instructions
+        constexpr std::size_t block = 8;   // of fixed length, for vector instructions
         std::array<float, block> zeros{};  // NaN after a value that is not finite
         std::size_t k = 0;
         for (; k + block <= row_.size(); k += block) {

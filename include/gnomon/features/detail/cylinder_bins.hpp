@@ -40,8 +40,8 @@ struct cylinder_bins {
         block_of_neighbors block;
         for (std::size_t first = 0; first < neighbors.size(); first += block_size) {
             const std::size_t size = std::min(block_size, neighbors.size() - first);
-            std::uint32_t kept = block.measure(p, normal, neighbors.subspan(first, size),
-                                               radius * radius, half);
+            std::uint32_t kept =
+                block.measure(p, normal, neighbors.subspan(first, size), radius * radius, half);
             inside += static_cast<std::size_t>(std::popcount(kept));
             // By bits: a branch for each neighbor would often be predicted wrongly.
             for (; kept != 0; kept &= kept - 1) {
