@@ -243,11 +243,11 @@ TEST(angular_spin_image, is_the_mean_angle_between_normals) {
 
 TEST(angular_spin_image, needs_neighbors_with_normals) {
     const clouds::cloud two{{0.01, 0, 0}, {0, 0.01, 0}};
-    const clouds::cloud none(2, {0, 0, 0}), up(2, {0, 0, 1});
+    const clouds::cloud none(2, {0, 0, 0}), upright(2, {0, 0, 1});
     std::vector<double> row(120, 0.0);
     const angular_spin_image s{};
     EXPECT_EQ(s({0, 0, 0}, {0, 0, 1}, two, row, none), trust::too_few_neighbors);
-    EXPECT_EQ(s({0, 0, 0}, {0, 0, -1}, two, row, up), trust::good);
+    EXPECT_EQ(s({0, 0, 0}, {0, 0, -1}, two, row, upright), trust::good);
     EXPECT_EQ(row, std::vector<double>(120, 0.0));  // opposite normals are the same axis
 }
 
