@@ -4,11 +4,13 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdio>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 
+#include <gnomon/features/describe_points.hpp>
 #include <gnomon/gnomon.hpp>
 
 // [own_normal_range]
@@ -102,6 +104,25 @@ struct mean_height {
 static_assert(gnomon::curvature_estimator<mean_height>);
 // [own_curvature_estimator]
 
+// [own_descriptor]
+// How many neighbors are in front of the tangent plane, and how many behind it.
+struct front_and_back {
+    double radius = 0.2;  // [m]
+
+    double support_radius() const { return radius; }
+    static std::size_t dimension() { return 2; }
+    static double distance(std::span<const float> a, std::span<const float> b) {
+        return std::abs(a[0] - b[0]) + std::abs(a[1] - b[1]);
+    }
+    gnomon::trust operator()(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                             gnomon::neighborhood_view neighbors, std::span<double> row) const {
+        for (const Eigen::Vector3d& q : neighbors) row[normal.dot(q - p) > 0.0 ? 0 : 1] += 1.0;
+        return neighbors.empty() ? gnomon::trust::too_few_neighbors : gnomon::trust::good;
+    }
+};
+static_assert(gnomon::descriptor<front_and_back>);
+// [own_descriptor]
+
 // [own_merge_policy]
 // Merges where the gap is hidden or shows the surface itself; a function or a lambda will do.
 bool hidden_or_continued(gnomon::observation seen) {
@@ -144,6 +165,10 @@ int main() {
     const auto bends =
         gnomon::estimate_curvature(points, gnomon::knn{.k = 20}, surface, mean_height{});
     std::printf("the wall bends by %.3f 1/m\n", bends[0].mean());
+
+    const auto sides = gnomon::describe_points(points, surface, front_and_back{});
+    std::printf("%.0f neighbors in front of the first point, %.0f behind\n", sides[0][0],
+                sides[0][1]);
 
     std::vector<oriented_point> mine;
     for (std::size_t i = 0; i < points.size(); ++i)

@@ -2,6 +2,7 @@
 // A type that each concept refuses; docs/concepts quotes the messages of the compiler.
 #include <cstddef>
 #include <list>
+#include <span>
 #include <vector>
 
 #include <Eigen/Core>
@@ -12,6 +13,7 @@
 #include <gnomon/core/range_noise.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/curvature.hpp>
+#include <gnomon/features/descriptor.hpp>
 #include <gnomon/neighborhoods/adaptive_knn.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/normals/estimator.hpp>
@@ -115,6 +117,20 @@ struct only_mean {
 };
 static_assert(gnomon::curvature_estimator<only_mean>);  // gives a number, no curvature
 // [refused_curvature_estimator]
+
+// expect: d\.distance\(row, row\)
+// [refused_descriptor]
+struct without_distance {
+    static double support_radius() { return 0.1; }
+    static std::size_t dimension() { return 1; }
+    gnomon::trust operator()(const Eigen::Vector3d&, const Eigen::Vector3d&,
+                             gnomon::neighborhood_view, std::span<double> row) const {
+        row[0] = 1.0;
+        return gnomon::trust::good;
+    }
+};
+static_assert(gnomon::descriptor<without_distance>);  // nothing compares two descriptors
+// [refused_descriptor]
 
 // expect: d\.criterion\(\)\(double\{\}, n, n\)
 // [refused_dissimilarity]

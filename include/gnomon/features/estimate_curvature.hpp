@@ -5,7 +5,6 @@
 /// `orient_normals` first.
 #pragma once
 
-#include <concepts>
 #include <cstddef>
 #include <functional>
 #include <utility>
@@ -21,6 +20,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
 #include <gnomon/features/curvature.hpp>
+#include <gnomon/features/detail/trust_of_normal.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/detail/neighbor_gatherer.hpp>
@@ -28,18 +28,6 @@
 
 namespace gnomon {
 namespace detail {
-
-/// The trust of a surface element if it has one; else `degenerate` or `good`, by whether its normal
-/// is missing.
-[[nodiscard]] trust trust_of_normal(const auto& element) {
-    if constexpr (requires {
-                      { element.trust } -> std::convertible_to<trust>;
-                  }) {
-        return element.trust;
-    } else {
-        return is_missing(element.normal) ? trust::degenerate : trust::good;
-    }
-}
 
 /// The curvature at p, with a trust no better than that of the normal. Enforces two laws on the
 /// results of user-defined estimators: a usable result is finite, an unusable one is zero.

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The bins of a spin image: divisions of a cylinder about the normal of a point by the distance
+/// alpha from the axis and the height beta along it.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/instruction_set.hpp>
+#include <gnomon/core/detail/pack.hpp>
+#include <gnomon/normals/estimator.hpp>
+
+namespace gnomon::detail {
+
+/// The members are those of `spin_image`.
+struct cylinder_bins {
+    double radius, height;  // [m], above 0
+    std::size_t radial_bins, axial_bins;
+    bool interpolate;
+
+    /// Calls add(bin, weight, k) for each bin that neighbor number k contributes to, with weights
+    /// of sum 1.
+    /// @return the number of neighbors in the cylinder
+    std::size_t for_each_weight(const Eigen::Vector3d& p, const Eigen::Vector3d& normal,
+                                neighborhood_view neighbors, auto&& add) const {
+        const double across = static_cast<double>(radial_bins),
+                     along = static_cast<double>(axial_bins);
+        const double per_radius = across / radius, per_height = along / height;
+        const double half = 0.5 * height;
+        std::size_t inside = 0;
+        block_of_neighbors block;
+        for (std::size_t first = 0; first < neighbors.size(); first += block_size) {
+            const std::size_t size = std::min(block_size, neighbors.size() - first);
+            std::uint32_t kept =
+                block.measure(p, normal, neighbors.subspan(first, size), radius * radius, half);
+            inside += static_cast<std::size_t>(std::popcount(kept));
+            // By bits: a branch for each neighbor would often be predicted wrongly.
+            for (; kept != 0; kept &= kept - 1) {
+                const auto l = static_cast<std::size_t>(std::countr_zero(kept));
+                distribute({std::sqrt(block.alpha2[l]) * per_radius, across},
+                           {(block.beta[l] + half) * per_height, along}, first + l, add);
+            }
+        }
+        return inside;
+    }
+
+  private:
+    static constexpr std::size_t block_size = 32;  // bits of a mask; performance only
+
+    /// Squares of alpha [m^2], and beta [m], of some neighbors.
+    struct block_of_neighbors {
+        std::array<double, block_size> alpha2, beta;
+
+        /// @return a bit for each neighbor with alpha^2 <= most_alpha2 and |beta| <= most_beta
+        std::uint32_t measure(const Eigen::Vector3d& p, const Eigen::Vector3d& n,
+                              std::span<const Eigen::Vector3d> neighbors, double most_alpha2,
+                              double most_beta) {
+            std::uint32_t kept = 0;
+            std::array<Eigen::Vector3d, slim_pack::size> last;
+            for (std::size_t l = 0; l < neighbors.size(); l += slim_pack::size) {
+                const std::size_t rest = neighbors.size() - l;
+                const Eigen::Vector3d* first = neighbors.data() + l;
+                if (rest < slim_pack::size) {
+                    last.fill(p);
+                    std::copy_n(first, rest, last.begin());
+                    first = last.data();
+                }
+                std::uint32_t bits = measure_pack(p, n, first, l, most_alpha2, most_beta);
+                if (rest < slim_pack::size) bits &= (std::uint32_t{1} << rest) - 1;
+                kept |= bits << l;
+            }
+            return kept;
+        }
+
+      private:
+        [[gnu::always_inline]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
+                                                          const Eigen::Vector3d& n,
+                                                          const Eigen::Vector3d* first,
+                                                          std::size_t l, double most_alpha2,
+                                                          double most_beta) {
+            static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
+            const double* const at = first->data();
+            const slim_pack x = slim_pack(at, stride) - p[0];
+            const slim_pack y = slim_pack(at + 1, stride) - p[1];
+            const slim_pack z = slim_pack(at + 2, stride) - p[2];
+            const slim_pack height = n[0] * x + n[1] * y + n[2] * z;
+            // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
+            const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
+            const slim_pack c = n[0] * y - n[1] * x;
+            const slim_pack squares = a * a + b * b + c * c;
+            std::memcpy(&beta[l], &height, sizeof height);
+            std::memcpy(&alpha2[l], &squares, sizeof squares);
+            return at_most(squares, most_alpha2) & at_most(magnitude(height), most_beta);
+        }
+    };
+
+    /// A place on an axis in units of its bins, of which the last one is closed.
+    struct place {
+        std::int64_t bin;
+        double part;  // of the bin that is below, in [0, 1]
+
+        place(double x, double bins) {
+            x = x < bins ? x : bins;
+            bin = static_cast<std::int64_t>(x);
+            bin -= static_cast<std::int64_t>(x >= bins);
+            part = x - static_cast<double>(bin);
+        }
+    };
+
+    void distribute(const place& i, const place& j, std::size_t k, auto&& add) const {
+        const auto bins = static_cast<std::int64_t>(axial_bins);
+        if (!interpolate) return add(i.bin * bins + j.bin, 1.0, k);
+        const std::int64_t corner = i.bin * (bins + 1) + j.bin, next = corner + bins + 1;
+        const double both = i.part * j.part;
+        add(corner, 1.0 - i.part - j.part + both, k);
+        add(corner + 1, j.part - both, k);
+        add(next, i.part - both, k);
+        add(next + 1, both, k);
+    }
+};
+
+}  // namespace gnomon::detail
