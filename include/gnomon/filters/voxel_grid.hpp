@@ -65,6 +65,17 @@ inline void require_valid(const voxel_grid& grid) {
             "voxel_grid: the size must be positive and finite");
 }
 
+/// The points nearest to the means of the cells that count, of n points, ascending.
+[[nodiscard]] inline std::vector<point_index> nearest_to_means(const voxel_parts& cells,
+                                                               const voxel_grid& grid,
+                                                               std::size_t n) {
+    scratch<std::uint8_t> kept(n, 0);
+    cells.for_each_cell([&](const voxel_entry& c) {
+        if (c.number >= grid.min_points) kept[c.index] = 1;
+    });
+    return flagged(kept);
+}
+
 }  // namespace detail
 
 /// The indices of the points that are nearest to the means of their cells, ascending. Of points
@@ -81,12 +92,10 @@ template <class R, execution X = sequential, class Proj = std::identity>
                                                    const X& run = {}, Proj projection = {}) {
     detail::require_valid(grid);
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::scratch<std::uint8_t> kept(p.size(), 0);
-    detail::visit_voxels(p, grid.size, detail::staying(run),
-                         [&](std::size_t i, const detail::voxel& v) {
-                             if (v.nearest == i && v.count >= grid.min_points) kept[i] = 1;
-                         });
-    return detail::flagged(kept);
+    const auto& team = detail::staying(run);
+    detail::voxel_parts cells(p, grid.size, team);
+    cells.find(team, [](auto, auto, auto) {});
+    return detail::nearest_to_means(cells, grid, p.size());
 }
 
 /// The means of the points of each cell, exact to the rounding of the result, in the order of the
@@ -102,26 +111,25 @@ template <class R, execution X = sequential, class Proj = std::identity>
                                                const X& run = {}, Proj projection = {}) {
     detail::require_valid(grid);
     const position_view<R, Proj> p(points, std::move(projection));
-    detail::scratch<std::uint8_t> kept(p.size(), 0);
-    detail::scratch<detail::voxel> of_nearest(p.size());
+    const auto& team = detail::staying(run);
     voxel_grid::means r;
     r.of_point.assign(p.size(), voxel_grid::means::no_cell);
-    detail::visit_voxels(p, grid.size, detail::staying(run),
-                         [&](std::size_t i, const detail::voxel& v) {
-                             if (v.count < grid.min_points) return;
-                             r.of_point[i] = v.nearest;
-                             if (v.nearest != i) return;
-                             kept[i] = 1;
-                             of_nearest[i] = v;
-                         });
-    r.nearest = detail::flagged(kept);
+    detail::voxel_parts cells(p, grid.size, team);
+    cells.find(team, [&](point_index i, point_index nearest, point_index count) {
+        if (count >= grid.min_points) r.of_point[i] = nearest;
+    });
+    r.nearest = detail::nearest_to_means(cells, grid, p.size());
     r.viewpoints = detail::viewpoints_of(points, r.nearest);
     detail::scratch<point_index> number(p.size());
-    for (const point_index i : r.nearest) {
-        number[i] = static_cast<point_index>(r.points.size());
-        r.points.push_back(of_nearest[i].mean);
-        r.counts.push_back(of_nearest[i].count);
-    }
+    for (std::size_t c = 0; c < r.nearest.size(); ++c)
+        number[r.nearest[c]] = static_cast<point_index>(c);
+    r.points.resize(r.nearest.size());
+    r.counts.resize(r.nearest.size());
+    cells.for_each_cell([&](const detail::voxel_entry& c) {
+        if (c.number < grid.min_points) return;
+        r.points[number[c.index]] = c.position();
+        r.counts[number[c.index]] = c.number;
+    });
     for (point_index& c : r.of_point)
         if (c != voxel_grid::means::no_cell) c = number[c];
     return r;
