@@ -98,8 +98,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
     return detail::nearest_to_means(cells, grid, p.size());
 }
 
-/// The means of the points of each cell, exact to the rounding of the result, in the order of the
-/// points nearest to them, whose view points they have.
+/// The means of the points of each cell, exact to the rounding of the result and the size over
+/// 2^61 / n, in the order of the points nearest to them, whose view points they have.
 ///
 /// @param points  any point range of n points [m]
 /// @throws std::invalid_argument  as thin_voxels(), or if the view points are for another number of

@@ -120,7 +120,8 @@ class voxel_finder {
     /// can be without overflow. The mean of a single point is that point.
     void center(cell& c) const {
         const int unused_bits = 62 - static_cast<int>(std::bit_width(c.count));
-        c.scale = static_cast<double>(std::int64_t{1} << unused_bits) / side_;
+        constexpr double most = std::numeric_limits<double>::max();  // numerical: tiny sides
+        c.scale = std::min(static_cast<double>(std::int64_t{1} << unused_bits) / side_, most);
         if (c.count == 1) return;
         for (std::size_t a = 0; a < 3; ++a)
             c.mean[a] = (static_cast<double>(c.number[a]) + 0.5) * side_;
