@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the headers of images, perception,
-the simulator and all that they include.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the filters, the headers of images,
+perception, the simulator and all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          compares that file with what would be written
@@ -81,8 +81,9 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    for umbrella in ("gnomon/gnomon.hpp", "gnomon/segmentation/segment_image.hpp",
-                     "gnomon/perception.hpp", "gnomon/simulation.hpp"):
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/filters.hpp",
+                     "gnomon/segmentation/segment_image.hpp", "gnomon/perception.hpp",
+                     "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()
 
