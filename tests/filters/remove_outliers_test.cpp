@@ -100,6 +100,20 @@ TEST(remove_outliers, keeps_what_brute_force_keeps_by_radius) {
     }
 }
 
+/// Points of a box that is smaller than the radius are counted without a search: a leaf has 32.
+TEST(remove_outliers, counts_the_others_in_a_small_box) {
+    for (const std::size_t n : {32u, 64u}) {
+        const clouds::cloud points = clouds::in_cube(n, 1);
+        const auto kept = [&](std::size_t least) {
+            return gnomon::remove_outliers(points,
+                                           radius_outliers{.radius = 2.0, .min_neighbors = least})
+                .size();
+        };
+        EXPECT_EQ(kept(n - 1), n);
+        EXPECT_EQ(kept(n), 0u);
+    }
+}
+
 TEST(remove_outliers, removes_isolated_points_far_from_the_origin) {
     clouds::cloud points =
         clouds::moved(clouds::sheet(2000, 1), Eigen::Matrix3d::Identity(), {4e5, 5e6, 500});
