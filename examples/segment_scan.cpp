@@ -40,7 +40,8 @@ gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
 
 /// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
-    gnomon::scan scan = o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan);
+    gnomon::scan scan =
+        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"});
     if (std::ranges::none_of(scan, gnomon::is_finite))
         throw gnomon::error(o.scan, "", "has no finite point");
     if (o.viewpoint)
@@ -197,14 +198,17 @@ std::string picture_of(const gnomon::scan& scan, const result& r, const options&
 
 void write_points(const output_directory& out, const gnomon::scan& scan, const result& r) {
     using namespace gnomon::io;
+    // What the file of the scan has under other names goes along: colors, intensities.
+    const auto write = [&](const char* name, const properties& columns) {
+        write_ply(out / name, scan, {columns, field_properties(scan, columns)});
+    };
     const properties normals = normal_properties(r.surface, &surfel::normal);
-    write_ply(out / "normals.ply", scan,
-              {normals, scalar_property("quality", r.surface, &surfel::surface_variation),
-               scalar_property("trust", r.surface, &surfel::trust)});
+    write("normals.ply",
+          {normals, scalar_property("quality", r.surface, &surfel::surface_variation),
+           scalar_property("trust", r.surface, &surfel::trust)});
     const auto& labels = r.surfaces.labels();
-    write_ply(
-        out / "segments.ply", scan,
-        {color_properties(labels, picture::color_of), scalar_property("label", labels), normals});
+    write("segments.ply",
+          {color_properties(labels, picture::color_of), scalar_property("label", labels), normals});
 }
 
 void print_table(const json& report, unsigned threads) {

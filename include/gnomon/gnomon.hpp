@@ -2,7 +2,8 @@
 /// @file
 /// All floors of gnomon in their order: each header includes only headers of its own floor and of
 /// the floors above it in this list; io includes only core. The chain of all steps,
-/// <gnomon/perception.hpp>, and the simulator, <gnomon/simulation.hpp>, are included by name.
+/// <gnomon/perception.hpp>, the filters, <gnomon/filters.hpp>, between neighborhoods and normals,
+/// and the simulator, <gnomon/simulation.hpp>, are included by name.
 #pragma once
 
 #include <gnomon/version.hpp>

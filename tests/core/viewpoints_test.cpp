@@ -72,4 +72,16 @@ TEST(viewpoint_table, has_the_number_of_its_copies) {
     EXPECT_EQ(moved[0].size(), 3);
 }
 
+TEST(viewpoint_table, keeps_scans_in_subsets_that_have_more_points) {
+    const gnomon::viewpoint_table table({{1, 0, 0}, {2, 0, 0}}, {0, 1, 1, 0});
+    const std::vector<gnomon::point_index> most{3, 1, 2}, one{2};
+    EXPECT_EQ(table.subset(most).positions().size(), 2u);
+    EXPECT_EQ(table.subset(one).positions().size(), 1u);
+    for (const auto& kept : {most, one}) {
+        const gnomon::viewpoint_table part = table.subset(kept);
+        EXPECT_TRUE(part.covers(kept.size()));
+        for (std::size_t k = 0; k < kept.size(); ++k) EXPECT_EQ(part[k], table[kept[k]]);
+    }
+}
+
 }  // namespace

@@ -102,4 +102,27 @@ TEST(io_property, does_not_refer_to_a_temporary) {
     static_assert(!makes_scalar_property<std::vector<std::string>&>);
 }
 
+TEST(io_property, takes_the_fields_of_a_scan_along) {
+    gnomon::scan scan;
+    scan.points.resize(2);
+    scan.fields = {{"red", {1, 2}, field_type::uint8},
+                   {"column 4", {0.5, 1.5}},
+                   {"column_4", {0, 0}},
+                   {"", {3, 4}, field_type::int16},
+                   {"label", {5, 6}, field_type::int32}};
+    const std::vector<std::string> names{"red", "column_4", "_", "label"};
+    const io::properties all = io::field_properties(scan);
+    ASSERT_EQ(all.size(), names.size());
+    for (std::size_t k = 0; k < names.size(); ++k)
+        EXPECT_EQ(all.begin()[static_cast<std::ptrdiff_t>(k)].name, names[k]);
+    EXPECT_EQ(all.begin()->type, field_type::uint8);
+    EXPECT_EQ(all.begin()->size, 2u);
+    EXPECT_EQ(all.begin()->value(1), 2.0);
+
+    const std::vector<int> labels{7, 8};
+    const io::properties mine = io::scalar_property("label", labels);
+    EXPECT_EQ(io::field_properties(scan, mine).size(), 3u);
+    EXPECT_EQ((io::properties{mine, io::field_properties(scan, mine)}).size(), 4u);
+}
+
 }  // namespace

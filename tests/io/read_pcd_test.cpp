@@ -206,7 +206,91 @@ TEST(io_read_pcd, refuses_damaged_data) {
                           "byte " + std::to_string(header.size() + 8), "damaged");
 }
 
+/// Of a point of color 0xAABBCC with alpha 0xFF, which as a float is a NaN, and one of 0x010203.
+void expect_colors(const gnomon::scan& s, bool has_alpha) {
+    const std::vector<std::string> names{"w", "red", "green", "blue", "alpha"};
+    const std::vector<std::vector<double>> values{
+        {9, 7}, {0xAA, 1}, {0xBB, 2}, {0xCC, 3}, {0xFF, 0}};
+    ASSERT_EQ(s.fields.size(), has_alpha ? 5u : 4u);
+    for (std::size_t k = 0; k < s.fields.size(); ++k) {
+        EXPECT_EQ(s.fields[k].name, names[k]);
+        EXPECT_EQ(s.fields[k].values, values[k]) << names[k];
+        EXPECT_EQ(s.fields[k].type,
+                  k == 0 ? gnomon::scan::field_type::uint16 : gnomon::scan::field_type::uint8);
+    }
+}
+
+TEST(io_read_pcd, unpacks_colors) {
+    const std::string first = io_test::bytes_of("\xCC\xBB\xAA\xFF"),
+                      second = io_test::bytes_of("\3\2\1\0");
+    for (const char* const name : {"rgb", "rgba"}) {
+        const bool has_alpha = std::string(name) == "rgba";
+        for (const char* const type : {"F", "U", "I"}) {
+            const auto parse = [&](const std::string& data) {
+                std::string bytes = "FIELDS x " + std::string(name) +
+                                    " y z w\nSIZE 1 4 1 1 2\nTYPE I " + type +
+                                    " I I U\nPOINTS 2\nDATA " + data;
+                return parse_pcd(bytes, {"*"});
+            };
+            expect_colors(parse("binary\n\1" + first + io_test::bytes_of("\2\3\t\0\1") + second +
+                                io_test::bytes_of("\2\3\7\0")),
+                          has_alpha);
+            const std::string planar =
+                "\1\1" + first + second + io_test::bytes_of("\2\2\3\3\t\0\7\0");
+            expect_colors(parse("binary_compressed\n" + pcd_word(pcd_pack(planar).size()) +
+                                pcd_word(planar.size()) + pcd_pack(planar)),
+                          has_alpha);
+        }
+        // As numbers: 0xFFAABBCC unsigned and signed, 0x010203 as a float with the bits of it.
+        const auto parse_text = [&](const std::string& type, const std::string& colors) {
+            const std::size_t blank = colors.find(' ');
+            return parse_pcd("FIELDS x " + std::string(name) + " y z w\nSIZE 1 4 1 1 2\nTYPE I " +
+                                 type + " I I U\nPOINTS 2\nDATA ascii\n1 " +
+                                 colors.substr(0, blank) + " 2 3 9\n1 " + colors.substr(blank + 1) +
+                                 " 2 3 7\n",
+                             {"*"});
+        };
+        expect_colors(parse_text("U", "4289379276 66051"), has_alpha);
+        expect_colors(parse_text("I", "-5588020 66051"), has_alpha);
+        const gnomon::scan floats = parse_text("F", "nan 9.2557165e-41");
+        EXPECT_EQ(floats.fields[1].values, (std::vector<double>{0, 1}));
+        EXPECT_EQ(floats.fields[3].values, (std::vector<double>{0, 3}));
+        EXPECT_EQ(parse_text("U", "1e300 -1e300").fields[1].values, (std::vector<double>{0, 0}));
+        EXPECT_EQ(parse_text("F", "1e300 -1e300").size(), 2u);
+    }
+}
+
+TEST(io_read_pcd, gives_all_fields_but_padding_and_coordinates) {
+    const gnomon::scan s = parse_pcd(pcd_mixed + "DATA binary\n" + pcd_mixed_binary, {"b", "*"});
+    using enum gnomon::scan::field_type;
+    const std::vector<std::string> names{"b", "h[0]", "h[1]", "a", "c"};
+    const std::vector<gnomon::scan::field_type> types{float64, int16, int16, float64, uint8};
+    ASSERT_EQ(s.fields.size(), names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        EXPECT_EQ(s.fields[k].name, names[k]);
+        EXPECT_EQ(s.fields[k].type, types[k]) << names[k];
+        EXPECT_EQ(s.fields[k].values.size(), 2u);
+    }
+    // A field of color that is not four bytes is one like any other.
+    const gnomon::scan doubles = parse_pcd(
+        "FIELDS x y z rgb\nSIZE 4 4 4 8\nTYPE F F F F\nPOINTS 1\nDATA ascii\n1 2 3 4\n", {"*"});
+    ASSERT_EQ(doubles.fields.size(), 1u);
+    EXPECT_EQ(doubles.fields[0].name, "rgb");
+}
+
 TEST(io_read_pcd, survives_truncation_and_damage) {
+    const auto all_fields = [](const gnomon::io::input& file) {
+        return gnomon::io::read_pcd(file, {"*"});
+    };
+    for (const char* const type : {"F", "U"}) {
+        const std::string header = std::string("FIELDS x y z rgba\nSIZE 1 1 1 4\nTYPE I I I ") +
+                                   type + "\nPOINTS 2\nDATA ";
+        io_test::check_mutation(all_fields, header + "ascii\n1 2 3 4e9\n4 5 6 7\n");
+        io_test::check_truncation(all_fields, header + "binary\n12345671234567", true);
+        io_test::check_mutation(all_fields, header + "binary\n12345671234567");
+    }
+    io_test::check_mutation(all_fields, pcd_compressed());
+
     const std::string text = pcd_xyz + "DATA ascii\n1 2 3\n4 5 6\n";
     const std::string binary = pcd_mixed + "DATA binary\n" + pcd_mixed_binary;
     io_test::check_truncation(pcd_parser, text, false);

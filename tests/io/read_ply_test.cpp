@@ -188,7 +188,35 @@ TEST(io_read_ply, lists_the_fields_there_are) {
                           bytes, "line 7", "no field \"nx\"; there are: x, y, z");
 }
 
+TEST(io_read_ply, gives_all_properties_in_their_types) {
+    const std::string bytes =
+        ply_of("ascii",
+               "element vertex 1\nproperty uchar red\nproperty float x\nproperty list uchar int i\n"
+               "property double y\nproperty float z\nproperty short red\nproperty int viewpoint_x\n"
+               "property double time\n",
+               "200 1 2 8 9 3 4 -7 5 6.5\n");
+    const gnomon::scan s = parse_ply(bytes, {"*"});
+    using enum gnomon::scan::field_type;
+    const std::vector<std::string> names{"red", "viewpoint_x", "time"};  // of equals the first
+    const std::vector<gnomon::scan::field_type> types{uint8, int32, float64};
+    const std::vector<double> values{200, 5, 6.5};
+    ASSERT_EQ(s.fields.size(), names.size());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+        EXPECT_EQ(s.fields[k].name, names[k]);
+        EXPECT_EQ(s.fields[k].type, types[k]);
+        EXPECT_EQ(s.fields[k].values, std::vector<double>{values[k]});
+    }
+    EXPECT_EQ(parse_ply(bytes, {"time"}).fields[0].type, float64);
+    EXPECT_TRUE(parse_ply(bytes).fields.empty());
+}
+
 TEST(io_read_ply, survives_truncation_and_damage) {
+    const auto all_fields = [](const gnomon::io::input& file) {
+        return gnomon::io::read_ply(file, {"*"});
+    };
+    io_test::check_truncation(all_fields, ply_with_lists, true);
+    io_test::check_mutation(all_fields, ply_with_lists);
+
     io_test::check_truncation(ply_parser, ply_with_lists, true);
     io_test::check_mutation(ply_parser, ply_with_lists);
     const std::string text =

@@ -85,4 +85,14 @@ TEST(io_read_xyz, survives_truncation_and_damage) {
     io_test::check_mutation(xyz_parser, bytes);
 }
 
+TEST(io_read_xyz, gives_all_columns) {
+    const gnomon::scan unnamed = parse_xyz("1 2 3 4 5\n6 7 8 9 10\n", {"*"});
+    ASSERT_EQ(unnamed.fields.size(), 2u);
+    EXPECT_EQ(unnamed.fields[1].name, "column 4");
+    EXPECT_EQ(unnamed.fields[1].values, (std::vector<double>{5, 10}));
+    EXPECT_EQ(unnamed.fields[1].type, gnomon::scan::field_type::float64);
+    EXPECT_EQ(parse_xyz("x,y,z,intensity\n1,2,3,4\n", {"*"}).fields[0].name, "intensity");
+    EXPECT_TRUE(parse_xyz("1 2 3\n", {"*"}).fields.empty());
+}
+
 }  // namespace

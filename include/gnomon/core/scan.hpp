@@ -16,10 +16,15 @@ namespace gnomon {
 
 /// Points with viewpoints and scalar fields; models `point_range` and `has_viewpoints`.
 struct scan {
-    /// One named number per point: an intensity, a label, a component of a true normal.
+    /// The type of the numbers of a field in a file.
+    enum class field_type : char { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+
+    /// One named number per point: an intensity, a label, a component of a color or of a true
+    /// normal. Doubles hold the numbers of all types exactly.
     struct scalar_field {
-        std::string name;            ///< as in the file
-        std::vector<double> values;  ///< in the order of the points
+        std::string name;                       ///< as in the file
+        std::vector<double> values;             ///< in the order of the points
+        field_type type = field_type::float64;  ///< as in the file
     };
 
     std::vector<Eigen::Vector3d> points;  ///< positions [m]; NaN where the sensor had no return

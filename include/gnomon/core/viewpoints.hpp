@@ -80,10 +80,17 @@ class viewpoint_table {
         return Eigen::Vector3d(0.0, 0.0, 0.0);
     }
 
-    /// The view points of some of the points, in the order of `indices`.
+    /// The view points of some of the points, in the order of `indices`: one per scan, if they are
+    /// here and the scans are fewer than the indices.
     /// Precondition: covers(n) and every index is below n.
     [[nodiscard]] viewpoint_table subset(std::span<const point_index> indices) const {
         if (scope_ == scope::none || scope_ == scope::cloud) return *this;
+        if (scope_ == scope::scan && positions_.size() < indices.size()) {
+            std::vector<point_index> scans;
+            scans.reserve(indices.size());
+            for (const point_index i : indices) scans.push_back(scan_of_point_[i]);
+            return viewpoint_table(positions_, std::move(scans));
+        }
         std::vector<Eigen::Vector3d> chosen;
         chosen.reserve(indices.size());
         for (const point_index i : indices) chosen.push_back((*this)[i]);

@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <string_view>
 
+#include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/scalar_layout.hpp>
 
 namespace gnomon::io {
@@ -15,7 +16,7 @@ namespace gnomon::io {
 enum class ply_format { binary_little_endian, binary_big_endian, ascii };
 
 /// The type of a property in a file.
-enum class field_type { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+using field_type = scan::field_type;
 
 namespace detail {
 
@@ -43,6 +44,14 @@ inline constexpr std::array<ply_type, 8> ply_types = {{{"char", "int8", {'I', 1}
 /// Returns the names and the binary representation of `type`.
 [[nodiscard]] constexpr const ply_type& ply_type_of(field_type type) {
     return ply_types[static_cast<std::size_t>(type)];
+}
+
+/// Returns the type of a number in a file; float64 for integers of 64 bits, which PLY does not
+/// have.
+[[nodiscard]] constexpr field_type field_type_of(scalar_layout layout) {
+    for (std::size_t k = 0; k < ply_types.size(); ++k)
+        if (ply_types[k].layout == layout) return static_cast<field_type>(k);
+    return field_type::float64;
 }
 
 }  // namespace detail

@@ -7,6 +7,7 @@
 ///                                     scalar_property("label", segments.labels())});
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <concepts>
 #include <cstddef>
@@ -15,6 +16,7 @@
 #include <initializer_list>
 #include <iterator>
 #include <string>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -22,6 +24,7 @@
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/scan.hpp>
 #include <gnomon/io/ply_format.hpp>
 
 namespace gnomon::io {
@@ -41,6 +44,9 @@ class properties {
     properties() = default;
     /// One column.
     explicit(false) properties(property single) { columns_.push_back(std::move(single)); }
+
+    /// These columns.
+    explicit properties(std::vector<property> columns) : columns_(std::move(columns)) {}
 
     /// The columns of all `groups`, in their order.
     properties(std::initializer_list<properties> groups) {
@@ -88,6 +94,16 @@ template <gnomon::detail::indexed_range R, class Proj, class Convert>
         using difference = std::iter_difference_t<decltype(std::ranges::begin(range))>;
         return convert(std::invoke(projection, first[static_cast<difference>(i)]));
     };
+}
+
+/// The characters that separate words in the header of a file.
+inline constexpr std::string_view blanks = " \t\v\f\r\n";
+
+/// The name with "_" for each blank.
+[[nodiscard]] inline std::string one_word(std::string name) {
+    for (char& c : name)
+        if (blanks.find(c) != std::string_view::npos) c = '_';
+    return name.empty() ? "_" : name;
 }
 
 /// Three columns: the components of vector(i).
@@ -149,6 +165,36 @@ template <gnomon::detail::indexed_range R, class Proj = std::identity>
         static_cast<std::size_t>(std::ranges::size(range)),
         detail::converted(range, std::move(projection), [](const auto& color) { return color; }));
 }
+
+/// The fields of a scan, in the types that they had in their file, as `read` gives them for "*":
+///
+///     const auto scan = read("colored.ply", {"*"});
+///     const properties normals = normal_properties(surface);
+///     write_ply("normals.ply", scan, {normals, field_properties(scan, normals)});
+///
+/// Every number is written as it was read, bit for bit in binary files (a signaling NaN as a quiet
+/// one).
+/// @param points  must outlive the result
+/// @param others  fields that have the name of one of these columns are left out
+/// @return columns; blanks in their names are replaced by "_"
+template <class = void>  // a template, so that unused writers cost no compile time
+[[nodiscard]] properties field_properties(const scan& points, const properties& others = {}) {
+    std::vector<property> columns;
+    const auto is_taken = [&](const std::string& name) {
+        const auto has_name = [&](const property& column) { return column.name == name; };
+        return std::any_of(others.begin(), others.end(), has_name) ||
+               std::any_of(columns.begin(), columns.end(), has_name);
+    };
+    for (const scan::scalar_field& field : points.fields) {
+        std::string name = detail::one_word(field.name);
+        if (is_taken(name)) continue;
+        columns.push_back({std::move(name), field.type, field.values.size(),
+                           [&field](std::size_t i) { return field.values[i]; }});
+    }
+    return properties(std::move(columns));
+}
+template <class = void>
+void field_properties(const scan&& points, const properties& others = {}) = delete;
 
 // The columns refer to the range, so a temporary range is an error.
 template <gnomon::detail::indexed_range R, class Proj = std::identity>

@@ -41,7 +41,8 @@ namespace detail {
 
 /// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
 /// @param file    name and contents of the file
-/// @param fields  names of further columns that become fields of the scan, in this order
+/// @param fields  names of further columns that become fields of the scan, in this order; "*"
+///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged or a field is missing; the message lists the
 ///                        fields of the file

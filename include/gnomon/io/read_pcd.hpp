@@ -15,6 +15,7 @@
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/byte_cursor.hpp>
 #include <gnomon/io/detail/lzf.hpp>
+#include <gnomon/io/detail/pcd_columns.hpp>
 #include <gnomon/io/detail/pcd_header.hpp>
 #include <gnomon/io/detail/scalar_layout.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
@@ -24,20 +25,6 @@
 
 namespace gnomon::io {
 namespace detail {
-
-/// The names of the columns: "x" for a field of one value, "fpfh[0]", "fpfh[1]", ... for a field of
-/// several values.
-template <class = void>  // templates, so that unused readers cost no compile time
-[[nodiscard]] std::vector<std::string> pcd_columns(const pcd_header& header) {
-    std::vector<std::string> result;
-    for (const pcd_field& field : header.fields) {
-        for (std::size_t k = 0; k < field.count; ++k) {
-            const bool is_single = field.count == 1 || field.name == "_";
-            result.push_back(is_single ? field.name : field.name + "[" + std::to_string(k) + "]");
-        }
-    }
-    return result;
-}
 
 /// The place of a column in binary data: the value of point i is at byte first + i * stride.
 struct pcd_column {
@@ -71,6 +58,17 @@ template <class = void>
     return result;
 }
 
+/// Appends the places of the bytes of colors.
+template <class = void>
+[[nodiscard]] std::vector<pcd_column> with_colors(std::vector<pcd_column> columns,
+                                                  const pcd_table& table) {
+    for (const pcd_color& c : table.colors) {
+        const pcd_column source = columns[c.source];
+        columns.push_back({{'U', 1}, source.first + c.byte, source.stride});
+    }
+    return columns;
+}
+
 /// Adds the points in binary `data`. The PCD format does not define a byte order; all writers use
 /// little-endian.
 void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_column>& columns,
@@ -87,30 +85,32 @@ void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_
 }
 
 /// Reads the points of ascii data, one per line.
-void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, std::size_t columns) {
-    text.require_rows(points, columns);
+void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, const pcd_table& table) {
+    text.require_rows(points, table.types.size());
     builder.reserve(static_cast<std::size_t>(points));
-    std::vector<double> row(columns);
+    std::vector<double> row;
     for (std::uint64_t i = 0; i < points; ++i) {
         splitter words = text.words();
+        row.resize(table.types.size());
         for (double& value : row) value = text.number(words);
         if (words.next()) text.fail("more values than the header declares");
+        table.append_colors(row);
         builder.add(row);
     }
 }
 
 /// Reads the points of binary data.
 void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
-                     std::size_t stride) {
+                     const pcd_table& table, std::size_t stride) {
     bytes.require_rows(header.points, stride);
     const auto points = static_cast<std::size_t>(header.points);
-    add_pcd_points(builder, bytes.take(points * stride), interleaved_columns(header, stride),
-                   points);
+    add_pcd_points(builder, bytes.take(points * stride),
+                   with_colors(interleaved_columns(header, stride), table), points);
 }
 
 /// Reads the points of binary_compressed data: two sizes, then LZF.
 void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& header,
-                         std::size_t stride) {
+                         const pcd_table& table, std::size_t stride) {
     const auto size = [&bytes] {
         return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
     };
@@ -122,7 +122,7 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
     const std::optional<std::string> data = unpack_lzf(after.take(packed_size), unpacked_size);
     if (!data) bytes.fail("the compressed data are damaged");
     const std::size_t points = unpacked_size / stride;
-    add_pcd_points(builder, *data, planar_columns(header, points), points);
+    add_pcd_points(builder, *data, with_colors(planar_columns(header, points), table), points);
 }
 
 }  // namespace detail
@@ -130,7 +130,8 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 /// Parses a PCD file. NaN coordinates are kept. The position in VIEWPOINT becomes the viewpoint
 /// [m]; its orientation is not applied, so the points stay in the frame of the file.
 /// @param file    name and contents of the file
-/// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values
+/// @param fields  names of further fields, e.g. "intensity", or "fpfh[0]" of several values; "red",
+///                "green", "blue" and "alpha" of a field "rgb" or "rgba"; "*" stands for all
 /// @return the points [m] in the order of the file, with viewpoint and fields; `width` is set if
 ///         the file has several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
@@ -139,19 +140,19 @@ template <class = void>
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const detail::pcd_header header = detail::read_pcd_header(text);
-    const std::vector<std::string> columns = detail::pcd_columns(header);
-    detail::scan_builder builder(columns, fields, text);
+    const detail::pcd_table table(header, !fields.empty());
+    detail::scan_builder builder(table.columns, fields, text);
 
     std::size_t stride = 0;
     for (const detail::pcd_field& field : header.fields) stride += field.size();
     const detail::byte_cursor bytes(file, text.offset());
 
     if (header.data == "ascii")
-        detail::read_pcd_ascii(builder, text, header.points, columns.size());
+        detail::read_pcd_ascii(builder, text, header.points, table);
     else if (header.data == "binary")
-        detail::read_pcd_binary(builder, bytes, header, stride);
+        detail::read_pcd_binary(builder, bytes, header, table, stride);
     else if (header.data == "binary_compressed")
-        detail::read_pcd_compressed(builder, bytes, header, stride);
+        detail::read_pcd_compressed(builder, bytes, header, table, stride);
     else
         text.fail("DATA " + detail::in_quotes(header.data) + " is not known");
     scan result = std::move(builder).finish(header.viewpoints);

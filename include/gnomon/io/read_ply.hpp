@@ -98,7 +98,8 @@ template <class Rows, class Builder>
 /// viewpoint_x, viewpoint_y, viewpoint_z, or a comment "viewpoint x y z", both as `write_ply`
 /// writes them, become the viewpoints [m].
 /// @param file    name and contents of the file
-/// @param fields  names of further properties of the vertices, e.g. "nx", that become fields
+/// @param fields  names of further properties of the vertices, e.g. "nx", that become fields; "*"
+///                stands for all but lists. Their types are kept: see `field_properties`
 /// @return the vertices [m] in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
@@ -107,11 +108,11 @@ template <class = void>  // a template, so that unused readers cost no compile t
     detail::text_cursor text(file);
     const detail::ply_header header = detail::read_ply_header(text);
 
-    std::vector<std::string> columns;
+    std::vector<detail::file_column> columns;
     for (const detail::ply_element& element : header.elements) {
         if (element.name != "vertex") continue;
         for (const detail::ply_property& p : element.properties)
-            if (!p.length) columns.push_back(p.name);
+            if (!p.length) columns.push_back({p.name, detail::field_type_of(p.type)});
         break;
     }
     detail::scan_builder builder(columns, fields, text);

@@ -46,10 +46,10 @@ namespace detail {
 /// @param has_names  whether the line holds names
 /// @throws gnomon::error  for fewer than three columns, a numeric name, or a misplaced axis
 template <class = void>  // templates, so that unused readers cost no compile time
-[[nodiscard]] std::vector<std::string> xyz_columns(splitter words, bool has_names,
+[[nodiscard]] std::vector<file_column> xyz_columns(splitter words, bool has_names,
                                                    const text_cursor& text) {
     constexpr std::string_view axes = "xyzXYZ";
-    std::vector<std::string> result;
+    std::vector<file_column> result;
     while (const auto word = words.next()) {
         const std::size_t k = result.size();
         const std::string_view name = unquoted(*word);
@@ -58,9 +58,9 @@ template <class = void>  // templates, so that unused readers cost no compile ti
         if (has_names && (is_number(name) || is_axis_of_another))
             text.fail(in_quotes(*word) + " cannot be the name of column " + std::to_string(k));
         if (k < 3)
-            result.emplace_back(axes.substr(k, 1));
+            result.push_back({std::string(axes.substr(k, 1))});
         else
-            result.push_back(has_names ? std::string(name) : "column " + std::to_string(k));
+            result.push_back({has_names ? std::string(name) : "column " + std::to_string(k)});
     }
     if (result.size() < 3)
         text.fail("fewer than three columns; supported formats are text, PLY, PCD and legacy VTK");
@@ -73,7 +73,7 @@ template <class = void>  // templates, so that unused readers cost no compile ti
 /// "//" are skipped. A first line that does not begin with a number names the columns.
 /// @param file    name and contents of the file
 /// @param fields  names of further columns that become fields: those of the first line, or
-///                "column 3", "column 4", ..., counted from 0
+///                "column 3", "column 4", ..., counted from 0; "*" stands for all
 /// @return the points in the order of the file; no viewpoints
 /// @throws gnomon::error  if a line does not hold as many numbers as the first, if there is no
 ///                        point, or if a field is missing

@@ -117,9 +117,8 @@ void write_ply_rows(const std::string& path, std::size_t points,
                 "write_ply: two properties of one name");
         names.push_back(column.name);
         require(column.size == points, "write_ply: a property is for another number of points");
-        require(
-            !column.name.empty() && column.name.find_first_of(" \t\v\f\r\n") == std::string::npos,
-            "write_ply: the name of a property must be one word");
+        require(!column.name.empty() && column.name.find_first_of(blanks) == std::string::npos,
+                "write_ply: the name of a property must be one word");
     }
 
     output_file file(path);

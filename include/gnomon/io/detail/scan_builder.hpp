@@ -8,14 +8,23 @@
 #include <array>
 #include <cstddef>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
 #include <gnomon/core/scan.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
+#include <gnomon/io/ply_format.hpp>
 
 namespace gnomon::io::detail {
+
+/// A column of a file.
+struct file_column {
+    std::string name;  // "_" is padding
+    field_type type = field_type::float64;
+    bool in_all = true;  // one of "*"; false for what other columns hold in a better form
+};
 
 /// Builds a scan row by row. Columns viewpoint_x, viewpoint_y, viewpoint_z, if the file has all
 /// three, become viewpoints. (A template, so that unused readers cost no compile time.)
@@ -23,22 +32,25 @@ namespace gnomon::io::detail {
 template <class Text>
 class scan_builder {
   public:
-    /// @param columns  the names of the columns in the file; "_" is padding
-    /// @param wanted   the names of the columns that become fields
+    /// @param columns  of the file
+    /// @param wanted   the names of the columns that become fields; "*" stands for all others that
+    ///                 are neither coordinates nor viewpoints: of equal names the first
     /// @param text     position of the column names, for the error message
     /// @throws gnomon::error  if x, y, z or a requested column is missing
-    scan_builder(const std::vector<std::string>& columns, const std::vector<std::string>& wanted,
+    scan_builder(const std::vector<file_column>& columns, const std::vector<std::string>& wanted,
                  const Text& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
                 column(columns, "z", text)} {
-        for (const std::string& name : wanted) {
-            sources_.push_back(column(columns, name, text));
-            result_.fields.push_back({name, {}});
-        }
         for (const char* const name : {"viewpoint_x", "viewpoint_y", "viewpoint_z"}) {
-            const auto found = std::find(columns.begin(), columns.end(), name);
-            if (found == columns.end()) break;
-            viewpoint_.push_back(static_cast<std::size_t>(found - columns.begin()));
+            const std::size_t k = find(columns, name);
+            if (k == columns.size()) break;
+            viewpoint_.push_back(k);
+        }
+        for (const std::string& name : wanted) {
+            if (name == "*")
+                add_all(columns);
+            else
+                add_field(columns, column(columns, name, text));
         }
     }
 
@@ -67,18 +79,43 @@ class scan_builder {
     }
 
   private:
+    /// The index of the first column `name`; their number if there is none.
+    [[nodiscard]] static std::size_t find(const std::vector<file_column>& columns,
+                                          std::string_view name) {
+        std::size_t k = 0;
+        while (k < columns.size() && columns[k].name != name) ++k;
+        return k;
+    }
+
     /// The index of the column `name`.
     /// @throws gnomon::error  with the list of all columns, if it is missing
-    [[nodiscard]] static std::size_t column(const std::vector<std::string>& columns,
+    [[nodiscard]] static std::size_t column(const std::vector<file_column>& columns,
                                             const std::string& name, const Text& text) {
-        const auto found = std::find(columns.begin(), columns.end(), name);
-        if (found != columns.end() && name != "_")
-            return static_cast<std::size_t>(found - columns.begin());
+        const std::size_t k = find(columns, name);
+        if (k < columns.size() && name != "_") return k;
 
         std::string there;
-        for (const std::string& each : columns)
-            if (each != "_") there += (there.empty() ? "" : ", ") + each;
+        for (const file_column& each : columns)
+            if (each.name != "_") there += (there.empty() ? "" : ", ") + each.name;
         text.fail("there is no field " + in_quotes(name) + "; there are: " + there);
+    }
+
+    void add_field(const std::vector<file_column>& columns, std::size_t k) {
+        sources_.push_back(k);
+        result_.fields.push_back({columns[k].name, {}, columns[k].type});
+    }
+
+    void add_all(const std::vector<file_column>& columns) {
+        const auto is_in = [](std::size_t k, const auto& some) {
+            return std::find(some.begin(), some.end(), k) != some.end();
+        };
+        for (std::size_t k = 0; k < columns.size(); ++k) {
+            const std::string& name = columns[k].name;
+            if (name == "_" || !columns[k].in_all || find(columns, name) < k) continue;
+            if (is_in(k, axes_) || is_in(k, sources_)) continue;
+            if (viewpoint_.size() == axes_.size() && is_in(k, viewpoint_)) continue;
+            add_field(columns, k);
+        }
     }
 
     std::array<std::size_t, 3> axes_;     // columns of x, y and z
