@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, the headers of images, perception,
-the simulator and all that they include.
+"""Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, those of filters, images, shapes,
+descriptors, perception, the simulator and all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          compares that file with what would be written
@@ -26,6 +26,12 @@ BANNER = """\
 #pragma once
 
 """
+
+
+# The headers of features that no umbrella includes, but those that others of them include.
+FEATURES = ("convex_hull", "minimum_area_rectangle", "minimum_volume_box", "fit_sphere", "fit_cylinder",
+            "fit_cone", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
+            "zernike_descriptor")
 
 
 class Amalgamation:
@@ -81,11 +87,10 @@ def main():
     options = parser.parse_args()
 
     amalgamation = Amalgamation()
-    for umbrella in ("gnomon/gnomon.hpp", "gnomon/features/convex_hull.hpp",
-                     "gnomon/features/minimum_area_rectangle.hpp",
-                     "gnomon/features/minimum_volume_box.hpp",
-                     "gnomon/segmentation/segment_image.hpp",
-                     "gnomon/perception.hpp", "gnomon/simulation.hpp"):
+    for umbrella in ("gnomon/gnomon.hpp", "gnomon/filters.hpp",
+                     *(f"gnomon/features/{name}.hpp" for name in FEATURES),
+                     "gnomon/segmentation/segment_image.hpp", "gnomon/perception.hpp",
+                     "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()
 

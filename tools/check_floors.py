@@ -4,11 +4,11 @@
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
 contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
-needs Boost, and the headers of organized images and of shapes, which few need), gnomon.hpp every umbrella but
-that of the simulator. gnomon/perception.hpp, which composes all floors, is in no umbrella and is
-included by name. Adapters to other libraries see all
-floors, and no header sees them; they have no umbrella. Some foreign headers are kept out, for what
-they cost or break. No header includes itself in a circle.
+needs Boost, and the headers of organized images, shapes and descriptors, which few need), gnomon.hpp
+every umbrella but those of the filters and of the simulator. gnomon/perception.hpp, which composes
+all floors, is in no umbrella and is included by name. Adapters to other libraries see all floors,
+and no header sees them; they have no umbrella. Some foreign headers are kept out, for what they cost
+or break. No header includes itself in a circle.
 """
 
 import pathlib
@@ -21,11 +21,13 @@ INCLUDE_DIR = pathlib.Path(__file__).resolve().parent.parent / "include"
 BELOW = {
     "core": [],
     "neighborhoods": ["core"],
-    "normals": ["core", "neighborhoods"],
-    "features": ["core", "neighborhoods", "normals"],
-    "segmentation": ["core", "neighborhoods", "normals", "features"],
-    "occlusion": ["core", "neighborhoods", "normals", "features", "segmentation"],
-    "recognition": ["core", "neighborhoods", "normals", "features", "segmentation", "occlusion"],
+    "filters": ["core", "neighborhoods"],
+    "normals": ["core", "neighborhoods", "filters"],
+    "features": ["core", "neighborhoods", "filters", "normals"],
+    "segmentation": ["core", "neighborhoods", "filters", "normals", "features"],
+    "occlusion": ["core", "neighborhoods", "filters", "normals", "features", "segmentation"],
+    "recognition": ["core", "neighborhoods", "filters", "normals", "features", "segmentation",
+                    "occlusion"],
     "simulation": ["core"],
     "io": ["core"],
 }
@@ -44,11 +46,17 @@ FORBIDDEN = {
     "ranges": "clang with libstdc++ refuses its views, and too expensive to compile",
     "regex": "too expensive to compile",
 }
-# Included by name: the registry needs Boost; few users have organized images, or measure shapes.
+# Included by name: the registry needs Boost; few users have organized images, or need what describes
+# segments and points beyond their curvature.
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
-           "gnomon/segmentation/segment_image.hpp", "gnomon/features/convex_hull.hpp",
-           "gnomon/features/convex_polygon.hpp", "gnomon/features/minimum_area_rectangle.hpp",
-           "gnomon/features/minimum_volume_box.hpp"}
+           "gnomon/segmentation/segment_image.hpp"}
+OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
+    "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
+    "surface_fit", "fit_sphere", "fit_cylinder", "fit_cone",
+    "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
+    "zernike_descriptor")}
+# The floors whose umbrellas are included by name; adapters have none.
+NOT_IN_GNOMON = {"filters", "perception", "simulation", "adapters"}
 CMATH_HOME = "gnomon/core/detail/cmath.hpp"
 
 INCLUDE = re.compile(r"^\s*#\s*include\s*[<\"]([^>\"]+)[>\"]", re.M)
@@ -131,7 +139,7 @@ def main():
         else:
             check_umbrella(umbrella, texts[umbrella], graph[umbrella], public)
     check_umbrella("gnomon/gnomon.hpp", texts["gnomon/gnomon.hpp"], graph["gnomon/gnomon.hpp"],
-                   {f"gnomon/{floor}.hpp" for floor in floors - {"perception", "simulation", "adapters"}}
+                   {f"gnomon/{floor}.hpp" for floor in floors - NOT_IN_GNOMON}
                    | {"gnomon/version.hpp"})
     find_circles(graph)
 

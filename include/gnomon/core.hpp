@@ -9,6 +9,7 @@
 #include <gnomon/core/moments.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>

@@ -5,6 +5,5 @@
 
 #include <gnomon/features/curvature.hpp>
 #include <gnomon/features/estimate_curvature.hpp>
-#include <gnomon/features/oriented_box.hpp>
 #include <gnomon/features/principal_frame.hpp>
 #include <gnomon/features/surface_type.hpp>

@@ -12,7 +12,7 @@ namespace {
 
 TEST(oriented_box, contains_its_surface_in_any_orientation) {
     const Eigen::Matrix3d axes = clouds::random_rotation(5);
-    const gnomon::oriented_box box{.center = {4e5, 5e6, 100}, .lengths = {4, 2, 1}, .axes = axes};
+    const gnomon::oriented_box box{.center = {4e5, 5e6, 100}, .axes = axes, .lengths = {4, 2, 1}};
     for (int a = 0; a < 3; ++a) {
         for (const double side : {-0.5, 0.5}) {
             const Eigen::Vector3d reach = side * box.lengths[a] * axes.col(a);
@@ -23,6 +23,12 @@ TEST(oriented_box, contains_its_surface_in_any_orientation) {
     EXPECT_TRUE(gnomon::oriented_box{}.contains({0, 0, 0}));
     EXPECT_FALSE(gnomon::oriented_box{}.contains({0, 0, 1e-300}));
     EXPECT_FALSE(box.contains({clouds::nan, 5e6, 100}));
+}
+
+TEST(oriented_box, has_a_volume_and_begins_empty) {
+    EXPECT_EQ(gnomon::oriented_box{}.volume(), 0.0);
+    EXPECT_EQ(gnomon::oriented_box{}.axes, Eigen::Matrix3d::Identity());
+    EXPECT_EQ((gnomon::oriented_box{.lengths = {2.0, 3.0, 4.0}}.volume()), 24.0);
 }
 
 TEST(oriented_box, may_be_without_end) {

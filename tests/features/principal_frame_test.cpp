@@ -44,4 +44,15 @@ TEST(principal_frame, survives_every_cloud) {
     }
 }
 
+TEST(principal_frame, has_an_oriented_box) {
+    gnomon::principal_frame frame;
+    frame.box_center = {1, 2, 3};
+    frame.box_size = {4, 5, 6};
+    frame.axes << 0, 0, 1, 1, 0, 0, 0, 1, 0;
+    const gnomon::oriented_box box = frame.box();
+    EXPECT_EQ(box.center, frame.box_center);
+    EXPECT_EQ(box.lengths, frame.box_size);
+    EXPECT_EQ(box.axes, frame.axes);
+}
+
 }  // namespace

@@ -63,8 +63,8 @@ TEST(crop_box, keeps_the_points_of_an_oriented_box) {
             clouds::moved(cloud_to_crop(seed), Eigen::Matrix3d::Identity(), far_away);
         const gnomon::spatial_index index(points);
         gnomon::oriented_box box{.center = far_away + Eigen::Vector3d(0.4, 0.5, 0.6),
-                                 .lengths = {0.3, 0.7, 0.9},
-                                 .axes = clouds::random_rotation(seed)};
+                                 .axes = clouds::random_rotation(seed),
+                                 .lengths = {0.3, 0.7, 0.9}};
         if (seed % 3 == 0) box.lengths[1] = without_end;
         const auto expected = those(points, [&](const Eigen::Vector3d& p) {
             const Eigen::Vector3d local = box.axes.transpose() * (p - box.center);

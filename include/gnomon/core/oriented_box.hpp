@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// A box in any orientation. In no umbrella: what takes or returns boxes includes it.
+/// A box of any orientation.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,11 +11,15 @@
 
 namespace gnomon {
 
-/// A rectangular box: center, edge lengths and the directions of the edges.
+/// A box with edges along three orthonormal axes. A rectangle is a box whose last length is zero; a
+/// box without any point has all members at their defaults.
 struct oriented_box {
     Eigen::Vector3d center{0.0, 0.0, 0.0};                   ///< [m]
-    Eigen::Vector3d lengths{0.0, 0.0, 0.0};                  ///< of the edges [m]; may be infinite
-    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);  ///< orthonormal columns: the edges
+    Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);  ///< unit columns
+    Eigen::Vector3d lengths{0.0, 0.0, 0.0};  ///< of the edges along them [m]; may be infinite
+
+    /// [m^3]
+    [[nodiscard]] double volume() const { return lengths[0] * lengths[1] * lengths[2]; }
 
     /// Whether the point x [m] is in the box or on its surface, up to rounding; false for NaN.
     [[nodiscard]] bool contains(const Eigen::Vector3d& x) const {

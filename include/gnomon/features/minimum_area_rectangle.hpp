@@ -11,9 +11,9 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/oriented_box.hpp>
 #include <gnomon/features/convex_polygon.hpp>
 #include <gnomon/features/detail/smallest_rectangle.hpp>
-#include <gnomon/features/oriented_box.hpp>
 
 namespace gnomon {
 

@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
@@ -32,7 +33,6 @@
 #include <gnomon/features/detail/local_points.hpp>
 #include <gnomon/features/detail/polytope.hpp>
 #include <gnomon/features/minimum_area_rectangle.hpp>
-#include <gnomon/features/oriented_box.hpp>
 #include <gnomon/features/principal_frame.hpp>
 
 namespace gnomon {

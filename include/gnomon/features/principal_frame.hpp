@@ -17,10 +17,10 @@
 #include <gnomon/core/detail/symmetric_eigen.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/moments.hpp>
+#include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/spectrum.hpp>
-#include <gnomon/features/oriented_box.hpp>
 
 namespace gnomon {
 

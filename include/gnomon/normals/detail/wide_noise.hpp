@@ -27,7 +27,7 @@ namespace gnomon::detail {
     return has_length(axis_of_cone(rays));
 }
 
-/// The same of about 3,000 points of an index.
+/// Whether all rays of an index are, judged by about 3,000 of its points.
 [[nodiscard]] bool is_of_camera(const auto& index) {
     const std::size_t step = std::max<std::size_t>(index.size() / sampled_planes, 1);
     scratch<point_index> some;
