@@ -12,9 +12,10 @@
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///  4. cut      What two planes at an edge explain better is cut in two, merged and competed for.
 ///
-/// All of it once more in what is left, by twice the angle, as edges blend normals. Where noise is
-/// independent from point to point, which that of a depth camera is not, planes that meet at an
-/// angle of only 3 degrees are cut apart in the end. All lengths
+/// These steps are repeated for the unlabeled points, by twice the angle, as edges blend normals.
+/// Where the noise is independent from point to point, planes that meet at an angle of only 3
+/// degrees are cut apart in the end. It is taken to be so where view points are known and the rays
+/// are not all within 45 degrees of one axis, as those of a depth camera. All lengths
 /// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 #pragma once
 
@@ -100,7 +101,8 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    const bool is_independent = !index.viewpoints.empty() && !detail::is_of_camera(index);
+    const bool is_independent =
+        !index.viewpoints.empty() && !detail::is_of_camera(index, detail::some_points_of(index));
     return detail::numbered_segments_of(
         detail::regions_of_planes(cloud, graph, graph, surface, options.min_points,
                                   options.max_angle, is_independent, team)

@@ -19,21 +19,24 @@
 
 namespace gnomon::detail {
 
-/// Whether all rays are within 45 degrees of one axis. (A template for compile time only.)
-[[nodiscard]] bool are_of_camera(const auto& index, const scratch<point_index>& some) {
+/// About 3,000 of the finite points of an index, drawn at random; all of fewer than 6,000. (A
+/// template, as the next one, for compile time only.)
+[[nodiscard]] scratch<point_index> some_points_of(const auto& index) {
+    const std::size_t thinning = std::max<std::size_t>(index.finite() / sampled_planes, 1);
+    scratch<point_index> some;
+    for (std::size_t i = 0; i < index.size(); ++i)
+        if (index.is_finite(i) && random_stream(i).bits() % thinning == 0)
+            some.push_back(static_cast<point_index>(i));
+    return some;
+}
+
+/// Whether all rays of an index are within 45 degrees of one axis, as those of a depth camera;
+/// tested on some of them.
+[[nodiscard]] bool is_of_camera(const auto& index, const scratch<point_index>& some) {
     scratch<sampled_plane> rays;
     for (const point_index i : some)
         rays.push_back({difference(index[i], index.viewpoints[i]), {0.0, 0.0, 0.0}});
     return has_length(axis_of_cone(rays));
-}
-
-/// Whether all rays of an index are, judged by about 3,000 of its points.
-[[nodiscard]] bool is_of_camera(const auto& index) {
-    const std::size_t step = std::max<std::size_t>(index.size() / sampled_planes, 1);
-    scratch<point_index> some;
-    for (std::size_t i = 0; i < index.size(); i += step)
-        if (index.is_finite(i)) some.push_back(static_cast<point_index>(i));
-    return are_of_camera(index, some);
 }
 
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
@@ -43,16 +46,11 @@ namespace gnomon::detail {
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
                                                spatial_index& sparse, const X& run) {
-    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
-    if (thinning < 2) return noise;
-    scratch<point_index> some;
+    if (index.finite() / sampled_planes < 2) return noise;  // a plane for each point left
+    const scratch<point_index> some = some_points_of(index);
+    if (!is_of_camera(index, some)) return noise;
     double range = 0.0;
-    for (std::size_t i = 0; i < index.size(); ++i) {
-        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
-        some.push_back(static_cast<point_index>(i));
-        range += length(difference(index[i], index.viewpoints[i]));
-    }
-    if (!are_of_camera(index, some)) return noise;
+    for (const point_index i : some) range += length(difference(index[i], index.viewpoints[i]));
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
     const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));

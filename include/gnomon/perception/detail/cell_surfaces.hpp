@@ -134,7 +134,8 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        const bool is_independent = !noise_.is_across_surface && !is_of_camera(index_);
+        const bool is_independent =
+            !noise_.is_across_surface && !is_of_camera(index_, some_points_of(index_));
         regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, is_independent, run));
     }

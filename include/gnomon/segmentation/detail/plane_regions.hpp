@@ -16,6 +16,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/segmentation/detail/agglomeration.hpp>
+#include <gnomon/segmentation/detail/crease_cut.hpp>
 #include <gnomon/segmentation/detail/edge_cut.hpp>
 #include <gnomon/segmentation/detail/label_competition.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
@@ -58,8 +59,9 @@ class plane_regions {
         cut(run, [](const auto& a, const auto& b) { return are_at_edge(a, b); });
     }
 
-    /// Cuts regions at creases too, where noise is independent from point to point, and moves the
-    /// borders between regions there; from now on a crease keeps regions apart.
+    /// Cuts regions at creases, and moves the borders between regions to creases, in at most
+    /// `most_rounds` rounds: between two, the competition gives single points near a crease to the
+    /// other side again. From now on a crease keeps regions apart.
     template <execution X>
     void cut_creases(const X& run) {
         keeps_creases_ = true;
@@ -73,7 +75,7 @@ class plane_regions {
   private:
     /// Cuts regions where two planes explain them better, and settles them.
     /// @param is_edge  is_edge(part, part): whether their planes meet at an edge
-    /// @return whether there were any
+    /// @return whether a region was cut
     template <execution X>
     bool cut(const X& run, auto&& is_edge) {
         const label_groups parts(labels_);

@@ -23,6 +23,7 @@ class strips {
   public:
     /// @param along  of unit length
     /// @param first  the position of the first strip along it, from the origin of the cloud [m]
+    /// @param width  of each strip, more than zero [m]
     strips(const Eigen::Vector3d& along, double first, double width)
         : along_(along), first_(first), width_(width) {}
 
@@ -30,11 +31,12 @@ class strips {
     void add(const auto& cloud, std::size_t i) { cloud.add(i, sums_[strip_of(cloud.offsets[i])]); }
 
     /// The cut after which two planes explain the points best.
-    /// @param accepts     accepts(side, side): whether these may be two planes
-    /// @param not_curved  whether it is none if a parabola explains the points better
-    /// @param least       the squared deviations that it must be below; becomes those after it
+    /// @param accepts        accepts(side, side): whether these may be two planes
+    /// @param reject_curved  whether there is no cut if a parabola explains the points better
+    /// @param least          the sum of squared deviations from the planes that the cut must be
+    ///                       below; is replaced by that of the cut
     [[nodiscard]] std::optional<plane> best_cut(std::size_t min_points, auto&& accepts,
-                                                bool not_curved, double& least) const {
+                                                bool reject_curved, double& least) const {
         double deviations = least;
         std::size_t best = 0;
         for (std::size_t cut = 1; cut < count; ++cut) {
@@ -45,7 +47,7 @@ class strips {
             deviations = both;
             best = cut;
         }
-        if (best == 0 || (not_curved && is_curved(best))) return std::nullopt;
+        if (best == 0 || (reject_curved && is_curved(best))) return std::nullopt;
         least = deviations;
         return plane{along_, first_ + width_ * static_cast<double>(best)};
     }
