@@ -27,8 +27,7 @@ STEPS = {
     "measured noise, the true one instead": {"options": ["--noise", "true"]},
     "noise of wide planes": {"texts": [
         ("gnomon/perception/detail/known_noise.hpp",
-         "noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);",
-         "noise.of_planes = noise.curve;")]},
+         "noise_of_wide_planes(points, *found.curve, sparse, run);", "*found.curve;")]},
     "cells, each point its own": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp",
          "return std::max(noise.of_planes.along(ray), least);", "return least;")]},
@@ -36,6 +35,9 @@ STEPS = {
         ("gnomon/segmentation/segment_planes.hpp", "    regions.grow(surface, std::max(0.0, 2.0 * cosine * cosine - 1.0), run);  // of twice the angle\n", "")]},
     "cutting of regions at edges": {"texts": [
         ("gnomon/segmentation/detail/plane_regions.hpp", "if (!cuts[r]) continue;", "continue;")]},
+    "cutting of regions at creases": {"texts": [
+        ("gnomon/segmentation/segment_planes.hpp",
+         "    if (noise_is_independent) regions.cut_creases(run);\n", "")]},
     "no merging of planes at edges": {"texts": [
         ("gnomon/segmentation/detail/plane_comparison.hpp",
          "    if (are_at_edge(a, b)) return std::numeric_limits<double>::infinity();\n", "")]},
@@ -44,7 +46,9 @@ STEPS = {
          "bool merge(scratch<region_pair> pairs) {",
          "bool merge(scratch<region_pair> pairs) { pairs.clear();")]},
     "competition of planes for cells": {"texts": [
-        ("gnomon/segmentation/detail/plane_regions.hpp", "round < most_rounds;", "false;")]},
+        ("gnomon/segmentation/detail/plane_regions.hpp",
+         "for (int round = 0; round < most_rounds; ++round) {\n            auto after",
+         "for (int round = 0; false; ++round) {\n            auto after")]},
     "weights of cells by their points": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp", "        cloud_->counts = cells_.counts;\n", "")]},
     "competition of planes for points": {"texts": [

@@ -6,7 +6,11 @@
 
 #include <optional>
 
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/range_noise.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/detail/wide_noise.hpp>
@@ -15,28 +19,39 @@
 
 namespace gnomon::detail {
 
+/// The root mean square of the noise of some of the points [m].
+[[nodiscard]] double mean_noise(const auto& points, const noise_curve& noise) {
+    double sum = 0.0;
+    const scratch<point_index> some = some_points_of(points);
+    for (const point_index i : some)
+        sum += noise.variance_along(difference(points[i], points.viewpoints[i]));
+    return some.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(some.size()));
+}
+
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
-/// surfaces, and why.
-/// @param noise   becomes that of the points: perception_result::known_noise
-/// @param given   by the user, if any
-/// @param sparse  memory for the index of some of the points
+/// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
+/// @param noise    becomes that of the points: perception_result::known_noise
+/// @param given    by the user, if any
+/// @param measure  whether to measure it although it is given
+/// @param sparse   memory for the index of some of the points
 template <class X>
 void determine_noise(auto& noise, const spatial_index& points,
-                     const std::optional<noise_curve>& given, spatial_index& sparse, const X& run) {
+                     const std::optional<noise_curve>& given, bool measure, spatial_index& sparse,
+                     const X& run) {
     noise = {};
-    if (given) {
-        noise.curve = noise.of_planes = *given;
-        return;
-    }
+    if (given) noise.curve = noise.of_planes = *given;
+    if (given && !measure) return;
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
-        noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
-        return;
+        const noise_curve of_planes = noise_of_wide_planes(points, *found.curve, sparse, run);
+        if (!given) noise.curve = *found.curve;
+        if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
+            noise.of_planes = of_planes;
+    } else if (!given) {
+        noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+        noise.is_across_surface = true;
+        noise.reason = found.reason;
     }
-    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
-    noise.is_across_surface = true;
-    noise.reason = found.reason;
 }
 
 /// The same policy for this noise, if it depends on any.

@@ -63,7 +63,8 @@ class perception_run {
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
         step("noise", [&] {
-            determine_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
+            determine_noise(result_.noise, *given_, chain_.noise, Chain::is_on_cells,
+                            result_.memory.sparse, run_);
         });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
