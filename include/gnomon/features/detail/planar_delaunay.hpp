@@ -2,7 +2,8 @@
 /// @file
 /// The Delaunay triangulation of points in a plane by divide and conquer (Guibas and Stolfi 1985,
 /// Primitives for the manipulation of general subdivisions and the computation of Voronoi
-/// diagrams). Coordinates are integers, so that their differences, and all signs, are exact.
+/// diagrams), across x and y in turn (Dwyer 1987). Coordinates are integers, so that their
+/// differences, and all signs, are exact.
 #pragma once
 
 #include <algorithm>
@@ -32,10 +33,10 @@ class planar_delaunay {
         origin_.reserve(edges);
         next_.reserve(edges);
         previous_.reserve(edges);
-        triangulate(0, points_.size());
+        triangulate(0, points_.size(), false);
     }
 
-    /// The different points, sorted by x and then y; origins refer to them.
+    /// The different points; origins refer to them.
     [[nodiscard]] const std::vector<planar_point>& points() const { return points_; }
 
     /// The number of directed edges, with those that were removed.
@@ -63,6 +64,13 @@ class planar_delaunay {
         edge left;   // out of the leftmost point, with the hull on its left
         edge right;  // out of the rightmost point, with the hull on its right
     };
+
+    /// Whether a is left of b; below, where the plane is turned by a right angle.
+    [[nodiscard]] static bool is_before(const planar_point& a, const planar_point& b,
+                                        bool is_turned) {
+        if (is_turned) return a.y != b.y ? a.y < b.y : a.x > b.x;
+        return a.x != b.x ? a.x < b.x : a.y < b.y;
+    }
 
     [[nodiscard]] double area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
         return signed_area(points_[a], points_[b], points_[c]);
@@ -112,25 +120,49 @@ class planar_delaunay {
         next_[e] = next_[e ^ 1] = no_edge;
     }
 
-    outer_edges triangulate(std::size_t begin, std::size_t end) {
-        const auto first = static_cast<std::uint32_t>(begin);
-        if (end - begin == 2) {
-            const edge a = add(first, first + 1);
-            return {a, a ^ 1};
-        }
-        if (end - begin == 3) {
-            const edge a = add(first, first + 1);
-            const edge b = add(first + 1, first + 2);
-            splice(a ^ 1, b);
-            const double turn = area(first, first + 1, first + 2);
-            if (turn == 0.0) return {a, b ^ 1};
-            const edge c = connect(b, a);
-            return turn > 0.0 ? outer_edges{a, b ^ 1} : outer_edges{c ^ 1, c};
+    outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
+        const auto at = [&](std::size_t i) {
+            return points_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const auto before = [&](const planar_point& a, const planar_point& b) {
+            return is_before(a, b, is_turned);
+        };
+        if (end - begin <= 3) {
+            std::sort(at(begin), at(end), before);
+            return triangulate_few(static_cast<std::uint32_t>(begin), end - begin);
         }
         const std::size_t middle = begin + (end - begin) / 2;
-        const outer_edges left = triangulate(begin, middle);
-        const outer_edges right = triangulate(middle, end);
-        return merged(left, right);
+        std::nth_element(at(begin), at(middle), at(end), before);
+        const edge lower = triangulate(begin, middle, !is_turned).left;
+        const edge upper = triangulate(middle, end, !is_turned).left;
+        return merged(extremes(lower, is_turned), extremes(upper, is_turned));
+    }
+
+    /// Two or three points, the first of them number `first`.
+    outer_edges triangulate_few(std::uint32_t first, std::size_t count) {
+        const edge a = add(first, first + 1);
+        if (count == 2) return {a, a ^ 1};
+        const edge b = add(first + 1, first + 2);
+        splice(a ^ 1, b);
+        const double turn = area(first, first + 1, first + 2);
+        if (turn == 0.0) return {a, b ^ 1};
+        const edge c = connect(b, a);
+        return turn > 0.0 ? outer_edges{a, b ^ 1} : outer_edges{c ^ 1, c};
+    }
+
+    /// The outer edges in another direction, by a walk around the hull.
+    /// @param start  an edge with the hull on its left
+    [[nodiscard]] outer_edges extremes(edge start, bool is_turned) const {
+        outer_edges found{start, start ^ 1};
+        edge e = start;
+        do {
+            if (is_before(points_[origin(e)], points_[origin(found.left)], is_turned))
+                found.left = e;
+            if (is_before(points_[origin(found.right)], points_[destination(e)], is_turned))
+                found.right = e ^ 1;
+            e = next_about_left(e ^ 1) ^ 1;
+        } while (e != start);
+        return found;
     }
 
     /// Zips two triangulations together, from the lower common tangent upwards.
