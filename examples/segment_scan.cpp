@@ -285,9 +285,9 @@ void print_table(const json& report, unsigned threads) {
     for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), 10); ++i) {
         const json& s = segments[i];
         const auto normal = s["normal"].get<std::vector<double>>();
-        std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s\n", i,
-                    s["points"].get<std::size_t>(), size_of(s).c_str(), normal[0], normal[1],
-                    normal[2], s["flat"] ? "" : "   not flat");
+        std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s\n", i, s["points"].get<std::size_t>(),
+                    size_of(s).c_str(), normal[0], normal[1], normal[2],
+                    s["flat"] ? "" : "   not flat");
     }
     if (segments.size() > 10) std::puts("  ...");
     std::puts("");

@@ -39,8 +39,8 @@ class ply_mesh {
             append<std::uint8_t>(faces_, std::uint8_t{3});
             for (const gnomon::point_index i : triangle) {
                 const auto place = std::ranges::lower_bound(used, i) - used.begin();
-                append<std::uint32_t>(
-                    faces_, static_cast<std::uint32_t>(vertex_count_ + static_cast<std::size_t>(place)));
+                append<std::uint32_t>(faces_, static_cast<std::uint32_t>(
+                                                  vertex_count_ + static_cast<std::size_t>(place)));
             }
         }
         vertex_count_ += used.size();

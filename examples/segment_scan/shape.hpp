@@ -75,8 +75,9 @@ struct segment_shape {
     const gnomon::scan& scan, const gnomon::segments& parts,
     const std::vector<gnomon::plane_estimate>& planes, const gnomon::threads& threads) {
     std::vector<segment_shape> shapes(parts.size());
-    threads(parts.size(),
-            [&](std::size_t label) { shapes[label] = shape_of(scan, parts[label], planes[label]); });
+    threads(parts.size(), [&](std::size_t label) {
+        shapes[label] = shape_of(scan, parts[label], planes[label]);
+    });
     return shapes;
 }
 

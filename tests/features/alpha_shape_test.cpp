@@ -125,7 +125,7 @@ void expect_shape(const clouds::cloud& p, const alpha_shape& shape) {
     expect_no_crossing(p, paths);
 }
 
-/// One polygon with one hole, the door, both to within half a spacing along all borders.
+/// One polygon with one hole, the doorway, both to within half a spacing along all borders.
 void expect_wall_with_door(const clouds::cloud& points, double spacing) {
     const alpha_shape wall = alpha_shape::of(points, gnomon::plane{});
     expect_shape(points, wall);
@@ -167,20 +167,22 @@ TEST(alpha_shape, connects_scan_lines) {
 }
 
 TEST(alpha_shape, adapts_to_spacings_that_vary) {
-    // As on a floor: lines farther and farther apart, 2 cm to 40 cm, with a hole where they are
-    // dense, of less than the largest distance.
+    // As on a floor: lines farther and farther apart, 2 cm to 40 cm, with an opening where they are
+    // dense.
     clouds::cloud points;
     gnomon::random_stream random(5);
     for (double x = 0.5; x < 10.0; x *= 1.04) {
         for (double y = -2.0; y <= 2.0; y += 0.01) {
-            if (std::abs(x - 1.0) < 0.15 && std::abs(y) < 0.15) continue;
+            if (std::abs(x - 1.6) < 0.5 && std::abs(y) < 0.5) continue;
             points.push_back({x, y + 0.002 * random.gaussian(), 0});
         }
     }
     const alpha_shape floor = alpha_shape::of(points, gnomon::plane{});
     expect_shape(points, floor);
     ASSERT_EQ(floor.polygons.size(), 1u);
-    EXPECT_NEAR(floor.area, 4.0 * 9.35, 0.5);
+    ASSERT_EQ(floor.polygons[0].holes.size(), 1u);
+    EXPECT_NEAR(-area_within(points, floor.polygons[0].holes[0]), 1.0, 0.12);
+    EXPECT_NEAR(floor.area, 4.0 * (0.5 * std::pow(1.04, 76) - 0.5) - 1.0, 0.2);
 }
 
 TEST(alpha_shape, of_two_islands_has_two_polygons) {
@@ -203,8 +205,8 @@ TEST(alpha_shape, of_two_islands_has_two_polygons) {
 TEST(alpha_shape, of_sparse_points_has_no_crossing) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(seed);
-        clouds::cloud points = seed % 2 ? clouds::in_cube(10 + seed, seed)
-                                        : clouds::on_grid(10 + seed, seed, 0.0625);
+        clouds::cloud points =
+            seed % 2 ? clouds::in_cube(10 + seed, seed) : clouds::on_grid(10 + seed, seed, 0.0625);
         for (Eigen::Vector3d& p : points) p.x() *= 1.0 + 30.0 * p.x() * p.x();
         expect_shape(points, alpha_shape::of(points, gnomon::plane{}));
     }

@@ -44,8 +44,8 @@ std::vector<planar_point> random_integers(std::size_t n, std::uint64_t seed, dou
     std::vector<planar_point> points;
     for (std::size_t i = 0; i < n; ++i) {
         const double x = std::floor(width * random.uniform());
-        points.push_back({x, std::floor(height * random.uniform()),
-                          static_cast<gnomon::point_index>(i)});
+        points.push_back(
+            {x, std::floor(height * random.uniform()), static_cast<gnomon::point_index>(i)});
     }
     return points;
 }
@@ -87,7 +87,7 @@ TEST(planar_delaunay, has_empty_circles) {
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
         SCOPED_TRACE(seed);
         expect_delaunay(random_integers(3 + seed, seed, 10'000, 10'000));
-        expect_delaunay(random_integers(3 + seed, seed, 12, 9));       // ties, duplicates
+        expect_delaunay(random_integers(3 + seed, seed, 12, 9));      // ties, duplicates
         expect_delaunay(random_integers(3 + seed, seed, 10'000, 3));  // lines
     }
 }

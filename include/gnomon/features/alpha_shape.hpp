@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The outline of a planar segment with its holes: a wall with its door. In no umbrella: include it
-/// by name.
+/// The outline of a planar segment with its holes: a wall with its doorway. In no umbrella: include
+/// it by name.
 ///
 ///     const auto wall = gnomon::alpha_shape::of(gnomon::subset_view(scan, parts[s]), plane);
 ///     for (const auto& hole : wall.polygons[0].holes) draw(hole);  // indices of points, in order
 ///
-/// It is a 2D alpha shape (Edelsbrunner, Kirkpatrick and Seidel 1983): the triangles of the Delaunay
-/// triangulation whose circumradius is at most alpha, here 2.5 times the local spacing. Scan lines
-/// far apart are connected, since the spacing is taken across them: it is the median, over the
-/// points of a cell of 512 to 1023 points, of the largest circumradius about each. Alpha is at least
-/// 1.7 times the quantile 0.9 of that radius over all points. Openings are found from about 4
-/// spacings of a grid of points in width, 2.5 to 3 distances of scan lines, 6 mean spacings of
-/// scattered points.
+/// It is a 2D alpha shape (Edelsbrunner, Kirkpatrick and Seidel 1983): the triangles of the
+/// Delaunay triangulation whose circumradius is at most alpha, here 2.5 times the local spacing.
+/// Scan lines far apart are connected, since the spacing is taken across them: it is the median,
+/// over the points of a cell of 512 to 1023 points, of the largest circumradius about each. Alpha
+/// is at least 1.7 times the quantile 0.9 of that radius over all points. Openings are found from
+/// about 4 spacings of a grid of points in width, 2.5 to 3 distances of scan lines, 6 mean spacings
+/// of scattered points.
 #pragma once
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The triangles of a Delaunay triangulation whose circumradius is small for their surroundings, and
-/// the closed paths around them.
+/// The triangles of a Delaunay triangulation whose circumradius is small for their surroundings,
+/// and the closed paths around them.
 #pragma once
 
 #include <algorithm>
@@ -114,7 +114,8 @@ class alpha_complex {
         std::vector<std::uint32_t> order(n);
         for (std::uint32_t v = 0; v < n; ++v) order[v] = v;
         const auto quantile = [&](double q, auto begin, auto end) {
-            const auto at = begin + static_cast<std::ptrdiff_t>(q * static_cast<double>(end - begin - 1));
+            const auto at =
+                begin + static_cast<std::ptrdiff_t>(q * static_cast<double>(end - begin - 1));
             std::nth_element(begin, at, end, [&](std::uint32_t a, std::uint32_t b) {
                 return largest[a] < largest[b];
             });

@@ -18,7 +18,7 @@
 
 namespace gnomon::detail {
 
-/// A triangulation as rings of directed edges around their origins: edge e ^ 1 is e reversed.
+/// A triangulation as cycles of directed edges about their origins: edge e ^ 1 is e reversed.
 class planar_delaunay {
   public:
     using edge = std::uint32_t;
@@ -100,7 +100,7 @@ class planar_delaunay {
         }
         return e;
     }
-    /// Joins the rings of the origins of a and b, or splits their common one.
+    /// Joins the cycles about the origins of a and b, or splits their common one.
     void splice(edge a, edge b) {
         std::swap(next_[a], next_[b]);
         previous_[next_[a]] = a;
@@ -186,9 +186,8 @@ class planar_delaunay {
             const bool a_is_above = is_right(destination(a), base);
             const bool b_is_above = is_right(destination(b), base);
             if (!a_is_above && !b_is_above) return {left.left, right.right};
-            const bool take_b =
-                !a_is_above ||
-                (b_is_above && is_within(destination(a), origin(a), origin(b), destination(b)));
+            const bool take_b = !a_is_above || (b_is_above && is_within(destination(a), origin(a),
+                                                                        origin(b), destination(b)));
             base = take_b ? connect(b, base ^ 1) : connect(base ^ 1, a ^ 1);
         }
     }

@@ -20,8 +20,7 @@ struct planar_axes {
     Eigen::Vector3d x;
     Eigen::Vector3d y;
 
-    explicit planar_axes(const plane& p)
-        : x(orthogonal(p.normal)), y(cross(p.normal, x)) {}
+    explicit planar_axes(const plane& p) : x(orthogonal(p.normal)), y(cross(p.normal, x)) {}
 
     /// The finite points along the axes [m], from a point near them.
     /// @param p  a position_view, or anything with size() and positions by index
