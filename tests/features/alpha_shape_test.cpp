@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 #include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Geometry>
@@ -17,7 +18,7 @@ namespace {
 
 using gnomon::alpha_shape;
 using gnomon::point_index;
-using corners = std::vector<point_index>;
+using index_path = std::vector<point_index>;
 
 constexpr double door_width = 0.9;
 constexpr double door_height = 2.0;
@@ -52,18 +53,18 @@ clouds::cloud lines_on_wall(double dx, double dy, double sigma, std::uint64_t se
 }
 
 /// Twice the signed area of the triangle of three points in the plane z = 0.
-double turn(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
+double twice_area(const Eigen::Vector3d& a, const Eigen::Vector3d& b, const Eigen::Vector3d& c) {
     return (b - a).cross(c - a).z();
 }
 
-double area_within(const clouds::cloud& p, const corners& path) {
+double area_within(const clouds::cloud& p, const index_path& path) {
     double area = 0.0;
     for (std::size_t i = 2; i < path.size(); ++i)
-        area += 0.5 * turn(p[path[0]], p[path[i - 1]], p[path[i]]);
+        area += 0.5 * twice_area(p[path[0]], p[path[i - 1]], p[path[i]]);
     return area;
 }
 
-bool is_inside(const clouds::cloud& p, const corners& path, const Eigen::Vector3d& x) {
+bool is_inside(const clouds::cloud& p, const index_path& path, const Eigen::Vector3d& x) {
     bool inside = false;
     for (std::size_t i = 0, j = path.size() - 1; i < path.size(); j = i++) {
         const Eigen::Vector3d a = p[path[i]], b = p[path[j]];
@@ -74,20 +75,28 @@ bool is_inside(const clouds::cloud& p, const corners& path, const Eigen::Vector3
     return inside;
 }
 
-/// No two edges of the paths cross, by brute force, and no path visits a point twice.
-void expect_no_crossing(const clouds::cloud& p, const std::vector<corners>& paths) {
-    std::vector<std::array<point_index, 2>> edges;
-    for (const corners& path : paths) {
+/// No path visits a point twice, and no two edges cross that are at the same x.
+void expect_no_crossing(const clouds::cloud& p, const std::vector<index_path>& paths) {
+    std::vector<std::array<point_index, 2>> edges;  // each from left to right
+    for (const index_path& path : paths) {
         ASSERT_GE(path.size(), 3u);
         EXPECT_EQ(std::set<point_index>(path.begin(), path.end()).size(), path.size());
         EXPECT_EQ(path.front(), *std::min_element(path.begin(), path.end()));
-        for (std::size_t i = 0; i < path.size(); ++i)
+        for (std::size_t i = 0; i < path.size(); ++i) {
             edges.push_back({path[i], path[(i + 1) % path.size()]});
+            if (p[edges.back()[0]].x() > p[edges.back()[1]].x())
+                std::swap(edges.back()[0], edges.back()[1]);
+        }
     }
-    for (const auto& [a, b] : edges) {
-        for (const auto& [c, d] : edges) {
-            const bool crosses = turn(p[a], p[b], p[c]) * turn(p[a], p[b], p[d]) < 0 &&
-                                 turn(p[c], p[d], p[a]) * turn(p[c], p[d], p[b]) < 0;
+    std::sort(edges.begin(), edges.end(),
+              [&](const auto& e, const auto& f) { return p[e[0]].x() < p[f[0]].x(); });
+    for (std::size_t i = 0; i < edges.size(); ++i) {
+        const auto [a, b] = edges[i];
+        for (std::size_t j = i + 1; j < edges.size(); ++j) {
+            const auto [c, d] = edges[j];
+            if (p[c].x() > p[b].x()) break;
+            const bool crosses = twice_area(p[a], p[b], p[c]) * twice_area(p[a], p[b], p[d]) < 0 &&
+                                 twice_area(p[c], p[d], p[a]) * twice_area(p[c], p[d], p[b]) < 0;
             ASSERT_FALSE(crosses) << a << " " << b << " and " << c << " " << d;
         }
     }
@@ -95,14 +104,14 @@ void expect_no_crossing(const clouds::cloud& p, const std::vector<corners>& path
 
 /// The laws of a shape of points in the plane z = 0.
 void expect_shape(const clouds::cloud& p, const alpha_shape& shape) {
-    std::vector<corners> paths;
+    std::vector<index_path> paths;
     double area = 0.0;
     double before = clouds::infinity;
     for (const auto& polygon : shape.polygons) {
         double own = area_within(p, polygon.outline);
         EXPECT_GT(own, 0.0);
         paths.push_back(polygon.outline);
-        for (const corners& hole : polygon.holes) {
+        for (const index_path& hole : polygon.holes) {
             EXPECT_LT(area_within(p, hole), 0.0);
             own += area_within(p, hole);
             paths.push_back(hole);
@@ -118,8 +127,8 @@ void expect_shape(const clouds::cloud& p, const alpha_shape& shape) {
     EXPECT_NEAR(shape.area, area, 1e-7 * area);
     double of_triangles = 0.0;
     for (const auto& [a, b, c] : shape.triangles) {
-        EXPECT_GT(turn(p[a], p[b], p[c]), 0.0);
-        of_triangles += 0.5 * turn(p[a], p[b], p[c]);
+        EXPECT_GT(twice_area(p[a], p[b], p[c]), 0.0);
+        of_triangles += 0.5 * twice_area(p[a], p[b], p[c]);
     }
     EXPECT_NEAR(of_triangles, area, 1e-7 * area);
     expect_no_crossing(p, paths);
@@ -202,6 +211,28 @@ TEST(alpha_shape, of_two_islands_has_two_polygons) {
     EXPECT_TRUE(shape.polygons[0].holes.empty() && shape.polygons[1].holes.empty());
 }
 
+TEST(alpha_shape, splits_paths_where_they_touch) {
+    // A frame with an hourglass in it, whose waist is a single point: both holes have it.
+    clouds::cloud points{{0, 0, 0}};
+    for (int x = -20; x <= 20; ++x)
+        for (int y = -14; y <= 14; ++y)
+            if (std::abs(y) >= 10 || std::abs(x) >= 16) points.push_back({1.0 * x, 1.0 * y, 0});
+    for (int row = 1; row < 10; ++row) {
+        const int gaps = 1 + row * 2 / 5;
+        for (int i = 0; i <= gaps; ++i)
+            for (const int side : {-1, 1})
+                points.push_back({0.2 * row * (2.0 * i / gaps - 1.0), 1.0 * side * row, 0});
+    }
+    const alpha_shape shape = alpha_shape::of(points, gnomon::plane{});
+    expect_shape(points, shape);
+    ASSERT_EQ(shape.polygons.size(), 1u);
+    ASSERT_EQ(shape.polygons[0].holes.size(), 2u);
+    for (const index_path& hole : shape.polygons[0].holes) {
+        EXPECT_EQ(hole.front(), 0u);
+        EXPECT_NEAR(area_within(points, hole), -(32.0 * 20.0 - 40.0) / 2.0, 15.0);
+    }
+}
+
 TEST(alpha_shape, of_sparse_points_has_no_crossing) {
     for (std::uint64_t seed = 0; seed < 300; ++seed) {
         SCOPED_TRACE(seed);
@@ -216,7 +247,7 @@ TEST(alpha_shape, of_sparse_points_has_no_crossing) {
 std::set<std::set<point_index>> paths_of(const alpha_shape& shape,
                                          const std::vector<std::size_t>& order) {
     std::set<std::set<point_index>> paths;
-    const auto add = [&](const corners& path) {
+    const auto add = [&](const index_path& path) {
         std::set<point_index> own;
         for (const point_index i : path)
             own.insert(order.empty() ? i : static_cast<point_index>(order[i]));
@@ -224,7 +255,7 @@ std::set<std::set<point_index>> paths_of(const alpha_shape& shape,
     };
     for (const auto& polygon : shape.polygons) {
         add(polygon.outline);
-        for (const corners& hole : polygon.holes) add(hole);
+        for (const index_path& hole : polygon.holes) add(hole);
     }
     return paths;
 }
@@ -270,7 +301,7 @@ TEST(alpha_shape, of_degenerate_points_is_empty_or_a_shape) {
     const clouds::cloud triangle{{0, 0, 0}, {1, 0, 5}, {0, 1, 0}};
     const alpha_shape smallest = alpha_shape::of(triangle, gnomon::plane{});
     ASSERT_EQ(smallest.polygons.size(), 1u);
-    EXPECT_EQ(smallest.polygons[0].outline, (corners{0, 1, 2}));
+    EXPECT_EQ(smallest.polygons[0].outline, (index_path{0, 1, 2}));
     EXPECT_NEAR(smallest.area, 0.5, 1e-9);
     for (const auto& [name, points] : clouds::degenerate()) {
         SCOPED_TRACE(name);
