@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// What surfaces does a scan consist of? From a file to labeled points, a picture and a table: read
-/// the scan, find its surfaces by `perception`, describe the segments.
+/// the scan, find its surfaces by `perception`, describe the segments and their shapes.
 
 #include <algorithm>
 #include <cmath>
@@ -19,7 +19,9 @@
 #include "common/program.hpp"
 #include "common/progress.hpp"
 #include "picture/of_perception.hpp"
+#include "segment_scan/mesh.hpp"
 #include "segment_scan/options.hpp"
+#include "segment_scan/shape.hpp"
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
@@ -132,9 +134,10 @@ void report_floor(const result& r) {
 
 json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
-json array_of(const Eigen::Matrix3d& m) {
-    return json::array({array_of(Eigen::Vector3d(m.row(0))), array_of(Eigen::Vector3d(m.row(1))),
-                        array_of(Eigen::Vector3d(m.row(2)))});
+/// The columns of a matrix, one after the other.
+json columns_of(const Eigen::Matrix3d& m) {
+    return json::array({array_of(Eigen::Vector3d(m.col(0))), array_of(Eigen::Vector3d(m.col(1))),
+                        array_of(Eigen::Vector3d(m.col(2)))});
 }
 
 /// The noise that all steps went by.
@@ -146,14 +149,45 @@ json description_of(const result::known_noise& noise, const options& o) {
     return description;
 }
 
-/// The plane of a flat segment, else null.
-json description_of(const gnomon::plane_estimate& e) {
+/// The plane of a flat segment, else null. Its axes are those of the box.
+json description_of(const gnomon::plane_estimate& e, const gnomon::oriented_box& box) {
     if (!e.is_flat) return nullptr;
     return {{"normal", array_of(e.plane.normal)},
             {"offset", e.plane.offset},
             {"centroid", array_of(e.centroid)},
-            {"axes", array_of(Eigen::Matrix3d(e.axes.transpose()))},
-            {"covariance", array_of(e.covariance)}};
+            {"axes", columns_of(box.axes)},
+            {"covariance", columns_of(covariance_about(box.axes, e))}};
+}
+
+json description_of(const gnomon::oriented_box& box) {
+    return {{"center", array_of(box.center)},
+            {"axes", columns_of(box.axes)},
+            {"lengths", array_of(box.lengths)}};
+}
+
+json description_of(const gnomon::scan& scan, const gnomon::plane& plane,
+                    const gnomon::alpha_shape::polygon& polygon) {
+    const auto corners_of = [&](const std::vector<gnomon::point_index>& path) {
+        json corners = json::array();
+        for (const Eigen::Vector3d& corner : on_plane(scan, plane, path))
+            corners.push_back(array_of(corner));
+        return corners;
+    };
+    json holes = json::array();
+    for (const auto& hole : polygon.holes) holes.push_back(corners_of(hole));
+    return {{"area", polygon.area}, {"outline", corners_of(polygon.outline)}, {"holes", holes}};
+}
+
+/// The largest polygon of a flat segment with the others as its islands, null if there is none.
+json description_of(const gnomon::scan& scan, const gnomon::plane& plane,
+                    const gnomon::alpha_shape& shape) {
+    if (shape.polygons.empty()) return nullptr;
+    json description = description_of(scan, plane, shape.polygons.front());
+    json islands = json::array();
+    for (std::size_t i = 1; i < shape.polygons.size(); ++i)
+        islands.push_back(description_of(scan, plane, shape.polygons[i]));
+    description["islands"] = islands;
+    return description;
 }
 
 /// The normal of a segment: of its plane, if it is flat, else of its principal frame.
@@ -165,11 +199,13 @@ Eigen::Vector3d normal_of(const gnomon::plane_estimate& e, const gnomon::princip
 }
 
 /// One object per segment, largest first.
-json description_of(const gnomon::scan& scan, const result& r) {
+json description_of(const gnomon::scan& scan, const result& r,
+                    const std::vector<segment_shape>& shapes) {
     json list = json::array();
     for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
         const auto members = r.surfaces[label];
         const gnomon::plane_estimate& plane = r.planes[label];
+        const segment_shape& shape = shapes[label];
         const auto frame = gnomon::principal_frame::of(gnomon::subset_view(scan, members));
         const Eigen::Vector3d viewpoint = scan.viewpoints[members.front()];
         list.push_back({{"label", label},
@@ -180,7 +216,9 @@ json description_of(const gnomon::scan& scan, const result& r) {
                         {"surface_variation", frame.spectrum.surface_variation()},
                         {"aspect_ratio", frame.spectrum.aspect_ratio()},
                         {"box_size", array_of(frame.box_size)},
-                        {"plane", description_of(plane)},
+                        {"plane", description_of(plane, shape.box)},
+                        {"box", description_of(shape.box)},
+                        {"polygon", description_of(scan, plane.plane, shape.outline)},
                         {"viewpoint", array_of(viewpoint)}});
     }
     return list;
@@ -211,6 +249,26 @@ void write_points(const output_directory& out, const gnomon::scan& scan, const r
           {color_properties(labels, picture::color_of), scalar_property("label", labels), normals});
 }
 
+/// The polygons of all flat segments as a PLY file.
+std::string mesh_of(const gnomon::scan& scan, const result& r,
+                    const std::vector<segment_shape>& shapes) {
+    ply_mesh mesh;
+    for (std::size_t label = 0; label < shapes.size(); ++label)
+        mesh.add(scan, shapes[label], r.planes[label].plane, static_cast<std::int32_t>(label));
+    return mesh.bytes();
+}
+
+/// Length and width of a segment, and the height if it is not flat.
+std::string size_of(const json& segment) {
+    const auto size = segment["box"]["lengths"].get<std::vector<double>>();
+    char text[64];
+    if (segment["flat"])
+        std::snprintf(text, sizeof text, "%5.2f x %5.2f        ", size[0], size[1]);
+    else
+        std::snprintf(text, sizeof text, "%5.2f x %5.2f x %5.2f", size[0], size[1], size[2]);
+    return text;
+}
+
 void print_table(const json& report, unsigned threads) {
     const json& segments = report["segments"];
     std::printf("%s (%s finite), %s\n", picture::counted(report["points"], "point").c_str(),
@@ -226,11 +284,10 @@ void print_table(const json& report, unsigned threads) {
     if (!segments.empty()) std::puts("\nlabel    points   size [m]              normal");
     for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), 10); ++i) {
         const json& s = segments[i];
-        const auto size = s["box_size"].get<std::vector<double>>();
         const auto normal = s["normal"].get<std::vector<double>>();
-        std::printf("%5zu %9zu   %5.2f x %5.2f x %5.2f   %5.2f %5.2f %5.2f%s\n", i,
-                    s["points"].get<std::size_t>(), size[0], size[1], size[2], normal[0], normal[1],
-                    normal[2], s["flat"] ? "" : "   not flat");
+        std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s\n", i, s["points"].get<std::size_t>(),
+                    size_of(s).c_str(), normal[0], normal[1], normal[2],
+                    s["flat"] ? "" : "   not flat");
     }
     if (segments.size() > 10) std::puts("  ...");
     std::puts("");
@@ -270,8 +327,9 @@ void segment_scan(const options& o) {
     };
     const gnomon::scan scan = timed("reading", [&] { return scan_of(o); });
     const std::optional<gnomon::noise_curve> noise = noise_of(scan, o);
-    const output_directory out(o.out,
-                               {"normals.ply", "segments.ply", "segments.png", "segments.json"});
+    std::vector<std::string> files{"normals.ply", "segments.ply", "segments.png", "segments.json"};
+    if (o.polygons) files.push_back("polygons.ply");
+    const output_directory out(o.out, files);
     timed("spacing", [&] { warn_of_unit(scan, o); });
 
     const result r = [&] {
@@ -280,10 +338,15 @@ void segment_scan(const options& o) {
     }();
     for (const auto& step : r.steps) seconds[std::string(step.name)] = step.seconds;
     if (o.remove_floor) report_floor(r);
-    const json segments = timed("description", [&] { return description_of(scan, r); });
+    std::vector<segment_shape> shapes;
+    const json segments = timed("description", [&] {
+        shapes = shapes_of(scan, r.surfaces, r.planes, o.threads);
+        return description_of(scan, r, shapes);
+    });
     const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
     timed("writing", [&] {
         write_points(out, scan, r);
+        if (o.polygons) gnomon::io::replace_file(out / "polygons.ply", mesh_of(scan, r, shapes));
         gnomon::io::replace_file(out / "segments.png", png);
     });
     seconds["total"] = sum_of(seconds);

@@ -29,7 +29,7 @@ BANNER = """\
 
 
 # The headers of features that no umbrella includes, but those that others of them include.
-FEATURES = ("convex_hull", "minimum_area_rectangle", "minimum_volume_box", "fit_sphere", "fit_cylinder",
+FEATURES = ("alpha_shape", "convex_hull", "minimum_area_rectangle", "minimum_volume_box", "fit_sphere", "fit_cylinder",
             "fit_cone", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
             "zernike_descriptor")
 

@@ -51,7 +51,7 @@ FORBIDDEN = {
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp"}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
-    "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
+    "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
     "surface_fit", "fit_sphere", "fit_cylinder", "fit_cone",
     "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
     "zernike_descriptor")}

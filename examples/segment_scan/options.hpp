@@ -39,14 +39,18 @@ into DIR.
   --viewpoint X,Y,Z   position of the sensor (from SCAN, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
+  --polygons          write polygons.ply too, a mesh of the polygons of flat segments
   --threads N         0 for all there are (0)
   --help              this text
 
 segments.json: points, valid (finite ones), noise (model, and standard deviation at
 1 m and 3 m), seconds of each step, segments_before_merging, and segments, largest
 first. The plane of a segment (normal . x = offset) is null where it is not flat; its
-covariance is of turns about the first two of its axes [rad], and of a shift along the
-third, its normal [m], at its centroid.
+covariance is of turns about the first two axes of the box [rad], and of a shift along
+the third, its normal [m], at its centroid. The box of a flat segment is the rectangle
+of smallest area, its third length the rms distance from the plane; else the box of
+smallest volume. Its polygon has an outline, counterclockwise seen against the normal,
+holes, area [m^2], and as islands further polygons; it is null where there is none.
 
 Exit status: 0; 1 if a file cannot be read or written, or SCAN cannot be processed; 2
 for a wrong command line.
@@ -68,6 +72,7 @@ struct options {
     std::optional<Eigen::Vector3d> up;  ///< unit length
     std::variant<gnomon::conservative, gnomon::liberal, gnomon::no_merging> merge;
     bool remove_floor = false;
+    bool polygons = false;
     gnomon::threads threads;
 };
 
@@ -133,6 +138,8 @@ inline constexpr option<options> known_options[] = {
      }},
     {"--remove-floor", false,
      [](options& o, const std::string&, const std::string&) { o.remove_floor = true; }},
+    {"--polygons", false,
+     [](options& o, const std::string&, const std::string&) { o.polygons = true; }},
     {"--up", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.up = vector_of(name, value).stableNormalized();

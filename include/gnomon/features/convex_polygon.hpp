@@ -23,6 +23,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/features/detail/planar_hull.hpp>
+#include <gnomon/features/detail/planar_projection.hpp>
 #include <gnomon/neighborhoods/detail/delaunay_star.hpp>
 
 namespace gnomon {
@@ -83,11 +84,10 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     detail::require_hesse(plane);
     const position_view<R, Proj> p(points, std::move(projection));
     convex_polygon polygon;
-    const Eigen::Vector3d x = detail::orthogonal(plane.normal);
-    const Eigen::Vector3d y = detail::cross(plane.normal, x);
+    const detail::planar_axes planar(plane);
     for (int i = 0; i < 3; ++i) {
-        polygon.axes(i, 0) = x[i];
-        polygon.axes(i, 1) = y[i];
+        polygon.axes(i, 0) = planar.x[i];
+        polygon.axes(i, 1) = planar.y[i];
         polygon.axes(i, 2) = plane.normal[i];
     }
     std::size_t first = 0;
@@ -95,15 +95,7 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     if (first == p.size()) return polygon;
     polygon.origin =
         detail::combined(1.0, p[first], -plane.signed_distance(p[first]), plane.normal);
-    std::vector<detail::planar_point> projected;
-    projected.reserve(p.size() - first);
-    for (std::size_t i = first; i < p.size(); ++i) {
-        const Eigen::Vector3d q = p[i];
-        if (!is_finite(q)) continue;
-        const Eigen::Vector3d d = detail::difference(q, p[first]);
-        projected.push_back({detail::dot(d, x), detail::dot(d, y), static_cast<point_index>(i)});
-    }
-    detail::set_outline(polygon, std::move(projected));
+    detail::set_outline(polygon, planar.projected(p, p[first]));
     return polygon;
 }
 

@@ -48,12 +48,8 @@ inline void remove_inner_points(std::vector<planar_point>& points) {
     });
 }
 
-/// The corners of the convex hull, counterclockwise from the lexicographically smallest; one for
-/// equal points, two for collinear ones. Of equal points the smallest index is taken.
-/// @param points  at least one, up to 1 in magnitude
-/// Complexity: O(n log n), O(n) if most points are in the interior.
-[[nodiscard]] inline std::vector<planar_point> planar_hull(std::vector<planar_point> points) {
-    remove_inner_points(points);
+/// Sorts points by x, then y; of points at one place the smallest index is kept.
+inline void sort_by_place(std::vector<planar_point>& points) {
     std::sort(points.begin(), points.end(), [](const planar_point& a, const planar_point& b) {
         if (a.x != b.x) return a.x < b.x;
         return a.y != b.y ? a.y < b.y : a.index < b.index;
@@ -62,6 +58,15 @@ inline void remove_inner_points(std::vector<planar_point>& points) {
         return a.x == b.x && a.y == b.y;
     };
     points.erase(std::unique(points.begin(), points.end(), same_place), points.end());
+}
+
+/// The corners of the convex hull, counterclockwise from the lexicographically smallest; one for
+/// equal points, two for collinear ones. Of equal points the smallest index is taken.
+/// @param points  at least one, up to 1 in magnitude
+/// Complexity: O(n log n), O(n) if most points are in the interior.
+[[nodiscard]] inline std::vector<planar_point> planar_hull(std::vector<planar_point> points) {
+    remove_inner_points(points);
+    sort_by_place(points);
     if (points.size() < 3) return points;
     std::vector<planar_point> hull;
     const auto add = [&](const planar_point& p, std::size_t fixed) {

@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The Delaunay triangulation of points in a plane by divide and conquer (Guibas and Stolfi 1985,
+/// Primitives for the manipulation of general subdivisions and the computation of Voronoi
+/// diagrams), across x and y in turn (Dwyer 1987). Coordinates are integers, so that their
+/// differences, and all signs, are exact.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include <gnomon/features/detail/planar_hull.hpp>
+#include <gnomon/neighborhoods/detail/delaunay_star.hpp>
+
+namespace gnomon::detail {
+
+/// A triangulation as cycles of directed edges about their origins: edge e ^ 1 is e reversed.
+class planar_delaunay {
+  public:
+    using edge = std::uint32_t;
+    static constexpr edge no_edge = std::numeric_limits<edge>::max();
+
+    /// @param points  with integers up to 2^33 in magnitude as coordinates, less than 2^28
+    /// Of points at one place the smallest index is kept. O(n log n).
+    explicit planar_delaunay(std::vector<planar_point> points) : points_(std::move(points)) {
+        sort_by_place(points_);
+        if (points_.size() < 2) return;
+        const std::size_t edges = 6 * points_.size();
+        origin_.reserve(edges);
+        next_.reserve(edges);
+        previous_.reserve(edges);
+        triangulate(0, points_.size(), false);
+    }
+
+    /// The different points; origins refer to them.
+    [[nodiscard]] const std::vector<planar_point>& points() const { return points_; }
+
+    /// The number of directed edges, with those that were removed.
+    [[nodiscard]] edge edges() const { return static_cast<edge>(origin_.size()); }
+    [[nodiscard]] bool is_removed(edge e) const { return next_[e] == no_edge; }
+
+    [[nodiscard]] std::uint32_t origin(edge e) const { return origin_[e]; }
+    [[nodiscard]] std::uint32_t destination(edge e) const { return origin_[e ^ 1]; }
+
+    /// The next edge counterclockwise about the origin of e.
+    [[nodiscard]] edge next_about_origin(edge e) const { return next_[e]; }
+
+    /// The next edge counterclockwise about the face on the left of e.
+    [[nodiscard]] edge next_about_left(edge e) const { return previous_[e ^ 1]; }
+
+    /// Whether the face on the left of e is a triangle, and not the outer face.
+    [[nodiscard]] bool has_triangle(edge e) const {
+        const edge second = next_about_left(e);
+        const edge third = next_about_left(second);
+        return next_about_left(third) == e && is_left(origin(third), e);
+    }
+
+  private:
+    struct outer_edges {
+        edge left;   // out of the leftmost point, with the hull on its left
+        edge right;  // out of the rightmost point, with the hull on its right
+    };
+
+    /// Whether a is left of b; below, where the plane is turned by a right angle.
+    [[nodiscard]] static bool is_before(const planar_point& a, const planar_point& b,
+                                        bool is_turned) {
+        if (is_turned) return a.y != b.y ? a.y < b.y : a.x > b.x;
+        return a.x != b.x ? a.x < b.x : a.y < b.y;
+    }
+
+    [[nodiscard]] double area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return signed_area(points_[a], points_[b], points_[c]);
+    }
+    [[nodiscard]] bool is_left(std::uint32_t p, edge e) const {
+        return area(p, origin(e), destination(e)) > 0.0;
+    }
+    [[nodiscard]] bool is_right(std::uint32_t p, edge e) const {
+        return area(p, destination(e), origin(e)) > 0.0;
+    }
+    /// Whether p lies within the circumcircle of the counterclockwise triangle (a, b, c).
+    [[nodiscard]] bool is_within(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                 std::uint32_t p) const {
+        const planar_point& o = points_[a];
+        const auto from = [&o](const planar_point& q) {
+            return planar_point{q.x - o.x, q.y - o.y, q.index};
+        };
+        return inverted_orientation(from(points_[b]), from(points_[p]), from(points_[c])) > 0;
+    }
+
+    edge add(std::uint32_t from, std::uint32_t to) {
+        const edge e = edges();
+        for (const std::uint32_t end : {from, to}) {
+            next_.push_back(edges());
+            previous_.push_back(edges());
+            origin_.push_back(end);
+        }
+        return e;
+    }
+    /// Joins the cycles about the origins of a and b, or splits their common one.
+    void splice(edge a, edge b) {
+        std::swap(next_[a], next_[b]);
+        previous_[next_[a]] = a;
+        previous_[next_[b]] = b;
+    }
+    /// Adds an edge from the destination of a to the origin of b, which have one left face.
+    edge connect(edge a, edge b) {
+        const edge after = next_about_left(a);
+        const edge e = add(destination(a), origin(b));
+        splice(e, after);
+        splice(e ^ 1, b);
+        return e;
+    }
+    void remove(edge e) {
+        splice(e, previous_[e]);
+        splice(e ^ 1, previous_[e ^ 1]);
+        next_[e] = next_[e ^ 1] = no_edge;
+    }
+
+    outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
+        const auto at = [&](std::size_t i) {
+            return points_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const auto before = [&](const planar_point& a, const planar_point& b) {
+            return is_before(a, b, is_turned);
+        };
+        if (end - begin <= 3) {
+            std::sort(at(begin), at(end), before);
+            return triangulate_few(static_cast<std::uint32_t>(begin), end - begin);
+        }
+        const std::size_t middle = begin + (end - begin) / 2;
+        std::nth_element(at(begin), at(middle), at(end), before);
+        const edge lower = triangulate(begin, middle, !is_turned).left;
+        const edge upper = triangulate(middle, end, !is_turned).left;
+        return merged(extremes(lower, is_turned), extremes(upper, is_turned));
+    }
+
+    /// Two or three points, the first of them number `first`.
+    outer_edges triangulate_few(std::uint32_t first, std::size_t count) {
+        const edge a = add(first, first + 1);
+        if (count == 2) return {a, a ^ 1};
+        const edge b = add(first + 1, first + 2);
+        splice(a ^ 1, b);
+        const double turn = area(first, first + 1, first + 2);
+        if (turn == 0.0) return {a, b ^ 1};
+        const edge c = connect(b, a);
+        return turn > 0.0 ? outer_edges{a, b ^ 1} : outer_edges{c ^ 1, c};
+    }
+
+    /// The outer edges in another direction, by a walk around the hull.
+    /// @param start  an edge with the hull on its left
+    [[nodiscard]] outer_edges extremes(edge start, bool is_turned) const {
+        outer_edges found{start, start ^ 1};
+        edge e = start;
+        do {
+            if (is_before(points_[origin(e)], points_[origin(found.left)], is_turned))
+                found.left = e;
+            if (is_before(points_[origin(found.right)], points_[destination(e)], is_turned))
+                found.right = e ^ 1;
+            e = next_about_left(e ^ 1) ^ 1;
+        } while (e != start);
+        return found;
+    }
+
+    /// Zips two triangulations together, from the lower common tangent upwards.
+    outer_edges merged(outer_edges left, outer_edges right) {
+        edge from = left.right;
+        edge to = right.left;
+        for (;;) {
+            if (is_left(origin(to), from))
+                from = next_about_left(from);
+            else if (is_right(origin(from), to))
+                to = next_[to ^ 1];
+            else
+                break;
+        }
+        edge base = connect(to ^ 1, from);
+        if (origin(from) == origin(left.left)) left.left = base ^ 1;
+        if (origin(to) == origin(right.right)) right.right = base;
+        for (;;) {
+            const edge a = candidate(base, next_[base ^ 1], next_);
+            const edge b = candidate(base, previous_[base], previous_);
+            const bool a_is_above = is_right(destination(a), base);
+            const bool b_is_above = is_right(destination(b), base);
+            if (!a_is_above && !b_is_above) return {left.left, right.right};
+            const bool take_b = !a_is_above || (b_is_above && is_within(destination(a), origin(a),
+                                                                        origin(b), destination(b)));
+            base = take_b ? connect(b, base ^ 1) : connect(base ^ 1, a ^ 1);
+        }
+    }
+
+    /// Removes edges that the next point above the base refutes.
+    /// @param around  next_ or previous_, the direction of search about an end of the base
+    edge candidate(edge base, edge e, const std::vector<edge>& around) {
+        while (is_right(destination(e), base) &&
+               is_within(destination(base), origin(base), destination(e), destination(around[e]))) {
+            const edge after = around[e];
+            remove(e);
+            e = after;
+        }
+        return e;
+    }
+
+    std::vector<planar_point> points_;
+    std::vector<std::uint32_t> origin_;
+    std::vector<edge> next_, previous_;  // about the origin
+};
+
+}  // namespace gnomon::detail
