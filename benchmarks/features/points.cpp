@@ -278,7 +278,7 @@ json times(const effort& much) {
 }
 
 json measure(const effort& much) {
-    const measured_features measured(features, much, distances_of);
+    const measured_features measured(features, much, densities, distances_of);
     return {{"by noise", measured.by_noise()},
             {"by density", measured.by_density()},
             {"times", times(much)}};

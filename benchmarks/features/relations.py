@@ -59,7 +59,8 @@ LEAST_CORRELATION = 0.5
 @relation("points", "f.1", "points: the later the thesis presents a feature, the larger is the share of its "
           "repeatability that noise of 30 mm destroys: rank correlation of 0.5 or more",
           "Sec. 3.6: the more sophisticated a feature, the more sensitive to noise",
-          "descriptors over all neighbors average the noise; second derivatives amplify it")
+          "curvatures and their types, which are second derivatives, lose most; shape contexts, which come later, "
+          "are sums over all neighbors")
 def points_by_sophistication(tables):
     order, correlation = by_sensitivity(tables["by noise"], lambda r: 1 - r["30 mm"] / r["0 mm"])
     return f"{correlation:.2f}; {order}", correlation >= LEAST_CORRELATION

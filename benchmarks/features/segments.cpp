@@ -2,12 +2,14 @@
 // Features of segments: how repeatable they are for the true parts of furnished rooms, and their
 // times.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -207,12 +209,14 @@ json times(const effort& much) {
 }
 
 json measure(const effort& much) {
-    const auto measured = [&](double apart) {
-        return measured_features(features, much, [=](const setting& how, std::uint64_t seed) {
-            return distances_of(two_scans(how, seed, apart));
-        });
+    const auto measured = [&](std::span<const char* const> of_lines, double apart) {
+        return measured_features(features, much, of_lines,
+                                 [=](const setting& how, std::uint64_t seed) {
+                                     return distances_of(two_scans(how, seed, apart));
+                                 });
     };
-    const auto here = measured(0.0), there = measured(0.6);
+    constexpr std::array only{"whole"};
+    const auto here = measured(densities, 0.0), there = measured(only, 0.6);
     return {{"by noise", here.by_noise()},
             {"by density", here.by_density()},
             {"ratios of distances", here.ratios()},

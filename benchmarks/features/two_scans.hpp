@@ -14,6 +14,7 @@
 #include <ctime>
 #include <map>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -98,18 +99,20 @@ using all_distances = std::map<std::string, feature_distances>;
 /// The distances of all features by noise and density, over all rooms.
 class measured_features {
   public:
+    /// @param of_lines      the densities, "whole" among them
     /// @param distances_of  (setting, seed) to all_distances
-    measured_features(std::vector<std::string> features, const effort& much, auto&& distances_of)
+    measured_features(std::vector<std::string> features, const effort& much,
+                      std::span<const char* const> of_lines, auto&& distances_of)
         : features_(std::move(features)) {
         const std::size_t rooms = much.quick ? 1 : 20;
         for (const double noise : {0.0, 5.0, 15.0, 30.0}) {
-            for (const std::string density : densities) {
+            for (const std::string density : of_lines) {
                 std::vector<all_distances> of_rooms(rooms);
                 gnomon::threads{}(rooms, [&](std::size_t r) {
                     of_rooms[r] = distances_of(setting{noise, density, "rotational"},
                                                first_seed + static_cast<std::uint64_t>(r));
                 });
-                all_distances& sum = by_setting_[{noise, density}];
+                all_distances& sum = by_setting_.emplace_back(noise, density).distances;
                 for (const all_distances& room : of_rooms)
                     for (const auto& [feature, d] : room) sum[feature].add(d);
                 std::printf("%g mm, %s: %zu pairs\n", noise, density.c_str(),
@@ -122,8 +125,11 @@ class measured_features {
     /// A row for each feature: the repeatability at each noise, at the density "whole".
     [[nodiscard]] json by_noise() const {
         json rows = table("whole", [](const feature_distances& d) { return d.repeatability(); });
+        const auto of_table = std::find_if(by_setting_.begin(), by_setting_.end(), [](auto& one) {
+            return one.noise == 15.0 && one.density == "whole";
+        });
         for (std::size_t f = 0; f < features_.size(); ++f) {
-            const feature_distances& d = by_setting_.at({15.0, "whole"}).at(features_[f]);
+            const feature_distances& d = of_table->distances.at(features_[f]);
             rows[f]["pairs"] = d.pairs;
             rows[f]["not usable [%]"] = rounded(
                 100.0 - 100.0 * static_cast<double>(d.same.size()) / static_cast<double>(d.pairs),
@@ -146,8 +152,7 @@ class measured_features {
         json rows = json::array();
         for (const std::string& f : features_) {
             json row{{"feature", f}};
-            for (const auto& [how, all] : by_setting_) {
-                const auto& [noise, density] = how;
+            for (const auto& [noise, density, all] : by_setting_) {
                 if (!only.empty() && density != only) continue;
                 std::string column = std::to_string(static_cast<int>(noise)) + " mm";
                 if (only.empty()) column += ", " + density;
@@ -158,8 +163,16 @@ class measured_features {
         return rows;
     }
 
+    struct one_setting {
+        double noise;  ///< [mm]
+        std::string density;
+        all_distances distances;
+
+        one_setting(double n, std::string d) : noise(n), density(std::move(d)) {}
+    };
+
     std::vector<std::string> features_;
-    std::map<std::pair<double, std::string>, all_distances> by_setting_;
+    std::vector<one_setting> by_setting_;
 };
 
 /// The time of the processor that this thread takes for one call [s]: the median of some.
