@@ -21,12 +21,12 @@ SECTIONS = [
     ("points", "Features of points",
      "Pairs of scans of 20 furnished rooms from one position. Places are points of any surface, at most ten of "
      "each, at which a fifth of the neighbors are truly 2 cm or more off the tangent plane: on flat surfaces, "
-     "all places are equal. Place in the second scan is the truly nearest point of the same surface, within 5 cm; "
+     "all places are equal. The place in the second scan is the truly nearest point of the same surface, within 5 cm; "
      "different places are on other surfaces of the same room. Normals are those of `plane_pca` on 50 neighbors, "
      "oriented; the neighbors of all other features are those within 20 cm. Curvature is compared by the "
      "Euclidean distance of both principal curvatures, and \"as printed\" by Eqs. (3.25) to (3.27), from which "
      "the types are determined, without tolerances. Descriptors are normalized, so that the number of points "
-     "has no effect. Times are per point, on one thread, and with the search for its neighbors: descriptors "
+     "has no effect; the cylinder of a spin image is inscribed in the ball. Times are per point, on one thread, and with the search for its neighbors: descriptors "
      "find those of all points in one sweep over the index, the other features point by point; \"spin image of "
      "normals\" has the normals of the whole scan to prepare."),
     ("segments", "Features of segments",
@@ -36,8 +36,8 @@ SECTIONS = [
      "normals without a sign are axes. The second scan is from the same position, and in the tables \"from two "
      "positions\" from 60 cm to the left, where other points of a part are seen. As most features are almost "
      "always repeatable, the ratios are shown too: the median distance of the same part in both scans over that "
-     "of different parts, 0 is best. Times are per part on one thread, of the estimate alone: mean normal and "
-     "mean surface variation are of normals that are there."),
+     "of different parts, 0 is best. Times are per part on one thread, without the normals of points, of which "
+     "mean normal and mean surface variation are averages."),
     ("zernike", "Zernike descriptors",
      "480 scans of one piece of furniture each, from 1.2 to 3 m away, with noise of 15 mm: the mean distance of "
      "the same part, such as seats of one model of chair, in different views, over that of different parts. "
