@@ -1,0 +1,198 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Writes the page of features from the measurements of its programs.
+
+Reads DIR/features/*.json, and writes DIR/features.json (the relations with their verdicts),
+DIR/features.md and, if matplotlib is installed, DIR/features.png. The first two are functions of the
+measurements, to the byte; --check writes nothing and reports whether they are up to date.
+"""
+
+import argparse
+import json
+import pathlib
+import sys
+
+sys.dont_write_bytecode = True  # in a folder of sources
+
+from relations import judged  # noqa: E402
+
+# Program, title, and what its tables are.
+SECTIONS = [
+    ("points", "Features of points",
+     "Pairs of scans of 20 furnished rooms from one position. Places are points of any surface, at most ten of "
+     "each, at which a fifth of the neighbors are truly 2 cm or more off the tangent plane: on flat surfaces, "
+     "all places are equal. The place in the second scan is the truly nearest point of the same surface, within 5 cm; "
+     "different places are on other surfaces of the same room. Normals are those of `plane_pca` on 50 neighbors, "
+     "oriented; the neighbors of all other features are those within 20 cm. Curvature is compared by the "
+     "Euclidean distance of both principal curvatures, and \"as printed\" by Eqs. (3.25) to (3.27), from which "
+     "the types are determined, without tolerances. Descriptors are normalized, so that the number of points "
+     "has no effect; the cylinder of a spin image is inscribed in the ball. Times are per point, on one thread, and with the search for its neighbors: descriptors "
+     "find those of all points in one sweep over the index, the other features point by point; \"spin image of "
+     "normals\" has the normals of the whole scan to prepare."),
+    ("segments", "Features of segments",
+     "Parts of the room and of its furniture with 100 points and more, as the simulator has them, so that no "
+     "segmentation interferes. Different parts are those of another name in the same room, so that two legs "
+     "of chairs are not different. Differences of lengths, areas and numbers are absolute, in m, m^2 and m^3; "
+     "normals without a sign are axes. The second scan is from the same position, and in the tables \"from two "
+     "positions\" from 60 cm to the left, where other points of a part are seen. As most features are almost "
+     "always repeatable, the ratios are shown too: the median distance of the same part in both scans over that "
+     "of different parts, 0 is best. Times are per part on one thread, without the normals of points, of which "
+     "mean normal and mean surface variation are averages."),
+    ("zernike", "Zernike descriptors",
+     "480 scans of one piece of furniture each, from 1.2 to 3 m away, with noise of 15 mm: the mean distance of "
+     "the same part, such as seats of one model of chair, in different views, over that of different parts. "
+     "Parts have 50 points and more; extended ones an aspect ratio of 0.2 or more, which leaves out legs. The "
+     "five basic features are mean height, inclination, surface variation, aspect ratio and volume of the "
+     "principal box, each of the range [0, 1], by the Manhattan distance. The Zernike descriptors are of order "
+     "5: of points as masses in a ball of twice their root mean square distance (the default), of the ball that "
+     "encloses all of them, and of 32 voxels along its diameter."),
+    ("rectangles", "Edges of flat surfaces",
+     "The rectangle of smallest area around the points of a flat surface, in the plane of their principal frame, "
+     "with noise of 15 mm, compared with that around the same points without noise. Surfaces are the true ones "
+     "with 200 points and more: joined faces as on the page of surfaces, of 20 furnished rooms, and of all "
+     "models of furniture alone, seen from 2 m in 8 directions. Edges are right if both are within 2 cm and the "
+     "spacing, the median distance of a point to its nearest neighbor; axes if they are within 2 degrees, "
+     "modulo 90. Excess is the mean error of both edges with its sign. Surfaces are oblique if the ray to their "
+     "center is more than 45 degrees from their normal, rectangular if their outline fills 90 % of the "
+     "rectangle."),
+]
+
+
+class Results:
+    """The tables of all programs."""
+
+    def __init__(self, folder):
+        self.contexts, self.tables = {}, {}
+        for program, _, _ in SECTIONS:
+            path = folder / f"{program}.json"
+            if path.exists():
+                raw = json.loads(path.read_text(encoding="utf-8"))
+                self.contexts[program] = raw["context"]
+                self.tables[program] = raw["tables"]
+        if not self.tables:
+            raise ValueError(f"no measurements in {folder}")
+        self.quick = any(c["quick"] for c in self.contexts.values())
+
+
+def cell(value):
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float) and value.is_integer():
+        value = int(value)
+    return f"{value:,}" if isinstance(value, int) else str(value)
+
+
+def table(head, rows):
+    lines = [head, ["---"] * len(head), *rows]
+    return ["| " + " | ".join(cell(c) for c in line) + " |" for line in lines] + [""]
+
+
+def page(results, verdicts):
+    held = sum(v["holds"] for v in verdicts)
+    context = next(iter(results.contexts.values()))
+    lines = ["# Features and descriptors", "",
+             "<!-- Written by benchmarks/features/page.py from features/*.json: do not edit. -->", ""]
+    if results.quick:
+        lines += ["**Measured with `--quick`: few rooms. A test of the programs, not a result.**", ""]
+    lines += [
+        "The features of points and segments of Klasing 2010, Secs. 3.3 to 3.5, against noise and density of "
+        "simulated scans, by one command:", "", "    sh benchmarks/reproduce.sh features", "",
+        "A feature is repeatable if two scans with independent noise give the same place, or the same segment, "
+        "more similar values than different ones. **Repeatability** is 2 P - 1, where P is the probability that "
+        "the distance of the same is below that of different ones: 1 if it always is, 0 if the feature does not "
+        "distinguish them. It depends on the order of the distances alone, so features of any unit and number of "
+        "entries are comparable. The sensor of the second scan is turned by a fraction of the distance of scan "
+        "lines, so that without noise the sampling differs all the same. \"Half\" and \"double\" are half and "
+        "twice as many scan lines. The rooms are used for nothing else.", "",
+        f"{context['processor']}, {context['compiler']}, flags `{context['flags']}`. Times are those of the "
+        "processor, medians of seven runs. The results of each program are in [features/](features/), the "
+        "relations in [features.json](features.json).", "",
+        "![Repeatability of features by noise](features.png)", "",
+        f"## {held} of {len(verdicts)} relations hold", ""]
+    failed = [v for v in verdicts if not v["holds"]]
+    lines += ["These do not; the reasons are given with the figures:", ""] if failed else []
+    lines += [f"- {v['id']}: {v['claim']}" for v in failed] + [""] * bool(failed)
+    for program, title, about in SECTIONS:
+        if program not in results.tables:
+            continue
+        lines += [f"## {title}", "", f"{about} `{program} --out DIR`", ""]
+        for name, rows in results.tables[program].items():
+            lines += [f"{name[0].upper()}{name[1:]}:", "",
+                      *table(list(rows[0]), [list(r.values()) for r in rows])]
+        own = [v for v in verdicts if v["program"] == program]
+        lines += table(("", "relation", "the thesis", "measured", ""),
+                       [(v["id"], v["claim"], v["thesis"], v["measured"],
+                         "holds" if v["holds"] else "**does not hold**") for v in own])
+        whys = [f"- {v['id']} does not hold: {v['why']}." for v in own if v["why"]]
+        lines += whys + [""] * bool(whys)
+    return "\n".join(lines).rstrip() + "\n"
+
+
+def draw(results, path):
+    """One panel of points and one of segments: a line for each feature over the noise."""
+    try:
+        import matplotlib
+        matplotlib.use("agg")
+        import matplotlib.pyplot as plt
+    except ImportError:
+        print("matplotlib is missing: no picture drawn")
+        return
+    panels = [("points", "by noise", "repeatability of points"),
+              ("segments", "ratios of distances", "same / different, of segments")]
+    figure, grid = plt.subplots(1, 2, figsize=(12, 5), layout="constrained")
+    colors = matplotlib.colormaps["viridis"]
+    for axes, (program, name, label) in zip(grid, panels):
+        rows = results.tables.get(program, {}).get(name, [])
+        for k, row in enumerate(rows):
+            noises = [column for column in row if column.endswith(" mm")]
+            axes.plot([float(n.split()[0]) for n in noises], [row[n] for n in noises],
+                      marker="osD^v"[k % 5], markersize=4, linewidth=1, label=row["feature"],
+                      color=colors(0.9 * k / max(1, len(rows) - 1)))
+        axes.set_xlabel("noise [mm]")
+        axes.set_ylabel(label)
+        axes.grid(color="0.9")
+        if rows:
+            axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    grid[0].set_ylim(0, 1)
+    grid[1].set_yscale("symlog", linthresh=1e-3)
+    figure.savefig(path, dpi=100, metadata={"Software": None})
+    plt.close(figure)
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, nargs="?")
+    parser.add_argument("--check", action="store_true",
+                        help="write nothing; fail if the page is not up to date")
+    parser.add_argument("--programs", action="store_true", help="name the programs, and no more")
+    options = parser.parse_args()
+    if options.programs:
+        print(*(program for program, _, _ in SECTIONS))
+        return 0
+    if options.folder is None:
+        parser.error("DIR is missing")
+    try:
+        results = Results(options.folder / "features")
+    except (OSError, ValueError) as problem:
+        parser.error(str(problem))
+    verdicts = judged(results.tables)
+    keys = ("id", "claim", "thesis", "measured", "holds")
+    relations = {"relations": [{key: v[key] for key in keys} for v in verdicts]}
+    texts = {"features.json": json.dumps(relations, indent=2, ensure_ascii=False) + "\n",
+             "features.md": page(results, verdicts)}
+    if options.check:
+        stale = [name for name, text in texts.items()
+                 if (options.folder / name).read_text(encoding="utf-8") != text]
+        for name in stale:
+            print(f"{options.folder / name} is not up to date; run page.py")
+        return 1 if stale else 0
+    for name, text in texts.items():
+        (options.folder / name).write_text(text, encoding="utf-8")
+    draw(results, options.folder / "features.png")
+    print(f"wrote {options.folder / 'features.md'}: {sum(v['holds'] for v in verdicts)} of "
+          f"{len(verdicts)} relations hold")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,146 @@
+# SPDX-License-Identifier: BSL-1.0
+"""The claims of the thesis about features, tested on the measurements.
+
+Each claim is a function of the tables of its program, {table: rows}, that returns (the measured
+values as text, whether the claim holds).
+"""
+
+RELATIONS = []
+
+
+def relation(program, id, claim, thesis, why=""):
+    """Registers a claim about the measurements of a program; `why` explains one that does not hold."""
+    def enter(judge):
+        RELATIONS.append({"program": program, "id": id, "claim": claim, "thesis": thesis,
+                          "why": why, "judge": judge})
+        return judge
+    return enter
+
+
+def judged(tables):
+    """The relations of the measured programs with their verdicts."""
+    verdicts = []
+    for r in RELATIONS:
+        if r["program"] not in tables:
+            continue
+        measured, holds = r["judge"](tables[r["program"]])
+        verdicts.append({**{key: r[key] for key in ("program", "id", "claim", "thesis")},
+                         "measured": measured, "holds": bool(holds),
+                         "why": "" if holds else r["why"]})
+    return verdicts
+
+
+def ranks(values):
+    """From 1, the mean rank for equal values."""
+    return [sum(v < x for v in values) + (sum(v == x for v in values) + 1) / 2 for x in values]
+
+
+def rank_correlation(first, second):
+    """Spearman's."""
+    a, b = ranks(first), ranks(second)
+    middle = (len(a) + 1) / 2
+    covariance = sum((x - middle) * (y - middle) for x, y in zip(a, b))
+    size = sum((x - middle) ** 2 for x in a) * sum((y - middle) ** 2 for y in b)
+    return covariance / size ** 0.5 if size > 0 else 0.0
+
+
+def by_sensitivity(rows, number):
+    """The features from the least to the most sensitive one, and the rank correlation of sensitivity
+    and the order in the thesis, which is that of the rows."""
+    losses = [number(r) for r in rows]
+    order = sorted(zip(losses, [r["feature"] for r in rows]))
+    return (", ".join(f"{name} {loss:.3f}" for loss, name in order),
+            rank_correlation(range(len(rows)), losses))
+
+
+LEAST_CORRELATION = 0.5
+
+
+@relation("points", "f.1", "points: the later the thesis presents a feature, the larger is the share of its "
+          "repeatability that noise of 30 mm destroys: rank correlation of 0.5 or more",
+          "Sec. 3.6: the more sophisticated a feature, the more sensitive to noise",
+          "curvatures and their types, which are second derivatives, lose most; shape contexts, which come later, "
+          "are sums over all neighbors")
+def points_by_sophistication(tables):
+    order, correlation = by_sensitivity(tables["by noise"], lambda r: 1 - r["30 mm"] / r["0 mm"])
+    return f"{correlation:.2f}; {order}", correlation >= LEAST_CORRELATION
+
+
+@relation("segments", "f.2", "segments: the later the thesis presents a feature, the more noise of 30 mm adds to "
+          "the ratio of its distances: rank correlation of 0.5 or more",
+          "Sec. 3.6: the more sophisticated a feature, the more sensitive to noise",
+          "the correlation is positive, but boxes and hulls, which come late, are hardly more sensitive than the "
+          "deviations; numbers of corners and mean surface variations are most sensitive")
+def segments_by_sophistication(tables):
+    order, correlation = by_sensitivity(tables["ratios of distances"],
+                                        lambda r: r["30 mm"] - r["0 mm"])
+    return f"{correlation:.2f}; {order}", correlation >= LEAST_CORRELATION
+
+
+@relation("points", "f.3", "noise of 30 mm makes every feature of points less repeatable",
+          "features are sensitive to noise")
+def noise_matters(tables):
+    kept = [r["feature"] for r in tables["by noise"] if r["30 mm"] >= r["0 mm"]]
+    return ", ".join(kept) or "all are less repeatable", not kept
+
+
+def ratio(tables, parts, feature):
+    return next(r["ratio"] for r in tables["distances"]
+                if (r["parts"], r["feature"]) == (parts, feature))
+
+
+ZERNIKE = "Sec. 3.5.4: not usable, as similar segments have dissimilar vectors"
+
+
+def zernike(tables, parts):
+    measured = ratio(tables, parts, "Zernike")
+    return f"{measured:.2f}", measured >= 0.8
+
+
+@relation("zernike", "f.4", "Zernike descriptors: the distance of the same part is 0.8 or more of that of "
+          "different parts, all parts", ZERNIKE,
+          "nearly half of the parts are legs and other thin ones, whose vectors differ from those of extended parts")
+def zernike_of_all(tables):
+    return zernike(tables, "all")
+
+
+@relation("zernike", "f.5", "so it is for extended parts", ZERNIKE,
+          "a part of the difference between parts remains, though much less than of the basic features")
+def zernike_of_extended(tables):
+    return zernike(tables, "extended")
+
+
+@relation("zernike", "f.6", "the five basic features: it is 0.5 at most, all parts and extended ones",
+          "Sec. 5.2.2 recognizes parts by them")
+def basic_features(tables):
+    measured = [ratio(tables, parts, "five basic features") for parts in ("all", "extended")]
+    return ", ".join(f"{m:.2f}" for m in measured), max(measured) <= 0.5
+
+
+@relation("zernike", "f.7", "the ratio of Zernike descriptors, in any form, is twice that of the basic features or "
+          "more, all parts and extended ones", "Sec. 3.5.4: not usable, unlike the basic features")
+def zernike_is_worse(tables):
+    factors = [r["ratio"] / ratio(tables, r["parts"], "five basic features")
+               for r in tables["distances"] if r["feature"] != "five basic features"]
+    return f"{min(factors):.1f} to {max(factors):.1f} times", min(factors) >= 2.0
+
+
+def rectangles(tables, scans):
+    row = next(r for r in tables["rectangles"] if (r["scans"], r["surfaces"]) == (scans, "all"))
+    share = row["right edges and axes [%]"]
+    return f"{share} % of {row['number']}", share >= 90.0
+
+
+OUTERMOST = ("noise displaces points along the surface, and the outermost ones determine the rectangle: it is too "
+             "large, and more so where rays are oblique")
+
+
+@relation("rectangles", "f.8", "surfaces of rooms: edges within 2 cm and one spacing, axes within 2 degrees, for 90 %",
+          "not in the thesis", OUTERMOST)
+def rectangles_of_rooms(tables):
+    return rectangles(tables, "rooms")
+
+
+@relation("rectangles", "f.9", "so it is for furniture 2 m away", "not in the thesis", OUTERMOST)
+def rectangles_of_furniture(tables):
+    return rectangles(tables, "furniture")
