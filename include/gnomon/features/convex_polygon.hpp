@@ -85,11 +85,7 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     convex_polygon polygon;
     const Eigen::Vector3d x = detail::orthogonal(plane.normal);
     const Eigen::Vector3d y = detail::cross(plane.normal, x);
-    for (int i = 0; i < 3; ++i) {
-        polygon.axes(i, 0) = x[i];
-        polygon.axes(i, 1) = y[i];
-        polygon.axes(i, 2) = plane.normal[i];
-    }
+    polygon.axes = detail::from_columns(x, y, plane.normal);
     std::size_t first = 0;
     while (first < p.size() && !is_finite(p[first])) ++first;
     if (first == p.size()) return polygon;
