@@ -49,11 +49,11 @@ int main(int argc, char** argv) try {
 
     // A measured point for each cube of 2 cm, as small a file as you like:
     using namespace gnomon::io;
-    const gnomon::scan thin = gnomon::subset(clean, gnomon::thin_voxels(clean, {.size = 0.02}));
+    const gnomon::scan thin = gnomon::subset(clean, gnomon::thin_voxels(clean, {.edge = 0.02}));
     write_ply("thin.ply", thin, field_properties(thin));
 
     // Or the means of the cubes, and what is found for them given to all points:
-    const auto means = gnomon::average_voxels(clean, {.size = 0.02});
+    const auto means = gnomon::average_voxels(clean, {.edge = 0.02});
     const auto of_means = gnomon::estimate_normals(means, gnomon::knn{}, gnomon::plane_pca{});
     std::vector<Eigen::Vector3d> normals;
     for (const gnomon::point_index cell : means.of_point) normals.push_back(of_means[cell].normal);

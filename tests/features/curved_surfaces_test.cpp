@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -79,6 +80,16 @@ TEST(curved_surfaces, have_a_normal_form) {
         EXPECT_NEAR(s.point.dot(s.axis), 0.0, 1e-15);
         EXPECT_GE(s.half_angle, 0.0);
         EXPECT_NEAR(s.sine, std::sin(s.half_angle), 1e-15);
+    }
+}
+
+TEST(curved_surfaces, have_a_half_angle_below_a_right_angle_after_a_step_of_turns) {
+    cone_surface s;
+    s.radius = 1.5;
+    for (const double step : {0.3, 2.0 * std::numbers::pi + 0.3, -2.0 * std::numbers::pi - 0.3}) {
+        const cone_surface after = s.moved({0, 0, 0, 0, 0, step});
+        ASSERT_TRUE(after.is_valid());
+        EXPECT_NEAR(after.half_angle, 0.3, 1e-14);
     }
 }
 

@@ -126,7 +126,26 @@ TEST(harmonic_shape_context, refuses_numbers_out_of_range) {
     refused({.radial_bins = 0});
     refused({.radial_bins = 2});
     refused({.min_neighbors = 0});
+    constexpr std::size_t huge = std::size_t{1} << 32, most = std::size_t{1} << 20;
+    refused({.bandwidth = huge});  // the product wraps to 0
+    refused({.bandwidth = 513});
+    refused({.inner_radius = 0.01, .bandwidth = 2, .radial_bins = most / 2});
+    const std::vector<float> three(3), four(4);
+    EXPECT_THROW((void)harmonic_shape_context{}.distance(three, four), std::invalid_argument);
+    EXPECT_THROW((void)harmonic_shape_context{}.distance(four, three), std::invalid_argument);
     EXPECT_NO_THROW(harmonic_shape_context{}.require_valid());
+}
+
+/// Near the axis, powers of the sine underflow, and the other factors are large.
+TEST(harmonic_shape_context, is_finite_for_the_largest_bandwidth) {
+    const harmonic_shape_context s{.bandwidth = 512};
+    ASSERT_NO_THROW(s.require_valid());
+    for (const double x : {0.0, 1e-200, 1e-5, 1e-3, 0.02}) {
+        std::vector<double> row(s.dimension(), 0.0);
+        const std::vector<Eigen::Vector3d> neighbors{{x, 0.0, 0.05}, {x, x, -0.05}};
+        (void)s({0, 0, 0}, {0, 0, 1}, neighbors, row);
+        for (const double entry : row) ASSERT_TRUE(std::isfinite(entry));
+    }
 }
 
 TEST(harmonic_shape_context, obeys_the_laws) {

@@ -218,6 +218,16 @@ TEST(shape_context, refuses_numbers_out_of_range) {
     refused({.radial_bins = 0});
     refused({.radial_bins = 2});  // without an inner radius
     refused({.min_neighbors = 0});
+    constexpr std::size_t huge = std::size_t{1} << 32, most = std::size_t{1} << 20;
+    refused({.azimuth_bins = huge, .elevation_bins = huge});  // the product wraps to 0
+    refused({.azimuth_bins = most / 8, .elevation_bins = 9});
+    EXPECT_NO_THROW((shape_context{.azimuth_bins = most / 8, .elevation_bins = 8}.require_valid()));
+    const shape_context s;
+    const std::vector<float> row(s.dimension()), less(s.dimension() - s.elevation_bins);
+    EXPECT_EQ(s.distance(row, row), 0.0);
+    EXPECT_THROW((void)s.distance(row, less), std::invalid_argument);
+    EXPECT_THROW((void)s.distance(less, row), std::invalid_argument);
+    EXPECT_THROW((void)s.distance(less, less), std::invalid_argument);
     EXPECT_NO_THROW(shape_context{}.require_valid());
 }
 

@@ -210,6 +210,15 @@ TEST(spin_image, refuses_numbers_out_of_range) {
     refused({.radial_bins = 0});
     refused({.axial_bins = 0});
     refused({.min_neighbors = 0});
+    constexpr std::size_t huge = std::size_t{1} << 32, most = std::size_t{1} << 20;
+    refused({.radial_bins = huge, .axial_bins = huge});  // the product wraps to 0
+    refused({.radial_bins = most, .axial_bins = 2});
+    refused({.radial_bins = ~std::size_t{0}, .interpolate = true});
+    EXPECT_NO_THROW((spin_image{.radial_bins = most / 2, .axial_bins = 2}.require_valid()));
+    const std::vector<float> three(3), four(4);
+    EXPECT_THROW((void)spin_image{}.distance(three, four), std::invalid_argument);
+    EXPECT_THROW((void)spin_image{}.distance(four, three), std::invalid_argument);
+    EXPECT_THROW((void)angular_spin_image{}.distance(four, three), std::invalid_argument);
     EXPECT_NO_THROW(spin_image{}.require_valid());
     EXPECT_NO_THROW((spin_image{.radius = 1e150, .height = 1e150}.require_valid()));
 }

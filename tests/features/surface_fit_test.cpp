@@ -46,7 +46,7 @@ class surface_fit : public testing::Test {
         if constexpr (K::value == kind::sphere)
             sum += e.center.sum();
         else
-            sum += e.point.sum() + e.axes.sum();
+            sum += e.axis_point.sum() + e.axes.sum();
         return std::isfinite(sum);
     }
 };

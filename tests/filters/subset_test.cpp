@@ -98,6 +98,8 @@ TEST(complement, is_what_is_not_kept) {
     EXPECT_THROW(static_cast<void>(gnomon::complement(indices{3}, 3)), std::invalid_argument);
     EXPECT_THROW(static_cast<void>(gnomon::complement(indices{1, 1}, 3)), std::invalid_argument);
     EXPECT_THROW(static_cast<void>(gnomon::complement(indices{2, 1}, 3)), std::invalid_argument);
+    EXPECT_THROW(static_cast<void>(gnomon::complement(indices{}, std::size_t{1} << 32)),
+                 std::invalid_argument);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ struct scan {
     enum class field_type : char { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
     /// One named number per point: an intensity, a label, a component of a color or of a true
-    /// normal. Doubles hold the numbers of all types exactly.
+    /// normal. Doubles hold the numbers of all these types exactly; 64-bit integers of PCD files
+    /// become float64, exact up to 2^53.
     struct scalar_field {
         std::string name;                       ///< as in the file
         std::vector<double> values;             ///< in the order of the points

@@ -85,11 +85,7 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     const position_view<R, Proj> p(points, std::move(projection));
     convex_polygon polygon;
     const detail::planar_axes planar(plane);
-    for (int i = 0; i < 3; ++i) {
-        polygon.axes(i, 0) = planar.x[i];
-        polygon.axes(i, 1) = planar.y[i];
-        polygon.axes(i, 2) = plane.normal[i];
-    }
+    polygon.axes = detail::from_columns(planar.x, planar.y, plane.normal);
     std::size_t first = 0;
     while (first < p.size() && !is_finite(p[first])) ++first;
     if (first == p.size()) return polygon;

@@ -69,7 +69,8 @@ concept descriptor = requires(const D& d, std::span<const float> row) {
     { d.distance(row, row) } -> std::convertible_to<double>;
 } && (detail::reads_positions<D> || detail::reads_normals<D> || detail::reads_densities<D>);
 
-/// The descriptors of n points, in one array of floats, which halves their memory.
+/// The descriptors of n points, in one array of floats, which halves their memory. Compare only
+/// rows that are usable: others are zero, and so at distance 0 from each other.
 struct point_descriptors {
     std::size_t dimension = 0;         ///< of each descriptor
     std::vector<float> values;         ///< n rows of this length, one after the other

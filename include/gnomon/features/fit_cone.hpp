@@ -34,15 +34,15 @@ namespace gnomon {
 /// A cone with its covariance. All numbers are zero if there are no parameters.
 struct cone_estimate : surface_fit {
     /// The point of the axis that is nearest to the centroid of the points [m].
-    Eigen::Vector3d point{0.0, 0.0, 0.0};
+    Eigen::Vector3d axis_point{0.0, 0.0, 0.0};
     /// Unit columns, a right-handed frame: two normals of the axis, and its direction, away from
     /// the apex.
     Eigen::Matrix3d axes = detail::diagonal(0.0, 0.0, 0.0);
-    double radius = 0.0;  ///< at `point`, across the axis [m]
+    double radius = 0.0;  ///< at `axis_point`, across the axis [m]
     angle half_angle;     ///< between the axis and the lines on the cone
-    /// Of six parameters: the shifts of the axis at `point` along axes 0 and 1 [m], the turns of
-    /// its direction towards axes 0 and 1 [rad], the radius at `point` [m], and the half-angle
-    /// [rad].
+    /// Of six parameters: the shifts of the axis at `axis_point` along axes 0 and 1 [m], the turns
+    /// of its direction towards axes 0 and 1 [rad], the radius at `axis_point` [m], and the
+    /// half-angle [rad].
     detail::parameter_covariance<6> covariance = detail::parameter_covariance<6>::Zero();
 
     /// The direction of the axis, of unit length, away from the apex.
@@ -52,7 +52,7 @@ struct cone_estimate : surface_fit {
     [[nodiscard]] Eigen::Vector3d apex() const {
         constexpr double least = 1e-150;  // numerical: against overflow
         const double height = radius / std::max(std::tan(half_angle.radians()), least);
-        return detail::combined(1.0, point, -height, direction());
+        return detail::combined(1.0, axis_point, -height, direction());
     }
 };
 
@@ -80,13 +80,8 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
     return detail::fitted_to<detail::cone_surface, cone_estimate>(
         points, surface, members, noise, run, std::move(projection),
         [](cone_estimate& e, const detail::cone_surface& s, const detail::regression_cloud& cloud) {
-            const Eigen::Vector3d e2 = detail::cross(s.axis, s.e1);
-            for (int i = 0; i < 3; ++i) {
-                e.axes(i, 0) = s.e1[i];
-                e.axes(i, 1) = e2[i];
-                e.axes(i, 2) = s.axis[i];
-            }
-            e.point = cloud.position(s.point);
+            e.axes = detail::from_columns(s.e1, detail::cross(s.axis, s.e1), s.axis);
+            e.axis_point = cloud.position(s.point);
             e.radius = cloud.metres(s.radius);
             e.half_angle = radians(s.half_angle);
         });

@@ -2,9 +2,9 @@
 /// @file
 /// The cylinder through points of a segment, such as a pipe or a pole, with its covariance.
 ///
-///     const auto pole = gnomon::fit_cylinder(scan, surface, parts[s],
-///     gnomon::constant_noise{0.005}); const double deviation = std::sqrt(pole.covariance(4, 4));
-///     // of the radius [m]
+///     const gnomon::constant_noise noise{0.005};
+///     const auto pole = gnomon::fit_cylinder(scan, surface, parts[s], noise);
+///     const double deviation = std::sqrt(pole.covariance(4, 4));  // of the radius [m]
 #pragma once
 
 #include <cstddef>
@@ -29,12 +29,12 @@ namespace gnomon {
 /// A cylinder with its covariance. All numbers are zero if there are no parameters.
 struct cylinder_estimate : surface_fit {
     /// The point of the axis that is nearest to the centroid of the points [m].
-    Eigen::Vector3d point{0.0, 0.0, 0.0};
+    Eigen::Vector3d axis_point{0.0, 0.0, 0.0};
     /// Unit columns, a right-handed frame: two normals of the axis, and its direction.
     Eigen::Matrix3d axes = detail::diagonal(0.0, 0.0, 0.0);
     double radius = 0.0;  ///< [m]
-    /// Of five parameters: the shifts of the axis at `point` along axes 0 and 1 [m], the turns of
-    /// its direction towards axes 0 and 1 [rad], and the radius [m].
+    /// Of five parameters: the shifts of the axis at `axis_point` along axes 0 and 1 [m], the turns
+    /// of its direction towards axes 0 and 1 [rad], and the radius [m].
     detail::parameter_covariance<5> covariance = detail::parameter_covariance<5>::Zero();
 
     /// The direction of the axis, of unit length, with an arbitrary sign.
@@ -67,13 +67,8 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
         points, surface, members, noise, run, std::move(projection),
         [](cylinder_estimate& e, const detail::cylinder_surface& s,
            const detail::regression_cloud& cloud) {
-            const Eigen::Vector3d e2 = detail::cross(s.axis, s.e1);
-            for (int i = 0; i < 3; ++i) {
-                e.axes(i, 0) = s.e1[i];
-                e.axes(i, 1) = e2[i];
-                e.axes(i, 2) = s.axis[i];
-            }
-            e.point = cloud.position(s.point);
+            e.axes = detail::from_columns(s.e1, detail::cross(s.axis, s.e1), s.axis);
+            e.axis_point = cloud.position(s.point);
             e.radius = cloud.metres(s.radius);
         });
 }

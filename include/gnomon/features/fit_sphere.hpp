@@ -2,9 +2,9 @@
 /// @file
 /// The sphere through points of a segment, with its covariance.
 ///
-///     const auto ball = gnomon::fit_sphere(scan, surface, parts[s],
-///     gnomon::constant_noise{0.005}); if (ball.status == gnomon::surface_fit::outcome::good)
-///     use(ball.center, ball.radius);
+///     const gnomon::constant_noise noise{0.005};
+///     const auto ball = gnomon::fit_sphere(scan, surface, parts[s], noise);
+///     if (ball.has_parameters()) use(ball.center, ball.radius);
 #pragma once
 
 #include <cstddef>

@@ -40,10 +40,12 @@ namespace gnomon {
 /// Neighbors that count, and trust: as for `shape_context`. The distance is Euclidean.
 /// O(m bandwidth^2) for m neighbors.
 struct harmonic_shape_context {
-    double radius = 0.1;          ///< of the ball [m]
-    double inner_radius = 0.0;    ///< of the first shell [m]; above 0 for several shells
-    std::size_t bandwidth = 8;    ///< degrees are less than this; above 0
-    std::size_t radial_bins = 1;  ///< radii of the shells have equal ratios, Frome's Eq. (1)
+    double radius = 0.1;        ///< of the ball [m]; chosen
+    double inner_radius = 0.0;  ///< of the first shell [m]; above 0 for several shells
+    std::size_t bandwidth = 8;  ///< degrees are less than this; 1 to 512; chosen
+    /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1). There are at
+    /// most 2^20 entries.
+    std::size_t radial_bins = 1;
     bool per_degree = false;
     bool normalize = false;         ///< entries are divided by the number of neighbors
     std::size_t min_neighbors = 1;  ///< above 0
@@ -52,6 +54,7 @@ struct harmonic_shape_context {
     [[nodiscard]] double support_radius() const { return radius; }
     /// The number of entries.
     [[nodiscard]] std::size_t dimension() const { return radial_bins * entries_of_shell(); }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }
@@ -61,7 +64,13 @@ struct harmonic_shape_context {
             inner_radius, radius, radial_bins,
             "harmonic_shape_context: inner_radius must be at least 0, above 0 for several "
             "radial_bins, and less than radius, which must be finite");
-        detail::require(bandwidth > 0, "harmonic_shape_context: the bandwidth must be above 0");
+        // Numerical: factors of the recursion grow to (1 + sqrt 2)^bandwidth.
+        constexpr std::size_t most_bandwidth = 512;
+        detail::require(
+            bandwidth > 0 && bandwidth <= most_bandwidth &&
+                detail::is_row_length({radial_bins, bandwidth * (bandwidth + 1) / 2}),
+            "harmonic_shape_context: the bandwidth must be from 1 to 512, and the number "
+            "of entries at most 2^20");
         detail::require(min_neighbors > 0, "harmonic_shape_context: min_neighbors must be above 0");
     }
 

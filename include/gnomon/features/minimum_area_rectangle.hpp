@@ -21,6 +21,8 @@ namespace gnomon {
 /// is along the longer side, the third is the normal of the polygon, the third length is zero.
 /// Around two corners it has one length, around one corner none; without a corner the box is at its
 /// defaults. Of equal areas that at the first edge is taken.
+/// @param polygon  e.g. that of a segment, [m]
+/// @return the rectangle [m], in the plane of the polygon
 /// Complexity: O(h) for h corners. Source: Freeman and Shapira 1975.
 [[nodiscard]] inline oriented_box minimum_area_rectangle(const convex_polygon& polygon) {
     oriented_box box;
@@ -37,11 +39,7 @@ namespace gnomon {
         std::swap(box.lengths[0], box.lengths[1]);
         u = std::exchange(v, detail::scaled(-1.0, u));
     }
-    for (int i = 0; i < 3; ++i) {
-        box.axes(i, 0) = u[i];
-        box.axes(i, 1) = v[i];
-        box.axes(i, 2) = polygon.axes(i, 2);
-    }
+    box.axes = detail::from_columns(u, v, detail::column(polygon.axes, 2));
     return box;
 }
 

@@ -135,12 +135,7 @@ class smallest_box {
     box.center = combined(1.0, p.origin, 1.0 / p.scale, center);
     const Eigen::Vector3d& x = fit.axes[order[0]];
     const Eigen::Vector3d& y = fit.axes[order[1]];
-    const Eigen::Vector3d z = cross(x, y);
-    for (int i = 0; i < 3; ++i) {
-        box.axes(i, 0) = x[i];
-        box.axes(i, 1) = y[i];
-        box.axes(i, 2) = z[i];
-    }
+    box.axes = from_columns(x, y, cross(x, y));
     return box;
 }
 

@@ -44,11 +44,12 @@ namespace gnomon {
 /// Trust: `too_few_neighbors` if fewer than `min_neighbors` are counted, else `good`. O(m) for m
 /// neighbors, and the number of entries.
 struct shape_context {
-    double radius = 0.1;        ///< of the ball [m]
-    double inner_radius = 0.0;  ///< that of Frome's first shell [m]; above 0 for several shells
-    std::size_t azimuth_bins = 12;
-    std::size_t elevation_bins = 11;
-    std::size_t radial_bins = 1;  ///< radii of the shells have equal ratios, Frome's Eq. (1)
+    double radius = 0.1;            ///< of the ball [m]; chosen
+    double inner_radius = 0.0;      ///< that of Frome's first shell [m]; above 0 for several shells
+    std::size_t azimuth_bins = 12;  ///< that and the next: Frome et al. 2004
+    std::size_t elevation_bins = 11;  ///< there are at most 2^20 entries
+    /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1).
+    std::size_t radial_bins = 1;
     /// If above 0, a neighbor counts 1 / (d V^(1/3)), where d is the number of points within this
     /// radius [m] of it and V is the volume of the bin [m^3], as in Frome's Sec. 2.1.
     double density_radius = 0.0;
@@ -63,7 +64,10 @@ struct shape_context {
     }
 
     /// The Euclidean distance of the most similar azimuths. O(azimuth_bins dimension).
+    /// @throws std::invalid_argument  unless both have dimension() entries
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
+        detail::require(a.size() == dimension() && b.size() == dimension(),
+                        "shape_context: a row is not of the length of this descriptor");
         const std::size_t sector = elevation_bins * radial_bins;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t shift = 0; shift < b.size(); shift += sector) {
@@ -81,8 +85,8 @@ struct shape_context {
             inner_radius, radius, radial_bins,
             "shape_context: inner_radius must be at least 0, above 0 for several radial_bins, and "
             "less than radius, which must be finite");
-        detail::require(azimuth_bins > 0 && elevation_bins > 0,
-                        "shape_context: there must be bins");
+        detail::require(detail::is_row_length({azimuth_bins, elevation_bins, radial_bins}),
+                        "shape_context: there must be bins, and at most 2^20 of them");
         detail::require(density_radius >= 0.0 && std::isfinite(density_radius),
                         "shape_context: density_radius must be finite and not negative");
         detail::require(min_neighbors > 0, "shape_context: min_neighbors must be above 0");

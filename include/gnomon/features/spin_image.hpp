@@ -39,11 +39,11 @@ namespace gnomon {
 /// distance is 1 - R, where R is the linear correlation of the entries: it does not depend on the
 /// number of neighbors. O(m) for m neighbors.
 struct spin_image {
-    double radius = 0.1;  ///< of the cylinder [m], above 0
-    double height = 0.2;  ///< of the cylinder [m], above 0; half of it above the point
-    std::size_t radial_bins = 8;
+    double radius = 0.1;  ///< of the cylinder [m], above 0; chosen
+    double height = 0.2;  ///< of the cylinder [m], above 0; half of it above the point; chosen
+    std::size_t radial_bins = 8;  ///< the default of PCL; there are at most 2^20 entries
     /// If odd, the tangent plane is in the middle of a bin, so that noise does not divide the
-    /// points of a flat surface between two.
+    /// points of a flat surface between two. Chosen: bins are about square.
     std::size_t axial_bins = 15;
     /// Each neighbor is distributed to the four nearest corners of the bins, by bilinear
     /// interpolation: an image of radial_bins + 1 by axial_bins + 1 entries.
@@ -58,6 +58,7 @@ struct spin_image {
         const std::size_t more = interpolate ? 1 : 0;
         return (radial_bins + more) * (axial_bins + more);
     }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::correlation_distance(a, b);
     }
@@ -65,7 +66,10 @@ struct spin_image {
     void require_valid() const {
         detail::require(radius > 0.0 && height > 0.0 && std::isfinite(support_radius()),
                         "spin_image: radius and height must be finite and above 0");
-        detail::require(radial_bins > 0 && axial_bins > 0, "spin_image: there must be bins");
+        const std::size_t more = interpolate ? 1 : 0;
+        detail::require(radial_bins > 0 && axial_bins > 0 &&
+                            detail::is_row_length({radial_bins + more, axial_bins + more}),
+                        "spin_image: there must be bins, and at most 2^20 entries");
         detail::require(min_neighbors > 0, "spin_image: min_neighbors must be above 0");
     }
 
@@ -100,6 +104,7 @@ struct angular_spin_image {
 
     [[nodiscard]] double support_radius() const { return bins.support_radius(); }
     [[nodiscard]] std::size_t dimension() const { return bins.dimension(); }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }

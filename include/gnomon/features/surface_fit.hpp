@@ -5,12 +5,13 @@
 ///
 /// Where the view point of a point is known, its residual is the difference of the measured range
 /// and that of the surface along the same ray, divided by the standard deviation of the range. Rays
-/// that meet the surface at a cosine below 0.2, or not at all, are left out. Where it is unknown,
-/// noise is the same in all directions, and the residual is the orthogonal distance divided by its
-/// deviation. On a curved surface such noise displaces the mean distance by sigma^2 / 2 times the
-/// sum of the principal curvatures; this is subtracted, with the smaller of the stated variance and
-/// that of the residuals. The sum of squared residuals is minimized by the method of Levenberg and
-/// Marquardt (Marquardt 1963).
+/// that do not meet the surface, or at a cosine below 0.2 to its normal, are left out; after two
+/// rounds, when the surface is nearly known, only rays below 0.1 are, and none returns. Where the
+/// view point is unknown, noise is the same in all directions, and the residual is the orthogonal
+/// distance divided by its deviation. On a curved surface such noise displaces the mean distance by
+/// sigma^2 / 2 times the sum of the principal curvatures; this is subtracted, with the smaller of
+/// the stated variance and that of the residuals. The sum of squared residuals is minimized by the
+/// method of Levenberg and Marquardt (Marquardt 1963).
 ///
 /// To the variance of the noise is added that of the rounding of the coordinates. Unevenness of the
 /// surface itself is stated as noise: `noise.plus(0.002)`.
@@ -32,10 +33,12 @@ namespace gnomon {
 /// `cone_estimate`.
 struct surface_fit {
     enum class outcome : std::uint8_t {
-        good,            ///< the surface explains the points
-        poor_fit,        ///< it does not: noise has this chi-square in .3 % of cases
-        not_converged,   ///< the parameters are those of the last iteration
-        too_few_points,  ///< fewer finite points than parameters and one more
+        good,           ///< the surface explains the points
+        poor_fit,       ///< it does not: noise has this chi-square in .3 % of cases
+        not_converged,  ///< the parameters are those of the last iteration
+        /// No more points than parameters: fewer than these and one more are finite, or remain when
+        /// rays that do not meet the surface well are left out.
+        too_few_points,
         /// The points do not determine the parameters: they are coplanar, collinear or one place,
         /// or flat within their noise. The test: the standard deviation of a parameter is 0.34
         /// radii (sphere), 0.29 (cylinder), 0.27 (cone) or more, or as many radians. Fewer than 1 %
@@ -44,9 +47,12 @@ struct surface_fit {
     };
 
     outcome status = outcome::too_few_points;
-    std::size_t points = 0;              ///< whose residuals are in the fit
+    /// Whose residuals are in the fit; the finite points if it was not tried, for the points are
+    /// too few or have no volume.
+    std::size_t points = 0;
     std::size_t degrees_of_freedom = 0;  ///< points less parameters
-    /// Sum of squared residuals, in variances of the noise; its mean is `degrees_of_freedom`.
+    /// The sum of squared residuals, in variances of the noise: about `degrees_of_freedom`. It is a
+    /// sum, and `plane_estimate::chi2` a mean.
     double chi_square = 0.0;
     double rms = 0.0;  ///< root mean square orthogonal distance of all finite points [m]
 

@@ -56,17 +56,23 @@ template <class R, class Proj>
     return kept;
 }
 
-/// A box along the axes that holds an oriented one, whatever the rounding of either.
+/// A box along the axes that holds an oriented one, whatever the rounding of either. Its axes need
+/// not be exactly orthonormal: the vector of given products with them is a sum of the reciprocal
+/// vectors, which are their cross products over the determinant.
 [[nodiscard]] inline leaf_box box_around(const oriented_box& box) {
+    constexpr double slack = 1e-5;      // numerical: determinants are above 1 - 2e-6
+    constexpr double rounding = 1e-15;  // numerical: some units in the last place
     leaf_box around{};
     for (int a = 0; a < 3; ++a) {
-        double reach = 0.0;
+        double reach = rounding * std::abs(box.center[a]);
         for (int b = 0; b < 3; ++b) {
-            const double share = std::abs(box.axes(a, b));
-            if (share > 0.0) reach += share * box.lengths[b];  // of two reaches; no 0 * infinity
+            const int a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+            const double p = box.axes(a1, b1) * box.axes(a2, b2);
+            const double q = box.axes(a1, b2) * box.axes(a2, b1);
+            const double share = std::abs(p - q) + rounding * (std::abs(p) + std::abs(q));
+            if (share > 0.0) reach += 0.5 * (1.0 + slack) * share * box.lengths[b];
+            if (std::isfinite(box.lengths[b])) reach += rounding * box.lengths[b];
         }
-        constexpr double slack = 1e-6;  // numerical: more than that of orthonormal axes
-        reach += slack * (reach + std::abs(box.center[a]));
         around.low[static_cast<std::size_t>(a)] = box.center[a] - reach;
         around.high[static_cast<std::size_t>(a)] = box.center[a] + reach;
     }
@@ -78,9 +84,11 @@ template <class R, class Proj>
 /// The indices of the points in a box along the axes, its surface included, ascending. Points that
 /// are not finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
-/// @param low     the least coordinates of the box [m]; minus infinity where it has no end
-/// @param high    the greatest coordinates of the box [m]; infinity where it has no end
+/// @param points      any point range of n points [m], or an index of them
+/// @param low         the least coordinates of the box [m]; minus infinity where it has no end
+/// @param high        the greatest coordinates of the box [m]; infinity where it has no end
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points in the box, for `subset`
 /// @throws std::invalid_argument  if a coordinate of `low` is greater than that of `high`, or NaN
 /// Complexity: O(n); with an index about O(log n + m log m) for m points in the box.
 template <class R, class Proj = std::identity>
@@ -100,10 +108,14 @@ template <class R, class Proj = std::identity>
 /// The indices of the points in an oriented box, its surface included up to rounding, ascending.
 /// Points that are not finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param box         its lengths may be infinite, and its axes off by 1e-6
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points in the box, for `subset`; those of an index are the same
 /// @throws std::invalid_argument  unless the center of the box is finite, its lengths are not
 ///                                negative or NaN, and its axes are orthonormal
-/// Complexity: that of the box along the axes.
+/// Complexity: O(n); with an index about O(log n + m log m) for m points in the smallest box along
+/// the coordinate axes around it, which may be much larger.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::vector<point_index> crop_box(const R& points, const oriented_box& box,

@@ -91,7 +91,11 @@ inline void keep_dense_nodes(const leaf_tree& tree, double radius, std::size_t m
 /// The indices of the points that are no statistical outliers, ascending; see subset. Points that
 /// are not finite are left out. In a cloud of n <= k finite points, neighbors are the n - 1 others.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param options     number of neighbors, and the factor
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
 /// @throws std::invalid_argument  if k is 0, or the factor is negative or NaN
 /// Complexity: O(n (log n + k)). The same bytes for every execution.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -120,7 +124,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
 /// The indices of the points that have enough neighbors, ascending; see subset. Points that are not
 /// finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param options     the radius, and the least number of neighbors
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
 /// Complexity: O(n log n) plus the neighbors of points in boxes that are larger than the radius, or
 /// hold fewer points. The same bytes for every execution.

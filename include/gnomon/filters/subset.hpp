@@ -16,6 +16,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -62,10 +63,14 @@ template <class T, class Allocator>
 
 /// The indices below `size` that are not among `kept`, ascending: the points that a filter removed,
 /// those that are not finite among them.
-/// @throws std::invalid_argument  unless `kept` ascends and stays below `size`
+/// @throws std::invalid_argument  unless `kept` ascends and stays below `size`, or if `size` is
+/// 2^32
+///                                or more
 /// Complexity: O(size).
 [[nodiscard]] inline std::vector<point_index> complement(std::span<const point_index> kept,
                                                          std::size_t size) {
+    detail::require(size <= std::numeric_limits<point_index>::max(),
+                    "complement: there must be fewer than 2^32 points");
     std::vector<point_index> removed;
     removed.reserve(size - std::min(size, kept.size()));
     std::size_t next = 0;

@@ -3,16 +3,16 @@
 /// Thins a cloud to one point for each cube of a grid: the measured point that is nearest to the
 /// mean of the cube's points (`thin_voxels`), or this mean (`average_voxels`).
 ///
-///     const auto kept = gnomon::thin_voxels(scan, {.size = 0.02});
+///     const auto kept = gnomon::thin_voxels(scan, {.edge = 0.02});
 ///     const gnomon::scan part = gnomon::subset(scan, kept);
 ///
-///     const auto means = gnomon::average_voxels(scan, {.size = 0.02});       // a point range
+///     const auto means = gnomon::average_voxels(scan, {.edge = 0.02});       // a point range
 ///     auto surface = gnomon::estimate_normals(means, gnomon::knn{});
 ///     const auto intensities = gnomon::subset(intensity, means.nearest);     // of measured points
 ///     labels[i] = labels_of_means[means.of_point[i]];                        // back to all points
 ///
-/// Cubes begin at multiples of the size, whatever the cloud: the clouds of neighboring tiles share
-/// a grid. Kept positions do not depend on the order of the points.
+/// Cubes begin at multiples of their edge, whatever the cloud: the clouds of neighboring tiles
+/// share a grid. Kept positions do not depend on the order of the points.
 #pragma once
 
 #include <cstddef>
@@ -38,7 +38,7 @@ namespace gnomon {
 
 /// The grid, and which of its cells count.
 struct voxel_grid {
-    double size = 0.05;          ///< edge length of a cell [m], positive and finite; chosen
+    double edge = 0.05;          ///< length of the edges of a cell [m], 1e-150 to 1e150; chosen
     std::size_t min_points = 1;  ///< cells with fewer points are dropped
 
     /// The means of the cells; models `point_range` and `has_viewpoints`.
@@ -61,8 +61,9 @@ struct voxel_grid {
 namespace detail {
 
 inline void require_valid(const voxel_grid& grid) {
-    require(grid.size > 0.0 && std::isfinite(grid.size),
-            "voxel_grid: the size must be positive and finite");
+    constexpr double least = 1e-150, most = 1e150;  // numerical: of numbers with finite squares
+    require(grid.edge >= least && grid.edge <= most,
+            "voxel_grid: the edge must be within 1e-150 and 1e150");
 }
 
 /// The points nearest to the means of the cells that count, of n points, ascending.
@@ -82,9 +83,13 @@ inline void require_valid(const voxel_grid& grid) {
 /// that are equally near, the one of least coordinates is kept, of duplicates the first. Points
 /// that are not finite are left out.
 ///
-/// @param points  any point range of n points [m]
-/// @throws std::invalid_argument  if the size is not positive and finite, or so small that a point
-///                                is 2^50 cells or more from the origin
+/// @param points      any point range of n points [m]
+/// @param grid        the edge of its cells, and how many points they must have
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return indices for `subset`, one for each cell that is not dropped
+/// @throws std::invalid_argument  if the edge is out of range, or so small that a point is 2^50
+///                                cells or more from the origin
 /// Complexity: O(n + m log m) for m cells. The same bytes for every execution.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -93,15 +98,19 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require_valid(grid);
     const position_view<R, Proj> p(points, std::move(projection));
     const auto& team = detail::staying(run);
-    detail::voxel_parts cells(p, grid.size, team);
+    detail::voxel_parts cells(p, grid.edge, team);
     cells.find(team, [](auto, auto, auto) {});
     return detail::nearest_to_means(cells, grid, p.size());
 }
 
-/// The means of the points of each cell, exact to the rounding of the result and the size over
+/// The means of the points of each cell, exact to the rounding of the result and the edge over
 /// 2^61 / n, in the order of the points nearest to them, whose view points they have.
 ///
-/// @param points  any point range of n points [m]
+/// @param points      any point range of n points [m]
+/// @param grid        the edge of its cells, and how many points they must have
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return a mean for each cell that is not dropped, and the cell of each point
 /// @throws std::invalid_argument  as thin_voxels(), or if the view points are for another number of
 ///                                points
 /// Complexity: O(n + m log m) for m cells. The same bytes for every execution.
@@ -114,7 +123,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& team = detail::staying(run);
     voxel_grid::means r;
     r.of_point.assign(p.size(), voxel_grid::means::no_cell);
-    detail::voxel_parts cells(p, grid.size, team);
+    detail::voxel_parts cells(p, grid.edge, team);
     cells.find(team, [&](point_index i, point_index nearest, point_index count) {
         if (count >= grid.min_points) r.of_point[i] = nearest;
     });

@@ -15,7 +15,8 @@ namespace gnomon::io {
 /// The encoding of a PLY file.
 enum class ply_format { binary_little_endian, binary_big_endian, ascii };
 
-/// The type of a property in a file.
+/// The type of a property in a file. There are no 64-bit integers: those of PCD files and of values
+/// in memory become float64, exact up to 2^53.
 using field_type = scan::field_type;
 
 namespace detail {

@@ -173,7 +173,8 @@ template <gnomon::detail::indexed_range R, class Proj = std::identity>
 ///     write_ply("normals.ply", scan, {normals, field_properties(scan, normals)});
 ///
 /// Every number is written as it was read, bit for bit in binary files (a signaling NaN as a quiet
-/// one).
+/// one). Only 64-bit integers of PCD files, for which PLY has no type, become float64: exact up to
+/// 2^53.
 /// @param points  must outlive the result
 /// @param others  fields that have the name of one of these columns are left out
 /// @return columns; blanks in their names are replaced by "_"

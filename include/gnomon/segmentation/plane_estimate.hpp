@@ -82,12 +82,8 @@ template <class Cloud>
     const bool is_away =
         on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
-    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
-    for (int i = 0; i < 3; ++i) {
-        e.axes(i, 0) = first[i];
-        e.axes(i, 1) = second[i];
-        e.axes(i, 2) = n[i];
-    }
+    const Eigen::Vector3d first = column(principal.vectors, 0);
+    e.axes = from_columns(first, cross(n, first), n);
     e.plane = {n, dot(n, e.centroid)};
     e.chi2 = fit.chi2;
     e.is_flat = is_planar && has_few_off(exact, members, fit);

@@ -115,6 +115,19 @@ namespace gnomon::detail {
     return {m(0, j), m(1, j), m(2, j)};
 }
 
+/// The matrix with the columns a, b, c.
+[[nodiscard]] inline Eigen::Matrix3d from_columns(const Eigen::Vector3d& a,
+                                                  const Eigen::Vector3d& b,
+                                                  const Eigen::Vector3d& c) {
+    Eigen::Matrix3d m;
+    for (int i = 0; i < 3; ++i) {
+        m(i, 0) = a[i];
+        m(i, 1) = b[i];
+        m(i, 2) = c[i];
+    }
+    return m;
+}
+
 /// M += s a b^T
 inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
                       const Eigen::Vector3d& b) {

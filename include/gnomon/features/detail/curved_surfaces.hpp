@@ -132,7 +132,7 @@ struct revolved_line {
         revolved_line m = *this;
         m.axis = scaled((sine < 0.0 ? -1.0 : 1.0) / length(axis), axis);
         m.sine = std::abs(sine);
-        m.half_angle = std::abs(half_angle);
+        m.half_angle = std::atan2(m.sine, cosine);  // a step may be of several turns
         const Eigen::Vector3d first = combined(1.0, e1, -dot(e1, m.axis), m.axis);
         m.e1 = scaled(1.0 / length(first), first);
         const double shift = -dot(point, m.axis);

@@ -39,6 +39,9 @@ inline void remove_inner_points(std::vector<planar_point>& points) {
         if (polygon.empty() || p.x != polygon.back().x || p.y != polygon.back().y)
             polygon.push_back(p);
     }
+    if (polygon.size() > 1 && polygon.front().x == polygon.back().x &&
+        polygon.front().y == polygon.back().y)
+        polygon.pop_back();  // an edge of no length would keep all points
     std::erase_if(points, [&](const planar_point& p) {
         for (std::size_t i = 0; i < polygon.size(); ++i) {
             const planar_point& next = polygon[i + 1 < polygon.size() ? i + 1 : 0];

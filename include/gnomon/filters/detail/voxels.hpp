@@ -40,6 +40,7 @@ struct voxel_entry {
 /// Finds the cells of the points of one part; each thread has its own object.
 class voxel_finder {
   public:
+    /// @param side  of the cells [m], whose square neither over- nor underflows
     explicit voxel_finder(double side) : side_(side) {}
 
     /// The cell (i, j, k) of a point: i side <= x < (i + 1) side, and so on.
@@ -120,8 +121,7 @@ class voxel_finder {
     /// can be without overflow. The mean of a single point is that point.
     void center(cell& c) const {
         const int unused_bits = 62 - static_cast<int>(std::bit_width(c.count));
-        constexpr double most = std::numeric_limits<double>::max();  // numerical: tiny sides
-        c.scale = std::min(static_cast<double>(std::int64_t{1} << unused_bits) / side_, most);
+        c.scale = static_cast<double>(std::int64_t{1} << unused_bits) / side_;
         if (c.count == 1) return;
         for (std::size_t a = 0; a < 3; ++a)
             c.mean[a] = (static_cast<double>(c.number[a]) + 0.5) * side_;
