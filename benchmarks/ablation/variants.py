@@ -27,7 +27,7 @@ STEPS = {
     "measured noise, the true one instead": {"options": ["--noise", "true"]},
     "noise of wide planes": {"texts": [
         ("gnomon/perception/detail/known_noise.hpp",
-         "noise_of_wide_planes(points, *found.curve, sparse, run);", "*found.curve;")]},
+         "noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);", "*found.curve;")]},
     "cells, each point its own": {"texts": [
         ("gnomon/perception/detail/cell_surfaces.hpp",
          "return std::max(noise.of_planes.along(ray), least);", "return least;")]},

@@ -554,6 +554,19 @@ namespace gnomon::detail {
     return {m(0, j), m(1, j), m(2, j)};
 }
 
+/// The matrix with the columns a, b, c.
+[[nodiscard]] inline Eigen::Matrix3d from_columns(const Eigen::Vector3d& a,
+                                                  const Eigen::Vector3d& b,
+                                                  const Eigen::Vector3d& c) {
+    Eigen::Matrix3d m;
+    for (int i = 0; i < 3; ++i) {
+        m(i, 0) = a[i];
+        m(i, 1) = b[i];
+        m(i, 2) = c[i];
+    }
+    return m;
+}
+
 /// M += s a b^T
 inline void add_outer(Eigen::Matrix3d& m, double s, const Eigen::Vector3d& a,
                       const Eigen::Vector3d& b) {
@@ -1475,7 +1488,8 @@ struct scan {
     enum class field_type : char { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
     /// One named number per point: an intensity, a label, a component of a color or of a true
-    /// normal. Doubles hold the numbers of all types exactly.
+    /// normal. Doubles hold the numbers of all these types exactly; 64-bit integers of PCD files
+    /// become float64, exact up to 2^53.
     struct scalar_field {
         std::string name;                       ///< as in the file
         std::vector<double> values;             ///< in the order of the points
@@ -14207,12 +14221,8 @@ template <class Cloud>
     const bool is_away =
         on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
     const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
-    const Eigen::Vector3d first = column(principal.vectors, 0), second = cross(n, first);
-    for (int i = 0; i < 3; ++i) {
-        e.axes(i, 0) = first[i];
-        e.axes(i, 1) = second[i];
-        e.axes(i, 2) = n[i];
-    }
+    const Eigen::Vector3d first = column(principal.vectors, 0);
+    e.axes = from_columns(first, cross(n, first), n);
     e.plane = {n, dot(n, e.centroid)};
     e.chi2 = fit.chi2;
     e.is_flat = is_planar && has_few_off(exact, members, fit);
@@ -14775,21 +14785,24 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 namespace gnomon::detail {
 
-/// Whether all rays are within 45 degrees of one axis. (A template for compile time only.)
-[[nodiscard]] bool are_of_camera(const auto& index, const scratch<point_index>& some) {
+/// About 3,000 of the finite points of an index, drawn at random; all of fewer than 6,000. (A
+/// template, as the next one, for compile time only.)
+[[nodiscard]] scratch<point_index> some_points_of(const auto& index) {
+    const std::size_t thinning = std::max<std::size_t>(index.finite() / sampled_planes, 1);
+    scratch<point_index> some;
+    for (std::size_t i = 0; i < index.size(); ++i)
+        if (index.is_finite(i) && random_stream(i).bits() % thinning == 0)
+            some.push_back(static_cast<point_index>(i));
+    return some;
+}
+
+/// Whether all rays of an index are within 45 degrees of one axis, as those of a depth camera;
+/// tested on some of them.
+[[nodiscard]] bool is_of_camera(const auto& index, const scratch<point_index>& some) {
     scratch<sampled_plane> rays;
     for (const point_index i : some)
         rays.push_back({difference(index[i], index.viewpoints[i]), {0.0, 0.0, 0.0}});
     return has_length(axis_of_cone(rays));
-}
-
-/// Whether all rays of an index are, judged by about 3,000 of its points.
-[[nodiscard]] bool is_of_camera(const auto& index) {
-    const std::size_t step = std::max<std::size_t>(index.size() / sampled_planes, 1);
-    scratch<point_index> some;
-    for (std::size_t i = 0; i < index.size(); i += step)
-        if (index.is_finite(i)) some.push_back(static_cast<point_index>(i));
-    return are_of_camera(index, some);
 }
 
 /// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
@@ -14799,16 +14812,11 @@ namespace gnomon::detail {
 template <class X>
 [[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
                                                spatial_index& sparse, const X& run) {
-    const std::size_t thinning = index.finite() / sampled_planes;  // a plane for each point left
-    if (thinning < 2) return noise;
-    scratch<point_index> some;
+    if (index.finite() / sampled_planes < 2) return noise;  // a plane for each point left
+    const scratch<point_index> some = some_points_of(index);
+    if (!is_of_camera(index, some)) return noise;
     double range = 0.0;
-    for (std::size_t i = 0; i < index.size(); ++i) {
-        if (!index.is_finite(i) || random_stream(i).bits() % thinning != 0) continue;
-        some.push_back(static_cast<point_index>(i));
-        range += length(difference(index[i], index.viewpoints[i]));
-    }
-    if (!are_of_camera(index, some)) return noise;
+    for (const point_index i : some) range += length(difference(index[i], index.viewpoints[i]));
     sparse.rebuild(subset_view<spatial_index>(index, some), run);
     const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
     range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
@@ -15149,6 +15157,7 @@ class strips {
   public:
     /// @param along  of unit length
     /// @param first  the position of the first strip along it, from the origin of the cloud [m]
+    /// @param width  of each strip, more than zero [m]
     strips(const Eigen::Vector3d& along, double first, double width)
         : along_(along), first_(first), width_(width) {}
 
@@ -15156,11 +15165,12 @@ class strips {
     void add(const auto& cloud, std::size_t i) { cloud.add(i, sums_[strip_of(cloud.offsets[i])]); }
 
     /// The cut after which two planes explain the points best.
-    /// @param accepts     accepts(side, side): whether these may be two planes
-    /// @param not_curved  whether it is none if a parabola explains the points better
-    /// @param least       the squared deviations that it must be below; becomes those after it
+    /// @param accepts        accepts(side, side): whether these may be two planes
+    /// @param reject_curved  whether there is no cut if a parabola explains the points better
+    /// @param least          the sum of squared deviations from the planes that the cut must be
+    ///                       below; is replaced by that of the cut
     [[nodiscard]] std::optional<plane> best_cut(std::size_t min_points, auto&& accepts,
-                                                bool not_curved, double& least) const {
+                                                bool reject_curved, double& least) const {
         double deviations = least;
         std::size_t best = 0;
         for (std::size_t cut = 1; cut < count; ++cut) {
@@ -15171,7 +15181,7 @@ class strips {
             deviations = both;
             best = cut;
         }
-        if (best == 0 || (not_curved && is_curved(best))) return std::nullopt;
+        if (best == 0 || (reject_curved && is_curved(best))) return std::nullopt;
         least = deviations;
         return plane{along_, first_ + width_ * static_cast<double>(best)};
     }
@@ -15247,11 +15257,64 @@ class strips {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/segmentation/detail/crease_cut.hpp ----------------------------------------------
+
+/// @file
+/// The border between two regions whose planes meet at a crease, a shallow edge. Near the crease
+/// the planes are closer to each other than the noise: a border that gives each point to the nearer
+/// plane is anywhere in the noise, and the planes of such regions are turned. On which side of a
+/// crease a point lies hardly depends on its noise, so that the border is searched for among the
+/// parallels of the line in which the planes meet.
+
+namespace gnomon::detail {
+
+/// Where to cut the union of two regions that meet at a crease.
+/// @param cloud       a planar_cloud
+/// @param members     of either region, all finite
+/// @param regions     the two
+/// @param min_points  the least number of each part
+/// @return a plane with the first region on its negative side; nothing if they do not meet at a
+///         crease, or a curved surface explains them better. O(n)
+[[nodiscard]] std::optional<plane> crease_cut(
+    const auto& cloud, const std::array<std::span<const point_index>, 2>& members,
+    const std::array<planar_region, 2>& regions, std::size_t min_points) {
+    const auto& [a, b] = regions;
+    constexpr angle most = degrees(30);  // numerical: at more, noise hides the edge alone
+    if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
+    const Eigen::Vector3d& n = a.fit.plane.normal;
+    const Eigen::Vector3d& m = b.fit.plane.normal;
+    const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;
+    // The plane through the crease that halves the angle of both: almost perpendicular to them.
+    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
+    double scale = 1.0 / length(between);
+    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
+    const plane middle{scaled(scale, between),
+                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
+    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
+        middle.signed_distance(b.fit.centroid) <= 0.0)
+        return std::nullopt;
+    const double noise = std::sqrt(std::max(a.sums.noise_along(n), b.sums.noise_along(m)));
+    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
+    // Twice as far as noise hides the distance of the planes, as these are turned.
+    const double reach = 2.0 * most_deviations * noise / sine;
+    if (!(reach > 0.0)) return std::nullopt;
+    constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
+    strips<pieces> both(middle.normal, middle.offset - reach, 2.0 * reach / pieces);
+    for (const auto& some : members)
+        for (const point_index i : some) both.add(cloud, i);
+    double least = std::numeric_limits<double>::infinity();
+    return both.best_cut(
+        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/detail/edge_cut.hpp ------------------------------------------------
 
 /// @file
-/// Edges within the noise. Small faces that meet at one, or at a shallow one, a crease, are within
-/// the noise of a common plane, and grow into one region; but two planes explain them better.
+/// The edge within a region: faces that meet at one are within the noise of a common plane, if they
+/// are small or meet at a shallow angle, and grow into one region; but two planes explain them
+/// better.
 
 namespace gnomon::detail {
 
@@ -15261,18 +15324,18 @@ namespace gnomon::detail {
 /// @param members     of the region, all finite
 /// @param min_points  the least number of each part
 /// @param is_edge     is_edge(part, part): whether their planes meet at an edge
-/// @param not_curved  whether a curved surface that explains them better is left whole
+/// @param reject_curved  whether a curved surface that explains them better is left whole
 /// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
 ///         compile it.)
 [[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points,
-                                            auto&& is_edge, bool not_curved) {
+                                            auto&& is_edge, bool reject_curved) {
     if (members.size() < 2 * min_points) return std::nullopt;
     const eigen_decomposition principal = symmetric_eigen(whole.sums.positions.covariance());
     double least = whole.sums.squares(whole.fit);
     std::optional<plane> best;
     for (int axis = 0; axis < 2; ++axis) {
-        constexpr std::size_t pieces = 8;  // performance only: of sixteen as many planes are found
+        constexpr std::size_t pieces = 8;  // numerical: of sixteen as many planes are found
         const Eigen::Vector3d along = column(principal.vectors, axis);
         const auto position = [&](point_index i) { return dot(along, cloud.offsets[i]); };
         double first = position(members.front()), last = first;
@@ -15284,49 +15347,9 @@ namespace gnomon::detail {
         if (!(width > 0.0)) continue;
         strips<pieces> all(along, first, width);
         for (const point_index i : members) all.add(cloud, i);
-        if (const auto cut = all.best_cut(min_points, is_edge, not_curved, least)) best = cut;
+        if (const auto cut = all.best_cut(min_points, is_edge, reject_curved, least)) best = cut;
     }
     return best;
-}
-
-/// Where to cut the union of two regions that meet at a crease. Near it the noise is more than the
-/// distance of the planes, so that it is not found by giving each point to the nearer plane, which
-/// also turns the planes; but on which side of it a point lies is known. It is searched for across
-/// itself, as far to either side as noise could hide it, twice.
-/// @param cloud       a planar_cloud
-/// @param members     of either region, all finite
-/// @param regions     the two
-/// @param min_points  the least number of each part
-/// @return a plane with the first region on its negative side, or nothing. O(n)
-[[nodiscard]] std::optional<plane> crease_cut(
-    const auto& cloud, const std::array<std::span<const point_index>, 2>& members,
-    const std::array<planar_region, 2>& regions, std::size_t min_points) {
-    const auto& [a, b] = regions;
-    constexpr angle most = degrees(30);  // numerical: at more, the planes are far apart soon
-    if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
-    const Eigen::Vector3d& n = a.fit.plane.normal;
-    const Eigen::Vector3d& m = b.fit.plane.normal;
-    const double cosine = dot(n, m), turn = cosine < 0.0 ? -1.0 : 1.0;
-    // The plane that halves the angle of both, through the crease and almost across the regions.
-    const Eigen::Vector3d between = combined(1.0, n, -turn, m);
-    double scale = 1.0 / length(between);
-    if (scale * dot(between, difference(b.fit.centroid, a.fit.centroid)) < 0.0) scale = -scale;
-    const plane middle{scaled(scale, between),
-                       scale * (a.fit.plane.offset - turn * b.fit.plane.offset)};
-    if (middle.signed_distance(a.fit.centroid) >= 0.0 ||
-        middle.signed_distance(b.fit.centroid) <= 0.0)
-        return std::nullopt;
-    const double noise = std::sqrt(std::max(a.sums.noise_along(n), b.sums.noise_along(m)));
-    const double sine = std::sqrt(std::max(0.0, 1.0 - cosine * cosine));
-    const double reach = 2.0 * most_deviations * noise / sine;
-    if (!(reach > 0.0)) return std::nullopt;  // no noise hides the crease
-    constexpr std::size_t pieces = 32;        // performance only
-    strips<pieces> both(middle.normal, middle.offset - reach, 2.0 * reach / pieces);
-    for (const auto& some : members)
-        for (const point_index i : some) both.add(cloud, i);
-    double least = std::numeric_limits<double>::infinity();
-    return both.best_cut(
-        min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);
 }
 
 }  // namespace gnomon::detail
@@ -15370,8 +15393,9 @@ class plane_regions {
         cut(run, [](const auto& a, const auto& b) { return are_at_edge(a, b); });
     }
 
-    /// Cuts regions at creases too, where noise is independent from point to point, and moves the
-    /// borders between regions there; from now on a crease keeps regions apart.
+    /// Cuts regions at creases, and moves the borders between regions to creases, in at most
+    /// `most_rounds` rounds: between two, the competition gives single points near a crease to the
+    /// other side again. From now on a crease keeps regions apart.
     template <execution X>
     void cut_creases(const X& run) {
         keeps_creases_ = true;
@@ -15385,7 +15409,7 @@ class plane_regions {
   private:
     /// Cuts regions where two planes explain them better, and settles them.
     /// @param is_edge  is_edge(part, part): whether their planes meet at an edge
-    /// @return whether there were any
+    /// @return whether a region was cut
     template <execution X>
     bool cut(const X& run, auto&& is_edge) {
         const label_groups parts(labels_);
@@ -15548,9 +15572,10 @@ class plane_regions {
 ///              explains it best, and planes are fit again: edges come out sharp.
 ///  4. cut      What two planes at an edge explain better is cut in two, merged and competed for.
 ///
-/// All of it once more in what is left, by twice the angle, as edges blend normals. Where noise is
-/// independent from point to point, which that of a depth camera is not, planes that meet at an
-/// angle of only 3 degrees are cut apart in the end. All lengths
+/// These steps are repeated for the unlabeled points, by twice the angle, as edges blend normals.
+/// Where the noise is independent from point to point, planes that meet at an angle of only 3
+/// degrees are cut apart in the end. It is taken to be so where view points are known and the rays
+/// are not all within 45 degrees of one axis, as those of a depth camera. All lengths
 /// follow from the noise and a flatness of 2 mm, so that no distance need be set.
 
 namespace gnomon {
@@ -15615,7 +15640,8 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    const bool is_independent = !index.viewpoints.empty() && !detail::is_of_camera(index);
+    const bool is_independent =
+        !index.viewpoints.empty() && !detail::is_of_camera(index, detail::some_points_of(index));
     return detail::numbered_segments_of(
         detail::regions_of_planes(cloud, graph, graph, surface, options.min_points,
                                   options.max_angle, is_independent, team)
@@ -17424,7 +17450,8 @@ namespace gnomon::io {
 /// The encoding of a PLY file.
 enum class ply_format { binary_little_endian, binary_big_endian, ascii };
 
-/// The type of a property in a file.
+/// The type of a property in a file. There are no 64-bit integers: those of PCD files and of values
+/// in memory become float64, exact up to 2^53.
 using field_type = scan::field_type;
 
 namespace detail {
@@ -17621,7 +17648,8 @@ template <gnomon::detail::indexed_range R, class Proj = std::identity>
 ///     write_ply("normals.ply", scan, {normals, field_properties(scan, normals)});
 ///
 /// Every number is written as it was read, bit for bit in binary files (a signaling NaN as a quiet
-/// one).
+/// one). Only 64-bit integers of PCD files, for which PLY has no type, become float64: exact up to
+/// 2^53.
 /// @param points  must outlive the result
 /// @param others  fields that have the name of one of these columns are left out
 /// @return columns; blanks in their names are replaced by "_"
@@ -19170,17 +19198,23 @@ template <class R, class Proj>
     return kept;
 }
 
-/// A box along the axes that holds an oriented one, whatever the rounding of either.
+/// A box along the axes that holds an oriented one, whatever the rounding of either. Its axes need
+/// not be exactly orthonormal: the vector of given products with them is a sum of the reciprocal
+/// vectors, which are their cross products over the determinant.
 [[nodiscard]] inline leaf_box box_around(const oriented_box& box) {
+    constexpr double slack = 1e-5;      // numerical: determinants are above 1 - 2e-6
+    constexpr double rounding = 1e-15;  // numerical: some units in the last place
     leaf_box around{};
     for (int a = 0; a < 3; ++a) {
-        double reach = 0.0;
+        double reach = rounding * std::abs(box.center[a]);
         for (int b = 0; b < 3; ++b) {
-            const double share = std::abs(box.axes(a, b));
-            if (share > 0.0) reach += share * box.lengths[b];  // of two reaches; no 0 * infinity
+            const int a1 = (a + 1) % 3, a2 = (a + 2) % 3, b1 = (b + 1) % 3, b2 = (b + 2) % 3;
+            const double p = box.axes(a1, b1) * box.axes(a2, b2);
+            const double q = box.axes(a1, b2) * box.axes(a2, b1);
+            const double share = std::abs(p - q) + rounding * (std::abs(p) + std::abs(q));
+            if (share > 0.0) reach += 0.5 * (1.0 + slack) * share * box.lengths[b];
+            if (std::isfinite(box.lengths[b])) reach += rounding * box.lengths[b];
         }
-        constexpr double slack = 1e-6;  // numerical: more than that of orthonormal axes
-        reach += slack * (reach + std::abs(box.center[a]));
         around.low[static_cast<std::size_t>(a)] = box.center[a] - reach;
         around.high[static_cast<std::size_t>(a)] = box.center[a] + reach;
     }
@@ -19192,9 +19226,11 @@ template <class R, class Proj>
 /// The indices of the points in a box along the axes, its surface included, ascending. Points that
 /// are not finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
-/// @param low     the least coordinates of the box [m]; minus infinity where it has no end
-/// @param high    the greatest coordinates of the box [m]; infinity where it has no end
+/// @param points      any point range of n points [m], or an index of them
+/// @param low         the least coordinates of the box [m]; minus infinity where it has no end
+/// @param high        the greatest coordinates of the box [m]; infinity where it has no end
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points in the box, for `subset`
 /// @throws std::invalid_argument  if a coordinate of `low` is greater than that of `high`, or NaN
 /// Complexity: O(n); with an index about O(log n + m log m) for m points in the box.
 template <class R, class Proj = std::identity>
@@ -19214,10 +19250,14 @@ template <class R, class Proj = std::identity>
 /// The indices of the points in an oriented box, its surface included up to rounding, ascending.
 /// Points that are not finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param box         its lengths may be infinite, and its axes off by 1e-6
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points in the box, for `subset`; those of an index are the same
 /// @throws std::invalid_argument  unless the center of the box is finite, its lengths are not
 ///                                negative or NaN, and its axes are orthonormal
-/// Complexity: that of the box along the axes.
+/// Complexity: O(n); with an index about O(log n + m log m) for m points in the smallest box along
+/// the coordinate axes around it, which may be much larger.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] std::vector<point_index> crop_box(const R& points, const oriented_box& box,
@@ -19321,7 +19361,11 @@ inline void keep_dense_nodes(const leaf_tree& tree, double radius, std::size_t m
 /// The indices of the points that are no statistical outliers, ascending; see subset. Points that
 /// are not finite are left out. In a cloud of n <= k finite points, neighbors are the n - 1 others.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param options     number of neighbors, and the factor
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
 /// @throws std::invalid_argument  if k is 0, or the factor is negative or NaN
 /// Complexity: O(n (log n + k)). The same bytes for every execution.
 template <class R, execution X = sequential, class Proj = std::identity>
@@ -19350,7 +19394,11 @@ template <class R, execution X = sequential, class Proj = std::identity>
 /// The indices of the points that have enough neighbors, ascending; see subset. Points that are not
 /// finite are left out.
 ///
-/// @param points  any point range of n points [m], or an index of them
+/// @param points      any point range of n points [m], or an index of them
+/// @param options     the radius, and the least number of neighbors
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return the indices of the points to keep, for `subset`
 /// @throws std::invalid_argument  if the radius is negative, infinite or NaN
 /// Complexity: O(n log n) plus the neighbors of points in boxes that are larger than the radius, or
 /// hold fewer points. The same bytes for every execution.
@@ -19439,10 +19487,14 @@ template <class T, class Allocator>
 
 /// The indices below `size` that are not among `kept`, ascending: the points that a filter removed,
 /// those that are not finite among them.
-/// @throws std::invalid_argument  unless `kept` ascends and stays below `size`
+/// @throws std::invalid_argument  unless `kept` ascends and stays below `size`, or if `size` is
+/// 2^32
+///                                or more
 /// Complexity: O(size).
 [[nodiscard]] inline std::vector<point_index> complement(std::span<const point_index> kept,
                                                          std::size_t size) {
+    detail::require(size <= std::numeric_limits<point_index>::max(),
+                    "complement: there must be fewer than 2^32 points");
     std::vector<point_index> removed;
     removed.reserve(size - std::min(size, kept.size()));
     std::size_t next = 0;
@@ -19480,6 +19532,7 @@ struct voxel_entry {
 /// Finds the cells of the points of one part; each thread has its own object.
 class voxel_finder {
   public:
+    /// @param side  of the cells [m], whose square neither over- nor underflows
     explicit voxel_finder(double side) : side_(side) {}
 
     /// The cell (i, j, k) of a point: i side <= x < (i + 1) side, and so on.
@@ -19560,8 +19613,7 @@ class voxel_finder {
     /// can be without overflow. The mean of a single point is that point.
     void center(cell& c) const {
         const int unused_bits = 62 - static_cast<int>(std::bit_width(c.count));
-        constexpr double most = std::numeric_limits<double>::max();  // numerical: tiny sides
-        c.scale = std::min(static_cast<double>(std::int64_t{1} << unused_bits) / side_, most);
+        c.scale = static_cast<double>(std::int64_t{1} << unused_bits) / side_;
         if (c.count == 1) return;
         for (std::size_t a = 0; a < 3; ++a)
             c.mean[a] = (static_cast<double>(c.number[a]) + 0.5) * side_;
@@ -19683,22 +19735,22 @@ class voxel_parts {
 /// Thins a cloud to one point for each cube of a grid: the measured point that is nearest to the
 /// mean of the cube's points (`thin_voxels`), or this mean (`average_voxels`).
 ///
-///     const auto kept = gnomon::thin_voxels(scan, {.size = 0.02});
+///     const auto kept = gnomon::thin_voxels(scan, {.edge = 0.02});
 ///     const gnomon::scan part = gnomon::subset(scan, kept);
 ///
-///     const auto means = gnomon::average_voxels(scan, {.size = 0.02});       // a point range
+///     const auto means = gnomon::average_voxels(scan, {.edge = 0.02});       // a point range
 ///     auto surface = gnomon::estimate_normals(means, gnomon::knn{});
 ///     const auto intensities = gnomon::subset(intensity, means.nearest);     // of measured points
 ///     labels[i] = labels_of_means[means.of_point[i]];                        // back to all points
 ///
-/// Cubes begin at multiples of the size, whatever the cloud: the clouds of neighboring tiles share
-/// a grid. Kept positions do not depend on the order of the points.
+/// Cubes begin at multiples of their edge, whatever the cloud: the clouds of neighboring tiles
+/// share a grid. Kept positions do not depend on the order of the points.
 
 namespace gnomon {
 
 /// The grid, and which of its cells count.
 struct voxel_grid {
-    double size = 0.05;          ///< edge length of a cell [m], positive and finite; chosen
+    double edge = 0.05;          ///< length of the edges of a cell [m], 1e-150 to 1e150; chosen
     std::size_t min_points = 1;  ///< cells with fewer points are dropped
 
     /// The means of the cells; models `point_range` and `has_viewpoints`.
@@ -19721,8 +19773,9 @@ struct voxel_grid {
 namespace detail {
 
 inline void require_valid(const voxel_grid& grid) {
-    require(grid.size > 0.0 && std::isfinite(grid.size),
-            "voxel_grid: the size must be positive and finite");
+    constexpr double least = 1e-150, most = 1e150;  // numerical: of numbers with finite squares
+    require(grid.edge >= least && grid.edge <= most,
+            "voxel_grid: the edge must be within 1e-150 and 1e150");
 }
 
 /// The points nearest to the means of the cells that count, of n points, ascending.
@@ -19742,9 +19795,13 @@ inline void require_valid(const voxel_grid& grid) {
 /// that are equally near, the one of least coordinates is kept, of duplicates the first. Points
 /// that are not finite are left out.
 ///
-/// @param points  any point range of n points [m]
-/// @throws std::invalid_argument  if the size is not positive and finite, or so small that a point
-///                                is 2^50 cells or more from the origin
+/// @param points      any point range of n points [m]
+/// @param grid        the edge of its cells, and how many points they must have
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return indices for `subset`, one for each cell that is not dropped
+/// @throws std::invalid_argument  if the edge is out of range, or so small that a point is 2^50
+///                                cells or more from the origin
 /// Complexity: O(n + m log m) for m cells. The same bytes for every execution.
 template <class R, execution X = sequential, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -19753,15 +19810,19 @@ template <class R, execution X = sequential, class Proj = std::identity>
     detail::require_valid(grid);
     const position_view<R, Proj> p(points, std::move(projection));
     const auto& team = detail::staying(run);
-    detail::voxel_parts cells(p, grid.size, team);
+    detail::voxel_parts cells(p, grid.edge, team);
     cells.find(team, [](auto, auto, auto) {});
     return detail::nearest_to_means(cells, grid, p.size());
 }
 
-/// The means of the points of each cell, exact to the rounding of the result and the size over
+/// The means of the points of each cell, exact to the rounding of the result and the edge over
 /// 2^61 / n, in the order of the points nearest to them, whose view points they have.
 ///
-/// @param points  any point range of n points [m]
+/// @param points      any point range of n points [m]
+/// @param grid        the edge of its cells, and how many points they must have
+/// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection  maps an element of the range to a point
+/// @return a mean for each cell that is not dropped, and the cell of each point
 /// @throws std::invalid_argument  as thin_voxels(), or if the view points are for another number of
 ///                                points
 /// Complexity: O(n + m log m) for m cells. The same bytes for every execution.
@@ -19774,7 +19835,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& team = detail::staying(run);
     voxel_grid::means r;
     r.of_point.assign(p.size(), voxel_grid::means::no_cell);
-    detail::voxel_parts cells(p, grid.size, team);
+    detail::voxel_parts cells(p, grid.edge, team);
     cells.find(team, [&](point_index i, point_index nearest, point_index count) {
         if (count >= grid.min_points) r.of_point[i] = nearest;
     });
@@ -19890,6 +19951,674 @@ template <class Difference>
 }
 
 }  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/planar_hull.hpp -------------------------------------------------
+
+/// @file
+/// The convex hull of points in a plane: the monotone chain (Andrew 1979) of those points that are
+/// not within the octagon of extreme points (Akl and Toussaint 1978). All signs are exact.
+
+namespace gnomon::detail {
+
+/// Twice the area of the triangle (a, b, c), positive if it is counterclockwise.
+[[nodiscard]] inline double signed_area(const planar_point& a, const planar_point& b,
+                                        const planar_point& c) {
+    return signed_area(a.x, a.y, b.x, b.y, c.x, c.y);
+}
+
+/// Removes points strictly within the polygon of the extreme points in eight directions.
+inline void remove_inner_points(std::vector<planar_point>& points) {
+    static constexpr std::array<std::array<double, 2>, 8> directions{
+        {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
+    std::array<planar_point, 8> extreme;
+    extreme.fill(points.front());
+    for (const planar_point& p : points) {
+        for (std::size_t d = 0; d < 8; ++d) {
+            const double x = directions[d][0];
+            const double y = directions[d][1];
+            if (x * p.x + y * p.y > x * extreme[d].x + y * extreme[d].y) extreme[d] = p;
+        }
+    }
+    std::vector<planar_point> polygon;
+    for (const planar_point& p : extreme) {
+        if (polygon.empty() || p.x != polygon.back().x || p.y != polygon.back().y)
+            polygon.push_back(p);
+    }
+    if (polygon.size() > 1 && polygon.front().x == polygon.back().x &&
+        polygon.front().y == polygon.back().y)
+        polygon.pop_back();  // an edge of no length would keep all points
+    std::erase_if(points, [&](const planar_point& p) {
+        for (std::size_t i = 0; i < polygon.size(); ++i) {
+            const planar_point& next = polygon[i + 1 < polygon.size() ? i + 1 : 0];
+            if (!(signed_area(polygon[i], next, p) > 0.0)) return false;
+        }
+        return true;
+    });
+}
+
+/// Sorts points by x, then y; of points at one place the smallest index is kept.
+inline void sort_by_place(std::vector<planar_point>& points) {
+    std::sort(points.begin(), points.end(), [](const planar_point& a, const planar_point& b) {
+        if (a.x != b.x) return a.x < b.x;
+        return a.y != b.y ? a.y < b.y : a.index < b.index;
+    });
+    const auto same_place = [](const planar_point& a, const planar_point& b) {
+        return a.x == b.x && a.y == b.y;
+    };
+    points.erase(std::unique(points.begin(), points.end(), same_place), points.end());
+}
+
+/// The corners of the convex hull, counterclockwise from the lexicographically smallest; one for
+/// equal points, two for collinear ones. Of equal points the smallest index is taken.
+/// @param points  at least one, up to 1 in magnitude
+/// Complexity: O(n log n), O(n) if most points are in the interior.
+[[nodiscard]] inline std::vector<planar_point> planar_hull(std::vector<planar_point> points) {
+    remove_inner_points(points);
+    sort_by_place(points);
+    if (points.size() < 3) return points;
+    std::vector<planar_point> hull;
+    const auto add = [&](const planar_point& p, std::size_t fixed) {
+        while (hull.size() > fixed && !(signed_area(hull[hull.size() - 2], hull.back(), p) > 0.0))
+            hull.pop_back();
+        hull.push_back(p);
+    };
+    for (const planar_point& p : points) add(p, 1);
+    const std::size_t lower = hull.size();
+    for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
+    hull.pop_back();  // the first again
+    return hull;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/planar_delaunay.hpp ---------------------------------------------
+
+/// @file
+/// The Delaunay triangulation of points in a plane by divide and conquer (Guibas and Stolfi 1985,
+/// Primitives for the manipulation of general subdivisions and the computation of Voronoi
+/// diagrams), across x and y in turn (Dwyer 1987). Coordinates are integers, so that their
+/// differences, and all signs, are exact.
+
+namespace gnomon::detail {
+
+/// A triangulation as cycles of directed edges about their origins: edge e ^ 1 is e reversed.
+class planar_delaunay {
+  public:
+    using edge = std::uint32_t;
+    static constexpr edge no_edge = std::numeric_limits<edge>::max();
+
+    /// @param points  with integers up to 2^33 in magnitude as coordinates, less than 2^28
+    /// Of points at one place the smallest index is kept. O(n log n).
+    explicit planar_delaunay(std::vector<planar_point> points) : points_(std::move(points)) {
+        sort_by_place(points_);
+        if (points_.size() < 2) return;
+        const std::size_t edges = 6 * points_.size();
+        origin_.reserve(edges);
+        next_.reserve(edges);
+        previous_.reserve(edges);
+        triangulate(0, points_.size(), false);
+    }
+
+    /// The different points; origins refer to them.
+    [[nodiscard]] const std::vector<planar_point>& points() const { return points_; }
+
+    /// The number of directed edges, with those that were removed.
+    [[nodiscard]] edge edges() const { return static_cast<edge>(origin_.size()); }
+    [[nodiscard]] bool is_removed(edge e) const { return next_[e] == no_edge; }
+
+    [[nodiscard]] std::uint32_t origin(edge e) const { return origin_[e]; }
+    [[nodiscard]] std::uint32_t destination(edge e) const { return origin_[e ^ 1]; }
+
+    /// The next edge counterclockwise about the origin of e.
+    [[nodiscard]] edge next_about_origin(edge e) const { return next_[e]; }
+
+    /// The next edge counterclockwise about the face on the left of e.
+    [[nodiscard]] edge next_about_left(edge e) const { return previous_[e ^ 1]; }
+
+    /// Whether the face on the left of e is a triangle, and not the outer face.
+    [[nodiscard]] bool has_triangle(edge e) const {
+        const edge second = next_about_left(e);
+        const edge third = next_about_left(second);
+        return next_about_left(third) == e && is_left(origin(third), e);
+    }
+
+  private:
+    struct outer_edges {
+        edge left;   // out of the leftmost point, with the hull on its left
+        edge right;  // out of the rightmost point, with the hull on its right
+    };
+
+    /// Whether a is left of b; below, where the plane is turned by a right angle.
+    [[nodiscard]] static bool is_before(const planar_point& a, const planar_point& b,
+                                        bool is_turned) {
+        if (is_turned) return a.y != b.y ? a.y < b.y : a.x > b.x;
+        return a.x != b.x ? a.x < b.x : a.y < b.y;
+    }
+
+    [[nodiscard]] double area(std::uint32_t a, std::uint32_t b, std::uint32_t c) const {
+        return signed_area(points_[a], points_[b], points_[c]);
+    }
+    [[nodiscard]] bool is_left(std::uint32_t p, edge e) const {
+        return area(p, origin(e), destination(e)) > 0.0;
+    }
+    [[nodiscard]] bool is_right(std::uint32_t p, edge e) const {
+        return area(p, destination(e), origin(e)) > 0.0;
+    }
+    /// Whether p lies within the circumcircle of the counterclockwise triangle (a, b, c).
+    [[nodiscard]] bool is_within(std::uint32_t a, std::uint32_t b, std::uint32_t c,
+                                 std::uint32_t p) const {
+        const planar_point& o = points_[a];
+        const auto from = [&o](const planar_point& q) {
+            return planar_point{q.x - o.x, q.y - o.y, q.index};
+        };
+        return inverted_orientation(from(points_[b]), from(points_[p]), from(points_[c])) > 0;
+    }
+
+    edge add(std::uint32_t from, std::uint32_t to) {
+        const edge e = edges();
+        for (const std::uint32_t end : {from, to}) {
+            next_.push_back(edges());
+            previous_.push_back(edges());
+            origin_.push_back(end);
+        }
+        return e;
+    }
+    /// Joins the cycles about the origins of a and b, or splits their common one.
+    void splice(edge a, edge b) {
+        std::swap(next_[a], next_[b]);
+        previous_[next_[a]] = a;
+        previous_[next_[b]] = b;
+    }
+    /// Adds an edge from the destination of a to the origin of b, which have one left face.
+    edge connect(edge a, edge b) {
+        const edge after = next_about_left(a);
+        const edge e = add(destination(a), origin(b));
+        splice(e, after);
+        splice(e ^ 1, b);
+        return e;
+    }
+    void remove(edge e) {
+        splice(e, previous_[e]);
+        splice(e ^ 1, previous_[e ^ 1]);
+        next_[e] = next_[e ^ 1] = no_edge;
+    }
+
+    outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
+        const auto at = [&](std::size_t i) {
+            return points_.begin() + static_cast<std::ptrdiff_t>(i);
+        };
+        const auto before = [&](const planar_point& a, const planar_point& b) {
+            return is_before(a, b, is_turned);
+        };
+        if (end - begin <= 3) {
+            std::sort(at(begin), at(end), before);
+            return triangulate_few(static_cast<std::uint32_t>(begin), end - begin);
+        }
+        const std::size_t middle = begin + (end - begin) / 2;
+        std::nth_element(at(begin), at(middle), at(end), before);
+        const edge lower = triangulate(begin, middle, !is_turned).left;
+        const edge upper = triangulate(middle, end, !is_turned).left;
+        return merged(extremes(lower, is_turned), extremes(upper, is_turned));
+    }
+
+    /// Two or three points, the first of them number `first`.
+    outer_edges triangulate_few(std::uint32_t first, std::size_t count) {
+        const edge a = add(first, first + 1);
+        if (count == 2) return {a, a ^ 1};
+        const edge b = add(first + 1, first + 2);
+        splice(a ^ 1, b);
+        const double turn = area(first, first + 1, first + 2);
+        if (turn == 0.0) return {a, b ^ 1};
+        const edge c = connect(b, a);
+        return turn > 0.0 ? outer_edges{a, b ^ 1} : outer_edges{c ^ 1, c};
+    }
+
+    /// The outer edges in another direction, by a walk around the hull.
+    /// @param start  an edge with the hull on its left
+    [[nodiscard]] outer_edges extremes(edge start, bool is_turned) const {
+        outer_edges found{start, start ^ 1};
+        edge e = start;
+        do {
+            if (is_before(points_[origin(e)], points_[origin(found.left)], is_turned))
+                found.left = e;
+            if (is_before(points_[origin(found.right)], points_[destination(e)], is_turned))
+                found.right = e ^ 1;
+            e = next_about_left(e ^ 1) ^ 1;
+        } while (e != start);
+        return found;
+    }
+
+    /// Zips two triangulations together, from the lower common tangent upwards.
+    outer_edges merged(outer_edges left, outer_edges right) {
+        edge from = left.right;
+        edge to = right.left;
+        for (;;) {
+            if (is_left(origin(to), from))
+                from = next_about_left(from);
+            else if (is_right(origin(from), to))
+                to = next_[to ^ 1];
+            else
+                break;
+        }
+        edge base = connect(to ^ 1, from);
+        if (origin(from) == origin(left.left)) left.left = base ^ 1;
+        if (origin(to) == origin(right.right)) right.right = base;
+        for (;;) {
+            const edge a = candidate(base, next_[base ^ 1], next_);
+            const edge b = candidate(base, previous_[base], previous_);
+            const bool a_is_above = is_right(destination(a), base);
+            const bool b_is_above = is_right(destination(b), base);
+            if (!a_is_above && !b_is_above) return {left.left, right.right};
+            const bool take_b = !a_is_above || (b_is_above && is_within(destination(a), origin(a),
+                                                                        origin(b), destination(b)));
+            base = take_b ? connect(b, base ^ 1) : connect(base ^ 1, a ^ 1);
+        }
+    }
+
+    /// Removes edges that the next point above the base refutes.
+    /// @param around  next_ or previous_, the direction of search about an end of the base
+    edge candidate(edge base, edge e, const std::vector<edge>& around) {
+        while (is_right(destination(e), base) &&
+               is_within(destination(base), origin(base), destination(e), destination(around[e]))) {
+            const edge after = around[e];
+            remove(e);
+            e = after;
+        }
+        return e;
+    }
+
+    std::vector<planar_point> points_;
+    std::vector<std::uint32_t> origin_;
+    std::vector<edge> next_, previous_;  // about the origin
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/alpha_complex.hpp -----------------------------------------------
+
+/// @file
+/// The triangles of a Delaunay triangulation whose circumradius is small for their surroundings,
+/// and the closed paths around them.
+
+namespace gnomon::detail {
+
+/// An alpha complex whose alpha varies with the local spacing of the points, in the units of their
+/// coordinates.
+class alpha_complex {
+  public:
+    using edge = planar_delaunay::edge;
+    using path = std::vector<std::uint32_t>;  // origins of edges, triangles to the left
+
+    /// O(n) after the triangulation.
+    explicit alpha_complex(const planar_delaunay& d) : d_(d), triangle_of_(d.edges(), none) {
+        for (edge e = 0; e < d.edges(); ++e) {
+            if (d.is_removed(e) || triangle_of_[e] != none || !d.has_triangle(e)) continue;
+            edge side = e;
+            for (int i = 0; i < 3; ++i, side = d.next_about_left(side))
+                triangle_of_[side] = static_cast<std::uint32_t>(triangles_.size());
+            triangles_.push_back(e);
+        }
+        keep_small_triangles();
+        unite_neighbors();
+    }
+
+    /// The corners of each triangle, counterclockwise.
+    [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const {
+        std::vector<std::array<std::uint32_t, 3>> corners;
+        for (std::size_t t = 0; t < triangles_.size(); ++t)
+            if (is_kept_[t]) corners.push_back(corners_of(triangles_[t]));
+        return corners;
+    }
+
+    /// Calls found(path, component) for each closed path around triangles that are connected by
+    /// edges. A path visits no point twice: where it touches itself, it is split.
+    template <class Found>
+    void for_each_path(Found&& found) {
+        std::vector<bool> is_done(d_.edges(), false);
+        std::vector<std::uint32_t> place(d_.points().size(), none);
+        for (edge start = 0; start < d_.edges(); ++start) {
+            if (is_done[start] || !is_boundary(start)) continue;
+            const std::uint32_t component = components_.find(triangle_of_[start]);
+            path open;
+            for (edge e = start; !is_done[e]; e = next_on_boundary(e)) {
+                is_done[e] = true;
+                add_to(open, d_.origin(e), place,
+                       [&](const path& closed) { found(closed, component); });
+            }
+            for (const std::uint32_t v : open) place[v] = none;
+            found(open, component);
+        }
+    }
+
+  private:
+    static constexpr std::uint32_t none = planar_delaunay::no_edge;
+
+    [[nodiscard]] std::array<std::uint32_t, 3> corners_of(edge e) const {
+        const edge second = d_.next_about_left(e);
+        return {d_.origin(e), d_.origin(second), d_.destination(second)};
+    }
+
+    [[nodiscard]] double squared_circumradius(edge e) const {
+        const auto [i, j, k] = corners_of(e);
+        const planar_point& a = d_.points()[i];
+        const planar_point& b = d_.points()[j];
+        const planar_point& c = d_.points()[k];
+        const auto squared = [](const planar_point& p, const planar_point& q) {
+            return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
+        };
+        const double sine = 2.0 * signed_area(a, b, c);
+        return squared(a, b) * (squared(b, c) / sine) * (squared(c, a) / sine);
+    }
+
+    void keep_small_triangles() {
+        std::vector<double> radii(triangles_.size());
+        std::vector<double> largest(d_.points().size(), 0.0);  // about each point
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            radii[t] = squared_circumradius(triangles_[t]);
+            for (const std::uint32_t v : corners_of(triangles_[t]))
+                largest[v] = std::max(largest[v], radii[t]);
+        }
+        const std::vector<double> limits = limits_of(largest);
+        is_kept_.resize(triangles_.size());
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            const auto [a, b, c] = corners_of(triangles_[t]);
+            const auto [low, high] = std::minmax(limits[a], limits[b]);
+            is_kept_[t] = std::isfinite(radii[t]) && radii[t] <= std::clamp(limits[c], low, high);
+        }
+    }
+
+    /// The square of alpha at each point.
+    /// @param largest  squared circumradius of the triangles at each point
+    [[nodiscard]] std::vector<double> limits_of(const std::vector<double>& largest) const {
+        // pi density radius^2 of the triangles of random points is Gamma(2) (Miles 1970), and a
+        // point has six. The largest of 10^6 triangles has 2.1 times the median of `largest`, and
+        // 1.7 times its quantile 0.9.
+        constexpr double from_median = 2.5 * 2.5;
+        constexpr double from_high_quantile = 1.7 * 1.7;
+        const std::size_t n = largest.size();
+        std::vector<std::uint32_t> order(n);
+        for (std::uint32_t v = 0; v < n; ++v) order[v] = v;
+        const auto quantile = [&](double q, auto begin, auto end) {
+            const auto at =
+                begin + static_cast<std::ptrdiff_t>(q * static_cast<double>(end - begin - 1));
+            std::nth_element(begin, at, end, [&](std::uint32_t a, std::uint32_t b) {
+                return largest[a] < largest[b];
+            });
+            return largest[*at];
+        };
+        // Where lines are wide for their distance, few points are at the gaps between them; those
+        // on the border of the shape, about 6 sqrt(n) with an opening, have to be fewer.
+        const double on_border = std::clamp(6.0 / std::sqrt(static_cast<double>(n)), 0.1, 0.5);
+        const double least =
+            from_high_quantile * quantile(1.0 - on_border, order.begin(), order.end());
+        std::vector<double> limits(n);
+        for_each_cell(order.begin(), order.end(), [&](auto begin, auto end) {
+            const double limit = std::max(least, from_median * quantile(0.5, begin, end));
+            for (auto v = begin; v != end; ++v) limits[*v] = limit;
+        });
+        return limits;
+    }
+
+    /// Halves points across their larger extent, down to cells of about 1000.
+    template <class Iterator, class Visit>
+    void for_each_cell(Iterator begin, Iterator end, const Visit& visit) const {
+        constexpr std::ptrdiff_t smallest = 512;  // several lines of points 1/100 as far apart
+        if (end - begin < 2 * smallest) {
+            visit(begin, end);
+            return;
+        }
+        const auto x = [&](std::uint32_t v) { return d_.points()[v].x; };
+        const auto y = [&](std::uint32_t v) { return d_.points()[v].y; };
+        const auto halve = [&](const auto& coordinate, const auto& other) {
+            const Iterator middle = begin + (end - begin) / 2;
+            std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
+                return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b)
+                                                      : other(a) < other(b);
+            });
+            for_each_cell(begin, middle, visit);
+            for_each_cell(middle, end, visit);
+        };
+        if (extent(begin, end, x) > extent(begin, end, y))
+            halve(x, y);
+        else
+            halve(y, x);
+    }
+
+    template <class Iterator, class Coordinate>
+    [[nodiscard]] static double extent(Iterator begin, Iterator end, const Coordinate& of) {
+        const auto [low, high] =
+            std::minmax_element(begin, end, [&](auto a, auto b) { return of(a) < of(b); });
+        return of(*high) - of(*low);
+    }
+
+    [[nodiscard]] bool has_kept(edge e) const {
+        return triangle_of_[e] != none && is_kept_[triangle_of_[e]];
+    }
+    [[nodiscard]] bool is_boundary(edge e) const { return has_kept(e) && !has_kept(e ^ 1); }
+
+    void unite_neighbors() {
+        components_.reset(triangles_.size());
+        for (edge e = 0; e < d_.edges(); e += 2)
+            if (has_kept(e) && has_kept(e + 1))
+                components_.unite(triangle_of_[e], triangle_of_[e + 1]);
+    }
+
+    /// The boundary edge after e around the triangles that are connected about the end of e.
+    [[nodiscard]] edge next_on_boundary(edge e) const {
+        edge next = d_.next_about_left(e);
+        while (has_kept(next ^ 1)) next = d_.next_about_left(next ^ 1);
+        return next;
+    }
+
+    /// Appends v to a path; if v is on it, first closes and removes the path since.
+    /// @param place  of each point on the open path
+    template <class Found>
+    static void add_to(path& open, std::uint32_t v, std::vector<std::uint32_t>& place,
+                       Found&& found) {
+        if (place[v] != none) {
+            const auto since = open.begin() + place[v];
+            const path closed(since, open.end());
+            for (const std::uint32_t u : closed) place[u] = none;
+            open.erase(since, open.end());
+            found(closed);
+        }
+        place[v] = static_cast<std::uint32_t>(open.size());
+        open.push_back(v);
+    }
+
+    const planar_delaunay& d_;
+    std::vector<std::uint32_t> triangle_of_;  // on the left of each edge
+    std::vector<edge> triangles_;             // one edge of each
+    std::vector<bool> is_kept_;
+    union_find components_;  // of triangles
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/planar_projection.hpp -------------------------------------------
+
+/// @file
+/// The projection of points to a plane.
+
+namespace gnomon::detail {
+
+/// Two axes of a plane, right-handed with its normal.
+struct planar_axes {
+    Eigen::Vector3d x;
+    Eigen::Vector3d y;
+
+    explicit planar_axes(const plane& p) : x(orthogonal(p.normal)), y(cross(p.normal, x)) {}
+
+    /// The finite points along the axes [m], from a point near them.
+    /// @param p  a position_view, or anything with size() and positions by index
+    template <class Points>
+    [[nodiscard]] std::vector<planar_point> projected(const Points& p,
+                                                      const Eigen::Vector3d& from) const {
+        std::vector<planar_point> result;
+        result.reserve(p.size());
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const Eigen::Vector3d q = p[i];
+            if (!is_finite(q)) continue;
+            const Eigen::Vector3d d = difference(q, from);
+            result.push_back({dot(d, x), dot(d, y), static_cast<point_index>(i)});
+        }
+        return result;
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/alpha_shape.hpp --------------------------------------------------------
+
+/// @file
+/// The outline of a planar segment with its holes: a wall with its doorway. In no umbrella: include
+/// it by name.
+///
+///     const auto wall = gnomon::alpha_shape::of(gnomon::subset_view(scan, parts[s]), plane);
+///     for (const auto& hole : wall.polygons[0].holes) draw(hole);  // indices of points, in order
+///
+/// It is a 2D alpha shape (Edelsbrunner, Kirkpatrick and Seidel 1983): the triangles of the
+/// Delaunay triangulation whose circumradius is at most alpha, here 2.5 times the local spacing.
+/// Scan lines far apart are connected, since the spacing is taken across them: it is the median,
+/// over the points of a cell of 512 to 1023 points, of the largest circumradius about each. Alpha
+/// is at least 1.7 times the quantile 0.9 of that radius over all points. Openings are found from
+/// about 4 spacings of a grid of points in width, 2.5 to 3 distances of scan lines, 6 mean spacings
+/// of scattered points.
+
+namespace gnomon {
+
+/// A region of a plane with corners at projected points. It is empty without three points that are
+/// not collinear.
+struct alpha_shape {
+    /// One connected part. Its closed paths are simple polygons whose edges do not cross, but may
+    /// meet at a corner; each begins at the smallest index.
+    struct polygon {
+        std::vector<point_index> outline;  ///< counterclockwise, from the side of the normal
+        std::vector<std::vector<point_index>> holes;  ///< clockwise, the largest first
+        double area = 0.0;                            ///< without the holes [m^2]
+    };
+
+    std::vector<polygon> polygons;                      ///< the largest first
+    std::vector<std::array<point_index, 3>> triangles;  ///< of all polygons, counterclockwise
+    double area = 0.0;                                  ///< of all polygons [m^2]
+
+    /// The alpha shape of the projections of the finite points to a plane.
+    /// @param points      any point range of n points [m]
+    /// @param plane       e.g. that of a segment
+    /// @param projection  maps an element of the range to a point
+    /// @throws std::invalid_argument  if n is 2^29 or more, or unless the normal is of unit length
+    /// Complexity: O(n log n). Points that differ by less than 2^-32 of the extent are one, with
+    /// the smallest index of them.
+    template <class R, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] static alpha_shape of(const R& points, const gnomon::plane& plane,
+                                        Proj projection = {});
+};
+
+namespace detail {
+
+/// Rounds coordinates to integers up to 2^32 in magnitude.
+/// @return of how many metres the reciprocal is the unit; 0 without two places
+[[nodiscard]] inline double round_to_integers(std::vector<planar_point>& points) {
+    double largest = 0.0;
+    for (const planar_point& p : points)
+        largest = std::max({largest, std::abs(p.x), std::abs(p.y)});
+    if (!(largest > 0.0)) return 0.0;
+    const double scale = 0x1p32 * power_to_one(largest);
+    for (planar_point& p : points)
+        p = {std::nearbyint(scale * p.x), std::nearbyint(scale * p.y), p.index};
+    return scale;
+}
+
+/// A closed path as indices of points, from the smallest on, and its area.
+struct closed_outline {
+    std::vector<point_index> indices;
+    double area = 0.0;            // positive if counterclockwise
+    std::uint32_t component = 0;  // of triangles
+
+    closed_outline(const std::vector<planar_point>& points, const alpha_complex::path& corners,
+                   std::uint32_t part)
+        : component(part) {
+        const planar_point& first = points[corners[0]];
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            indices.push_back(points[corners[i]].index);
+            if (i > 1) area += 0.5 * signed_area(first, points[corners[i - 1]], points[corners[i]]);
+        }
+        std::rotate(indices.begin(), std::min_element(indices.begin(), indices.end()),
+                    indices.end());
+    }
+
+    /// Outlines first and in the order of their areas, then holes, the largest first.
+    [[nodiscard]] friend bool operator<(const closed_outline& a, const closed_outline& b) {
+        if ((a.area > 0.0) != (b.area > 0.0)) return a.area > 0.0;
+        if (a.area != b.area) return std::abs(a.area) > std::abs(b.area);
+        return a.indices.front() < b.indices.front();
+    }
+};
+
+/// Each part of a complex as a polygon with its holes; areas in units of the coordinates.
+[[nodiscard]] inline std::vector<alpha_shape::polygon> polygons_of(
+    alpha_complex& complex, const std::vector<planar_point>& points) {
+    std::vector<closed_outline> paths;
+    complex.for_each_path([&](const alpha_complex::path& corners, std::uint32_t component) {
+        paths.emplace_back(points, corners, component);
+    });
+    std::sort(paths.begin(), paths.end());
+    std::vector<alpha_shape::polygon> polygons;
+    std::vector<std::uint32_t> polygon_of(2 * points.size(), 0);  // triangles are fewer than this
+    for (closed_outline& path : paths) {
+        if (path.area > 0.0) {
+            polygon_of[path.component] = static_cast<std::uint32_t>(polygons.size());
+            polygons.push_back({std::move(path.indices), {}, path.area});
+        } else {
+            alpha_shape::polygon& outer = polygons[polygon_of[path.component]];
+            outer.holes.push_back(std::move(path.indices));
+            outer.area += path.area;
+        }
+    }
+    std::stable_sort(polygons.begin(), polygons.end(),
+                     [](const auto& a, const auto& b) { return a.area > b.area; });
+    return polygons;
+}
+
+}  // namespace detail
+
+template <class R, class Proj>
+    requires point_range<R, Proj>
+alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj projection) {
+    detail::require_hesse(plane);
+    const position_view<R, Proj> p(points, std::move(projection));
+    detail::require(p.size() < std::size_t{1} << 29, "alpha_shape: 2^29 points or more");
+    alpha_shape shape;
+    // The smallest coordinates, so that the result does not depend on the order of the points.
+    Eigen::Vector3d low(0.0, 0.0, 0.0);
+    bool is_any = false;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const Eigen::Vector3d q = p[i];
+        if (!is_finite(q)) continue;
+        for (int a = 0; a < 3; ++a) low[a] = is_any ? std::min(low[a], q[a]) : q[a];
+        is_any = true;
+    }
+    std::vector<detail::planar_point> projected = detail::planar_axes(plane).projected(p, low);
+    std::erase_if(projected, [](const detail::planar_point& q) {
+        return !std::isfinite(q.x) || !std::isfinite(q.y);  // the extent overflows
+    });
+    const double scale = detail::round_to_integers(projected);
+    if (scale == 0.0) return shape;
+    const detail::planar_delaunay triangulation(std::move(projected));
+    detail::alpha_complex complex(triangulation);
+    shape.polygons = detail::polygons_of(complex, triangulation.points());
+    const auto index = [&](std::uint32_t v) { return triangulation.points()[v].index; };
+    for (const auto& [a, b, c] : complex.triangles())
+        shape.triangles.push_back({index(a), index(b), index(c)});
+    for (polygon& part : shape.polygons) {
+        part.area = part.area / scale / scale;
+        shape.area += part.area;
+    }
+    return shape;
+}
+
+}  // namespace gnomon
 
 // -------- gnomon/features/detail/hull_simplex.hpp ------------------------------------------------
 
@@ -20428,77 +21157,6 @@ struct local_points {
 
 }  // namespace gnomon::detail
 
-// -------- gnomon/features/detail/planar_hull.hpp -------------------------------------------------
-
-/// @file
-/// The convex hull of points in a plane: the monotone chain (Andrew 1979) of those points that are
-/// not within the octagon of extreme points (Akl and Toussaint 1978). All signs are exact.
-
-namespace gnomon::detail {
-
-/// Twice the area of the triangle (a, b, c), positive if it is counterclockwise.
-[[nodiscard]] inline double signed_area(const planar_point& a, const planar_point& b,
-                                        const planar_point& c) {
-    return signed_area(a.x, a.y, b.x, b.y, c.x, c.y);
-}
-
-/// Removes points strictly within the polygon of the extreme points in eight directions.
-inline void remove_inner_points(std::vector<planar_point>& points) {
-    static constexpr std::array<std::array<double, 2>, 8> directions{
-        {{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
-    std::array<planar_point, 8> extreme;
-    extreme.fill(points.front());
-    for (const planar_point& p : points) {
-        for (std::size_t d = 0; d < 8; ++d) {
-            const double x = directions[d][0];
-            const double y = directions[d][1];
-            if (x * p.x + y * p.y > x * extreme[d].x + y * extreme[d].y) extreme[d] = p;
-        }
-    }
-    std::vector<planar_point> polygon;
-    for (const planar_point& p : extreme) {
-        if (polygon.empty() || p.x != polygon.back().x || p.y != polygon.back().y)
-            polygon.push_back(p);
-    }
-    std::erase_if(points, [&](const planar_point& p) {
-        for (std::size_t i = 0; i < polygon.size(); ++i) {
-            const planar_point& next = polygon[i + 1 < polygon.size() ? i + 1 : 0];
-            if (!(signed_area(polygon[i], next, p) > 0.0)) return false;
-        }
-        return true;
-    });
-}
-
-/// The corners of the convex hull, counterclockwise from the lexicographically smallest; one for
-/// equal points, two for collinear ones. Of equal points the smallest index is taken.
-/// @param points  at least one, up to 1 in magnitude
-/// Complexity: O(n log n), O(n) if most points are in the interior.
-[[nodiscard]] inline std::vector<planar_point> planar_hull(std::vector<planar_point> points) {
-    remove_inner_points(points);
-    std::sort(points.begin(), points.end(), [](const planar_point& a, const planar_point& b) {
-        if (a.x != b.x) return a.x < b.x;
-        return a.y != b.y ? a.y < b.y : a.index < b.index;
-    });
-    const auto same_place = [](const planar_point& a, const planar_point& b) {
-        return a.x == b.x && a.y == b.y;
-    };
-    points.erase(std::unique(points.begin(), points.end(), same_place), points.end());
-    if (points.size() < 3) return points;
-    std::vector<planar_point> hull;
-    const auto add = [&](const planar_point& p, std::size_t fixed) {
-        while (hull.size() > fixed && !(signed_area(hull[hull.size() - 2], hull.back(), p) > 0.0))
-            hull.pop_back();
-        hull.push_back(p);
-    };
-    for (const planar_point& p : points) add(p, 1);
-    const std::size_t lower = hull.size();
-    for (std::size_t i = points.size() - 1; i-- > 0;) add(points[i], lower);
-    hull.pop_back();  // the first again
-    return hull;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/features/convex_hull.hpp --------------------------------------------------------
 
 /// @file
@@ -20698,27 +21356,14 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     detail::require_hesse(plane);
     const position_view<R, Proj> p(points, std::move(projection));
     convex_polygon polygon;
-    const Eigen::Vector3d x = detail::orthogonal(plane.normal);
-    const Eigen::Vector3d y = detail::cross(plane.normal, x);
-    for (int i = 0; i < 3; ++i) {
-        polygon.axes(i, 0) = x[i];
-        polygon.axes(i, 1) = y[i];
-        polygon.axes(i, 2) = plane.normal[i];
-    }
+    const detail::planar_axes planar(plane);
+    polygon.axes = detail::from_columns(planar.x, planar.y, plane.normal);
     std::size_t first = 0;
     while (first < p.size() && !is_finite(p[first])) ++first;
     if (first == p.size()) return polygon;
     polygon.origin =
         detail::combined(1.0, p[first], -plane.signed_distance(p[first]), plane.normal);
-    std::vector<detail::planar_point> projected;
-    projected.reserve(p.size() - first);
-    for (std::size_t i = first; i < p.size(); ++i) {
-        const Eigen::Vector3d q = p[i];
-        if (!is_finite(q)) continue;
-        const Eigen::Vector3d d = detail::difference(q, p[first]);
-        projected.push_back({detail::dot(d, x), detail::dot(d, y), static_cast<point_index>(i)});
-    }
-    detail::set_outline(polygon, std::move(projected));
+    detail::set_outline(polygon, planar.projected(p, p[first]));
     return polygon;
 }
 
@@ -20812,6 +21457,8 @@ namespace gnomon {
 /// is along the longer side, the third is the normal of the polygon, the third length is zero.
 /// Around two corners it has one length, around one corner none; without a corner the box is at its
 /// defaults. Of equal areas that at the first edge is taken.
+/// @param polygon  e.g. that of a segment, [m]
+/// @return the rectangle [m], in the plane of the polygon
 /// Complexity: O(h) for h corners. Source: Freeman and Shapira 1975.
 [[nodiscard]] inline oriented_box minimum_area_rectangle(const convex_polygon& polygon) {
     oriented_box box;
@@ -20828,11 +21475,7 @@ namespace gnomon {
         std::swap(box.lengths[0], box.lengths[1]);
         u = std::exchange(v, detail::scaled(-1.0, u));
     }
-    for (int i = 0; i < 3; ++i) {
-        box.axes(i, 0) = u[i];
-        box.axes(i, 1) = v[i];
-        box.axes(i, 2) = polygon.axes(i, 2);
-    }
+    box.axes = detail::from_columns(u, v, detail::column(polygon.axes, 2));
     return box;
 }
 
@@ -21327,12 +21970,7 @@ class smallest_box {
     box.center = combined(1.0, p.origin, 1.0 / p.scale, center);
     const Eigen::Vector3d& x = fit.axes[order[0]];
     const Eigen::Vector3d& y = fit.axes[order[1]];
-    const Eigen::Vector3d z = cross(x, y);
-    for (int i = 0; i < 3; ++i) {
-        box.axes(i, 0) = x[i];
-        box.axes(i, 1) = y[i];
-        box.axes(i, 2) = z[i];
-    }
+    box.axes = from_columns(x, y, cross(x, y));
     return box;
 }
 
@@ -21495,7 +22133,7 @@ struct revolved_line {
         revolved_line m = *this;
         m.axis = scaled((sine < 0.0 ? -1.0 : 1.0) / length(axis), axis);
         m.sine = std::abs(sine);
-        m.half_angle = std::abs(half_angle);
+        m.half_angle = std::atan2(m.sine, cosine);  // a step may be of several turns
         const Eigen::Vector3d first = combined(1.0, e1, -dot(e1, m.axis), m.axis);
         m.e1 = scaled(1.0 / length(first), first);
         const double shift = -dot(point, m.axis);
@@ -21950,12 +22588,13 @@ template <std::size_t N>
 ///
 /// Where the view point of a point is known, its residual is the difference of the measured range
 /// and that of the surface along the same ray, divided by the standard deviation of the range. Rays
-/// that meet the surface at a cosine below 0.2, or not at all, are left out. Where it is unknown,
-/// noise is the same in all directions, and the residual is the orthogonal distance divided by its
-/// deviation. On a curved surface such noise displaces the mean distance by sigma^2 / 2 times the
-/// sum of the principal curvatures; this is subtracted, with the smaller of the stated variance and
-/// that of the residuals. The sum of squared residuals is minimized by the method of Levenberg and
-/// Marquardt (Marquardt 1963).
+/// that do not meet the surface, or at a cosine below 0.2 to its normal, are left out; after two
+/// rounds, when the surface is nearly known, only rays below 0.1 are, and none returns. Where the
+/// view point is unknown, noise is the same in all directions, and the residual is the orthogonal
+/// distance divided by its deviation. On a curved surface such noise displaces the mean distance by
+/// sigma^2 / 2 times the sum of the principal curvatures; this is subtracted, with the smaller of
+/// the stated variance and that of the residuals. The sum of squared residuals is minimized by the
+/// method of Levenberg and Marquardt (Marquardt 1963).
 ///
 /// To the variance of the noise is added that of the rounding of the coordinates. Unevenness of the
 /// surface itself is stated as noise: `noise.plus(0.002)`.
@@ -21971,10 +22610,12 @@ namespace gnomon {
 /// `cone_estimate`.
 struct surface_fit {
     enum class outcome : std::uint8_t {
-        good,            ///< the surface explains the points
-        poor_fit,        ///< it does not: noise has this chi-square in .3 % of cases
-        not_converged,   ///< the parameters are those of the last iteration
-        too_few_points,  ///< fewer finite points than parameters and one more
+        good,           ///< the surface explains the points
+        poor_fit,       ///< it does not: noise has this chi-square in .3 % of cases
+        not_converged,  ///< the parameters are those of the last iteration
+        /// No more points than parameters: fewer than these and one more are finite, or remain when
+        /// rays that do not meet the surface well are left out.
+        too_few_points,
         /// The points do not determine the parameters: they are coplanar, collinear or one place,
         /// or flat within their noise. The test: the standard deviation of a parameter is 0.34
         /// radii (sphere), 0.29 (cylinder), 0.27 (cone) or more, or as many radians. Fewer than 1 %
@@ -21983,9 +22624,12 @@ struct surface_fit {
     };
 
     outcome status = outcome::too_few_points;
-    std::size_t points = 0;              ///< whose residuals are in the fit
+    /// Whose residuals are in the fit; the finite points if it was not tried, for the points are
+    /// too few or have no volume.
+    std::size_t points = 0;
     std::size_t degrees_of_freedom = 0;  ///< points less parameters
-    /// Sum of squared residuals, in variances of the noise; its mean is `degrees_of_freedom`.
+    /// The sum of squared residuals, in variances of the noise: about `degrees_of_freedom`. It is a
+    /// sum, and `plane_estimate::chi2` a mean.
     double chi_square = 0.0;
     double rms = 0.0;  ///< root mean square orthogonal distance of all finite points [m]
 
@@ -22205,9 +22849,9 @@ template <class Surface, class Estimate, class R, execution X, class Proj>
 /// @file
 /// The sphere through points of a segment, with its covariance.
 ///
-///     const auto ball = gnomon::fit_sphere(scan, surface, parts[s],
-///     gnomon::constant_noise{0.005}); if (ball.status == gnomon::surface_fit::outcome::good)
-///     use(ball.center, ball.radius);
+///     const gnomon::constant_noise noise{0.005};
+///     const auto ball = gnomon::fit_sphere(scan, surface, parts[s], noise);
+///     if (ball.has_parameters()) use(ball.center, ball.radius);
 
 namespace gnomon {
 
@@ -22267,21 +22911,21 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
 /// @file
 /// The cylinder through points of a segment, such as a pipe or a pole, with its covariance.
 ///
-///     const auto pole = gnomon::fit_cylinder(scan, surface, parts[s],
-///     gnomon::constant_noise{0.005}); const double deviation = std::sqrt(pole.covariance(4, 4));
-///     // of the radius [m]
+///     const gnomon::constant_noise noise{0.005};
+///     const auto pole = gnomon::fit_cylinder(scan, surface, parts[s], noise);
+///     const double deviation = std::sqrt(pole.covariance(4, 4));  // of the radius [m]
 
 namespace gnomon {
 
 /// A cylinder with its covariance. All numbers are zero if there are no parameters.
 struct cylinder_estimate : surface_fit {
     /// The point of the axis that is nearest to the centroid of the points [m].
-    Eigen::Vector3d point{0.0, 0.0, 0.0};
+    Eigen::Vector3d axis_point{0.0, 0.0, 0.0};
     /// Unit columns, a right-handed frame: two normals of the axis, and its direction.
     Eigen::Matrix3d axes = detail::diagonal(0.0, 0.0, 0.0);
     double radius = 0.0;  ///< [m]
-    /// Of five parameters: the shifts of the axis at `point` along axes 0 and 1 [m], the turns of
-    /// its direction towards axes 0 and 1 [rad], and the radius [m].
+    /// Of five parameters: the shifts of the axis at `axis_point` along axes 0 and 1 [m], the turns
+    /// of its direction towards axes 0 and 1 [rad], and the radius [m].
     detail::parameter_covariance<5> covariance = detail::parameter_covariance<5>::Zero();
 
     /// The direction of the axis, of unit length, with an arbitrary sign.
@@ -22314,13 +22958,8 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
         points, surface, members, noise, run, std::move(projection),
         [](cylinder_estimate& e, const detail::cylinder_surface& s,
            const detail::regression_cloud& cloud) {
-            const Eigen::Vector3d e2 = detail::cross(s.axis, s.e1);
-            for (int i = 0; i < 3; ++i) {
-                e.axes(i, 0) = s.e1[i];
-                e.axes(i, 1) = e2[i];
-                e.axes(i, 2) = s.axis[i];
-            }
-            e.point = cloud.position(s.point);
+            e.axes = detail::from_columns(s.e1, detail::cross(s.axis, s.e1), s.axis);
+            e.axis_point = cloud.position(s.point);
             e.radius = cloud.metres(s.radius);
         });
 }
@@ -22353,15 +22992,15 @@ namespace gnomon {
 /// A cone with its covariance. All numbers are zero if there are no parameters.
 struct cone_estimate : surface_fit {
     /// The point of the axis that is nearest to the centroid of the points [m].
-    Eigen::Vector3d point{0.0, 0.0, 0.0};
+    Eigen::Vector3d axis_point{0.0, 0.0, 0.0};
     /// Unit columns, a right-handed frame: two normals of the axis, and its direction, away from
     /// the apex.
     Eigen::Matrix3d axes = detail::diagonal(0.0, 0.0, 0.0);
-    double radius = 0.0;  ///< at `point`, across the axis [m]
+    double radius = 0.0;  ///< at `axis_point`, across the axis [m]
     angle half_angle;     ///< between the axis and the lines on the cone
-    /// Of six parameters: the shifts of the axis at `point` along axes 0 and 1 [m], the turns of
-    /// its direction towards axes 0 and 1 [rad], the radius at `point` [m], and the half-angle
-    /// [rad].
+    /// Of six parameters: the shifts of the axis at `axis_point` along axes 0 and 1 [m], the turns
+    /// of its direction towards axes 0 and 1 [rad], the radius at `axis_point` [m], and the
+    /// half-angle [rad].
     detail::parameter_covariance<6> covariance = detail::parameter_covariance<6>::Zero();
 
     /// The direction of the axis, of unit length, away from the apex.
@@ -22371,7 +23010,7 @@ struct cone_estimate : surface_fit {
     [[nodiscard]] Eigen::Vector3d apex() const {
         constexpr double least = 1e-150;  // numerical: against overflow
         const double height = radius / std::max(std::tan(half_angle.radians()), least);
-        return detail::combined(1.0, point, -height, direction());
+        return detail::combined(1.0, axis_point, -height, direction());
     }
 };
 
@@ -22399,13 +23038,8 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
     return detail::fitted_to<detail::cone_surface, cone_estimate>(
         points, surface, members, noise, run, std::move(projection),
         [](cone_estimate& e, const detail::cone_surface& s, const detail::regression_cloud& cloud) {
-            const Eigen::Vector3d e2 = detail::cross(s.axis, s.e1);
-            for (int i = 0; i < 3; ++i) {
-                e.axes(i, 0) = s.e1[i];
-                e.axes(i, 1) = e2[i];
-                e.axes(i, 2) = s.axis[i];
-            }
-            e.point = cloud.position(s.point);
+            e.axes = detail::from_columns(s.e1, detail::cross(s.axis, s.e1), s.axis);
+            e.axis_point = cloud.position(s.point);
             e.radius = cloud.metres(s.radius);
             e.half_angle = radians(s.half_angle);
         });
@@ -22484,7 +23118,8 @@ concept descriptor = requires(const D& d, std::span<const float> row) {
     { d.distance(row, row) } -> std::convertible_to<double>;
 } && (detail::reads_positions<D> || detail::reads_normals<D> || detail::reads_densities<D>);
 
-/// The descriptors of n points, in one array of floats, which halves their memory.
+/// The descriptors of n points, in one array of floats, which halves their memory. Compare only
+/// rows that are usable: others are zero, and so at distance 0 from each other.
 struct point_descriptors {
     std::size_t dimension = 0;         ///< of each descriptor
     std::vector<float> values;         ///< n rows of this length, one after the other
@@ -22877,12 +23512,31 @@ struct cylinder_bins {
 // -------- gnomon/features/detail/row_distance.hpp ------------------------------------------------
 
 /// @file
-/// Distances between descriptors.
+/// Distances between descriptors, and the limit of their lengths.
 
 namespace gnomon::detail {
 
-/// The Euclidean distance. O(n). Precondition: both have n entries.
+/// Whether the product of some numbers is that of the entries of a descriptor: not 0, and without
+/// overflow at most 2^20.
+[[nodiscard]] inline bool is_row_length(std::initializer_list<std::size_t> factors) {
+    constexpr std::size_t most = std::size_t{1} << 20;  // chosen: 4 MiB of floats, against mistakes
+    std::size_t entries = 1;
+    for (const std::size_t f : factors) {
+        if (f == 0 || f > most / entries) return false;
+        entries *= f;
+    }
+    return true;
+}
+
+/// @throws std::invalid_argument  if two descriptors have different numbers of entries
+inline void require_equal_length(const auto& a, const auto& b) {
+    require(a.size() == b.size(), "descriptor: rows of different lengths have no distance");
+}
+
+/// The Euclidean distance. O(n) for n entries.
+/// @throws std::invalid_argument  if the numbers of entries differ
 [[nodiscard]] double euclidean_distance(const auto& a, const auto& b) {
+    require_equal_length(a, b);
     double squares = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
         const double difference = static_cast<double>(a[i]) - static_cast<double>(b[i]);
@@ -22892,10 +23546,12 @@ namespace gnomon::detail {
 }
 
 /// 1 - R in [0, 2], where R is the coefficient of linear correlation of the entries. If one of
-/// them is constant, R is undefined: the result is 0 for equal entries, else 1. O(n).
-/// Precondition: both have n entries.
+/// them is constant, R is undefined: the result is 0 for equal entries, else 1. O(n)
+/// for n entries.
+/// @throws std::invalid_argument  if the numbers of entries differ
 [[nodiscard]] inline double correlation_distance(std::span<const float> a,
                                                  std::span<const float> b) {
+    require_equal_length(a, b);
     if (std::equal(a.begin(), a.end(), b.begin())) return 0.0;
     double mean_a = 0.0, mean_b = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
@@ -22943,11 +23599,11 @@ namespace gnomon {
 /// distance is 1 - R, where R is the linear correlation of the entries: it does not depend on the
 /// number of neighbors. O(m) for m neighbors.
 struct spin_image {
-    double radius = 0.1;  ///< of the cylinder [m], above 0
-    double height = 0.2;  ///< of the cylinder [m], above 0; half of it above the point
-    std::size_t radial_bins = 8;
+    double radius = 0.1;  ///< of the cylinder [m], above 0; chosen
+    double height = 0.2;  ///< of the cylinder [m], above 0; half of it above the point; chosen
+    std::size_t radial_bins = 8;  ///< the default of PCL; there are at most 2^20 entries
     /// If odd, the tangent plane is in the middle of a bin, so that noise does not divide the
-    /// points of a flat surface between two.
+    /// points of a flat surface between two. Chosen: bins are about square.
     std::size_t axial_bins = 15;
     /// Each neighbor is distributed to the four nearest corners of the bins, by bilinear
     /// interpolation: an image of radial_bins + 1 by axial_bins + 1 entries.
@@ -22962,6 +23618,7 @@ struct spin_image {
         const std::size_t more = interpolate ? 1 : 0;
         return (radial_bins + more) * (axial_bins + more);
     }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::correlation_distance(a, b);
     }
@@ -22969,7 +23626,10 @@ struct spin_image {
     void require_valid() const {
         detail::require(radius > 0.0 && height > 0.0 && std::isfinite(support_radius()),
                         "spin_image: radius and height must be finite and above 0");
-        detail::require(radial_bins > 0 && axial_bins > 0, "spin_image: there must be bins");
+        const std::size_t more = interpolate ? 1 : 0;
+        detail::require(radial_bins > 0 && axial_bins > 0 &&
+                            detail::is_row_length({radial_bins + more, axial_bins + more}),
+                        "spin_image: there must be bins, and at most 2^20 entries");
         detail::require(min_neighbors > 0, "spin_image: min_neighbors must be above 0");
     }
 
@@ -23004,6 +23664,7 @@ struct angular_spin_image {
 
     [[nodiscard]] double support_radius() const { return bins.support_radius(); }
     [[nodiscard]] std::size_t dimension() const { return bins.dimension(); }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }
@@ -23120,11 +23781,12 @@ namespace gnomon {
 /// Trust: `too_few_neighbors` if fewer than `min_neighbors` are counted, else `good`. O(m) for m
 /// neighbors, and the number of entries.
 struct shape_context {
-    double radius = 0.1;        ///< of the ball [m]
-    double inner_radius = 0.0;  ///< that of Frome's first shell [m]; above 0 for several shells
-    std::size_t azimuth_bins = 12;
-    std::size_t elevation_bins = 11;
-    std::size_t radial_bins = 1;  ///< radii of the shells have equal ratios, Frome's Eq. (1)
+    double radius = 0.1;            ///< of the ball [m]; chosen
+    double inner_radius = 0.0;      ///< that of Frome's first shell [m]; above 0 for several shells
+    std::size_t azimuth_bins = 12;  ///< that and the next: Frome et al. 2004
+    std::size_t elevation_bins = 11;  ///< there are at most 2^20 entries
+    /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1).
+    std::size_t radial_bins = 1;
     /// If above 0, a neighbor counts 1 / (d V^(1/3)), where d is the number of points within this
     /// radius [m] of it and V is the volume of the bin [m^3], as in Frome's Sec. 2.1.
     double density_radius = 0.0;
@@ -23139,7 +23801,10 @@ struct shape_context {
     }
 
     /// The Euclidean distance of the most similar azimuths. O(azimuth_bins dimension).
+    /// @throws std::invalid_argument  unless both have dimension() entries
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
+        detail::require(a.size() == dimension() && b.size() == dimension(),
+                        "shape_context: a row is not of the length of this descriptor");
         const std::size_t sector = elevation_bins * radial_bins;
         double least = std::numeric_limits<double>::infinity();
         for (std::size_t shift = 0; shift < b.size(); shift += sector) {
@@ -23157,8 +23822,8 @@ struct shape_context {
             inner_radius, radius, radial_bins,
             "shape_context: inner_radius must be at least 0, above 0 for several radial_bins, and "
             "less than radius, which must be finite");
-        detail::require(azimuth_bins > 0 && elevation_bins > 0,
-                        "shape_context: there must be bins");
+        detail::require(detail::is_row_length({azimuth_bins, elevation_bins, radial_bins}),
+                        "shape_context: there must be bins, and at most 2^20 of them");
         detail::require(density_radius >= 0.0 && std::isfinite(density_radius),
                         "shape_context: density_radius must be finite and not negative");
         detail::require(min_neighbors > 0, "shape_context: min_neighbors must be above 0");
@@ -23344,10 +24009,12 @@ namespace gnomon {
 /// Neighbors that count, and trust: as for `shape_context`. The distance is Euclidean.
 /// O(m bandwidth^2) for m neighbors.
 struct harmonic_shape_context {
-    double radius = 0.1;          ///< of the ball [m]
-    double inner_radius = 0.0;    ///< of the first shell [m]; above 0 for several shells
-    std::size_t bandwidth = 8;    ///< degrees are less than this; above 0
-    std::size_t radial_bins = 1;  ///< radii of the shells have equal ratios, Frome's Eq. (1)
+    double radius = 0.1;        ///< of the ball [m]; chosen
+    double inner_radius = 0.0;  ///< of the first shell [m]; above 0 for several shells
+    std::size_t bandwidth = 8;  ///< degrees are less than this; 1 to 512; chosen
+    /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1). There are at
+    /// most 2^20 entries.
+    std::size_t radial_bins = 1;
     bool per_degree = false;
     bool normalize = false;         ///< entries are divided by the number of neighbors
     std::size_t min_neighbors = 1;  ///< above 0
@@ -23356,6 +24023,7 @@ struct harmonic_shape_context {
     [[nodiscard]] double support_radius() const { return radius; }
     /// The number of entries.
     [[nodiscard]] std::size_t dimension() const { return radial_bins * entries_of_shell(); }
+    /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
         return detail::euclidean_distance(a, b);
     }
@@ -23365,7 +24033,13 @@ struct harmonic_shape_context {
             inner_radius, radius, radial_bins,
             "harmonic_shape_context: inner_radius must be at least 0, above 0 for several "
             "radial_bins, and less than radius, which must be finite");
-        detail::require(bandwidth > 0, "harmonic_shape_context: the bandwidth must be above 0");
+        // Numerical: factors of the recursion grow to (1 + sqrt 2)^bandwidth.
+        constexpr std::size_t most_bandwidth = 512;
+        detail::require(
+            bandwidth > 0 && bandwidth <= most_bandwidth &&
+                detail::is_row_length({radial_bins, bandwidth * (bandwidth + 1) / 2}),
+            "harmonic_shape_context: the bandwidth must be from 1 to 512, and the number "
+            "of entries at most 2^20");
         detail::require(min_neighbors > 0, "harmonic_shape_context: min_neighbors must be above 0");
     }
 
@@ -24861,7 +25535,8 @@ struct perception_result {
     /// The noise of the points, which all steps share.
     struct known_noise {
         noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
-        /// That of wide planes: more, where neighbors have errors in common.
+        /// That of wide planes: more, where neighbors have errors in common, or planes scatter by
+        /// more than the given noise.
         noise_curve of_planes = constant_noise{0.0};
         /// Whether it is that across the surfaces, in place of that along the rays; then nothing
         /// was merged behind occluders.
@@ -25079,7 +25754,8 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        const bool is_independent = !noise_.is_across_surface && !is_of_camera(index_);
+        const bool is_independent =
+            !noise_.is_across_surface && !is_of_camera(index_, some_points_of(index_));
         regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, is_independent, run));
     }
@@ -25128,28 +25804,38 @@ class cell_surfaces {
 
 namespace gnomon::detail {
 
+/// The root mean square of the noise of some of the points [m].
+[[nodiscard]] double mean_noise(const auto& points, const noise_curve& noise) {
+    double sum = 0.0;
+    const scratch<point_index> some = some_points_of(points);
+    for (const point_index i : some)
+        sum += noise.variance_along(difference(points[i], points.viewpoints[i]));
+    return some.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(some.size()));
+}
+
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
-/// surfaces, and why.
-/// @param noise   becomes that of the points: perception_result::known_noise
-/// @param given   by the user, if any
-/// @param sparse  memory for the index of some of the points
-template <class X>
-void determine_noise(auto& noise, const spatial_index& points,
-                     const std::optional<noise_curve>& given, spatial_index& sparse, const X& run) {
+/// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
+/// @param result  its `noise` is replaced, in its memory
+/// @param chain   whose noise is given, or not
+template <class Chain, class X>
+void determine_noise(auto& result, const spatial_index& points, const Chain& chain, const X& run) {
+    auto& noise = result.noise;
+    const std::optional<noise_curve>& given = chain.noise;
     noise = {};
-    if (given) {
-        noise.curve = noise.of_planes = *given;
-        return;
-    }
+    if (given) noise.curve = noise.of_planes = *given;
+    if (given && !Chain::is_on_cells) return;
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
-        noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, noise.curve, sparse, run);
-        return;
+        const noise_curve of_planes =
+            noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
+        if (!given) noise.curve = *found.curve;
+        if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
+            noise.of_planes = of_planes;
+    } else if (!given) {
+        noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+        noise.is_across_surface = true;
+        noise.reason = found.reason;
     }
-    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
-    noise.is_across_surface = true;
-    noise.reason = found.reason;
 }
 
 /// The same policy for this noise, if it depends on any.
@@ -25189,9 +25875,7 @@ class perception_run {
         result_.gaps.clear();
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
-        step("noise", [&] {
-            determine_noise(result_.noise, *given_, chain_.noise, result_.memory.sparse, run_);
-        });
+        step("noise", [&] { determine_noise(result_, *given_, chain_, run_); });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
         else
@@ -25451,7 +26135,8 @@ struct perception {
     Estimator estimate{};
     Merge merge{};
     Segmentation segmentation{};
-    /// Along the rays; by default it is measured.
+    /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
+    /// given noise have the measured one.
     std::optional<noise_curve> noise = std::nullopt;
     std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};

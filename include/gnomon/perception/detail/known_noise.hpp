@@ -30,20 +30,19 @@ namespace gnomon::detail {
 
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
 /// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
-/// @param noise    becomes that of the points: perception_result::known_noise
-/// @param given    by the user, if any
-/// @param measure  whether to measure it although it is given
-/// @param sparse   memory for the index of some of the points
-template <class X>
-void determine_noise(auto& noise, const spatial_index& points,
-                     const std::optional<noise_curve>& given, bool measure, spatial_index& sparse,
-                     const X& run) {
+/// @param result  its `noise` is replaced, in its memory
+/// @param chain   whose noise is given, or not
+template <class Chain, class X>
+void determine_noise(auto& result, const spatial_index& points, const Chain& chain, const X& run) {
+    auto& noise = result.noise;
+    const std::optional<noise_curve>& given = chain.noise;
     noise = {};
     if (given) noise.curve = noise.of_planes = *given;
-    if (given && !measure) return;
+    if (given && !Chain::is_on_cells) return;
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
-        const noise_curve of_planes = noise_of_wide_planes(points, *found.curve, sparse, run);
+        const noise_curve of_planes =
+            noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
         if (!given) noise.curve = *found.curve;
         if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
             noise.of_planes = of_planes;

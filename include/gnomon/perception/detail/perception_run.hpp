@@ -62,10 +62,7 @@ class perception_run {
         result_.gaps.clear();
         step("floor", [&] { keep(); });
         step("index", [&] { index_kept(); });
-        step("noise", [&] {
-            determine_noise(result_.noise, *given_, chain_.noise, Chain::is_on_cells,
-                            result_.memory.sparse, run_);
-        });
+        step("noise", [&] { determine_noise(result_, *given_, chain_, run_); });
         if constexpr (Chain::is_on_cells)
             find_on_cells();
         else
