@@ -164,8 +164,8 @@ TEST(alpha_shape, of_a_wall_has_its_door) {
 }
 
 TEST(alpha_shape, connects_scan_lines) {
-    // Ten times to a hundred times denser along the lines, which are up to 15 mm of noise wide.
-    for (const double along : {0.002, 0.01})
+    // Five to thirty times denser along the lines, which are up to 15 mm of noise wide.
+    for (const double along : {0.003, 0.01})
         for (const double across : {0.05, 0.1})
             for (const double sigma : {0.0, 0.001, 0.005, 0.015}) {
                 SCOPED_TRACE(testing::Message() << along << " " << across << " " << sigma);
