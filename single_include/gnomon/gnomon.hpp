@@ -20150,9 +20150,10 @@ class planar_delaunay {
         const auto before = [&](const planar_point& a, const planar_point& b) {
             return is_before(a, b, is_turned);
         };
-        if (end - begin <= 3) {
+        constexpr std::size_t few = 12;  // performance only
+        if (end - begin <= few) {
             std::sort(at(begin), at(end), before);
-            return triangulate_few(static_cast<std::uint32_t>(begin), end - begin);
+            return triangulate_sorted(begin, end);
         }
         const std::size_t middle = begin + (end - begin) / 2;
         std::nth_element(at(begin), at(middle), at(end), before);
@@ -20161,8 +20162,15 @@ class planar_delaunay {
         return merged(extremes(lower, is_turned), extremes(upper, is_turned));
     }
 
-    /// Two or three points, the first of them number `first`.
-    outer_edges triangulate_few(std::uint32_t first, std::size_t count) {
+    /// A few points from left to right.
+    outer_edges triangulate_sorted(std::size_t begin, std::size_t end) {
+        const std::size_t count = end - begin;
+        if (count > 3) {
+            const std::size_t middle = begin + count / 2;
+            const outer_edges left = triangulate_sorted(begin, middle);
+            return merged(left, triangulate_sorted(middle, end));
+        }
+        const auto first = static_cast<std::uint32_t>(begin);
         const edge a = add(first, first + 1);
         if (count == 2) return {a, a ^ 1};
         const edge b = add(first + 1, first + 2);
