@@ -148,8 +148,8 @@ TEST(convex_polygon, of_degenerate_points_has_fewer_corners) {
 
 /// The corner at the right is extreme in the first direction and in the last one.
 TEST(convex_polygon, leaves_out_inner_points_if_the_last_extreme_is_the_first) {
-    std::vector<gnomon::detail::planar_point> points{
-        {1, -0.9, 0}, {0.9, 1, 1}, {-1, 0.9, 2}, {-0.9, -1, 3}, {0, 0, 4}, {0.1, 0.2, 5}};
+    std::vector<gnomon::detail::planar_point> points{{1, -0.9, 0},  {0.9, 1, 1}, {-1, 0.9, 2},
+                                                     {-0.9, -1, 3}, {0, 0, 4},   {0.1, 0.2, 5}};
     gnomon::detail::remove_inner_points(points);
     EXPECT_EQ(points.size(), 4u);
 }
