@@ -11,7 +11,11 @@
 #include "laws/clouds.hpp"
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/optimal_bounding_box.h>
+#include <gnomon/core/subset_view.hpp>
 #include <gnomon/features/convex_hull.hpp>
+#include <gnomon/features/detail/flush_boxes.hpp>
+#include <gnomon/features/detail/local_points.hpp>
+#include <gnomon/features/detail/polytope.hpp>
 #include <gnomon/features/minimum_volume_box.hpp>
 #include <gnomon/features/principal_frame.hpp>
 
@@ -111,6 +115,46 @@ TEST(minimum_volume_box, of_larger_hulls_is_nearly_the_smallest) {
                       (1.0 + 1e-12) * gnomon::principal_frame::of(points).box().volume());
         }
     }
+}
+
+/// The search on the corners of the hull of some points.
+gnomon::detail::smallest_box searched(const clouds::cloud& points) {
+    const auto hull = gnomon::convex_hull::of(points);
+    const gnomon::detail::local_points local(
+        gnomon::subset_view<clouds::cloud>(points, hull.vertices));
+    return {local.positions,
+            {Eigen::Vector3d::UnitX(), Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitZ()}};
+}
+
+TEST(minimum_volume_box, of_hulls_of_up_to_200_vertices_is_proven) {
+    for (int kind = 0; kind < 8; ++kind) {
+        for (std::uint64_t seed = 0; seed < 6; ++seed) {
+            SCOPED_TRACE(kind);
+            const clouds::cloud points = random_body(kind, 10 + 30 * seed, seed + 50);
+            EXPECT_TRUE(searched(points).is_proven());
+        }
+    }
+    for (const int sides : {3, 4, 7, 8, 30}) {  // many boxes have the same volume
+        SCOPED_TRACE(sides);
+        clouds::cloud prism;
+        for (int i = 0; i < sides; ++i) {
+            const double t = 2.0 * 3.141592653589793 * i / sides;
+            prism.push_back({std::cos(t), std::sin(t), 0.0});
+            prism.push_back({std::cos(t), std::sin(t), 1.0});
+        }
+        EXPECT_TRUE(
+            searched(clouds::moved(prism, clouds::random_rotation(5), {0, 0, 0})).is_proven());
+    }
+    EXPECT_FALSE(searched(random_body(1, 2000, 1)).is_proven());  // no proof by 200 of them
+}
+
+TEST(minimum_volume_box, is_not_proven_by_a_search_that_is_cut_off) {
+    using gnomon::detail::flush_boxes, gnomon::detail::polytope;
+    const clouds::cloud corners{{1, 1, 1}, {-1, -1, 1}, {-1, 1, -1}, {1, -1, -1}};
+    EXPECT_TRUE(flush_boxes(polytope(corners), 7.9).is_complete());
+    EXPECT_FALSE(flush_boxes(polytope(corners), clouds::nan).is_complete());  // nothing is excluded
+    const clouds::cloud square{{1, 1, 0}, {-1, -1, 0}, {-1, 1, 0}, {1, -1, 0}};
+    EXPECT_FALSE(flush_boxes(polytope(square), 7.9).is_complete());
 }
 
 /// O'Rourke's family: the smallest box of a regular tetrahedron has no face on a facet of it.

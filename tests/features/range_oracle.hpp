@@ -40,7 +40,7 @@ inline quadric quadric_of(const gnomon::sphere_estimate& e, const Eigen::VectorX
     return {e.center + x.head<3>(), {0, 0, 0}, e.radius + x[3], 0.0};
 }
 inline quadric quadric_about_axis(const auto& e, const Eigen::VectorXd& x) {
-    const Eigen::Vector3d c = e.point + x[0] * e.axes.col(0) + x[1] * e.axes.col(1);
+    const Eigen::Vector3d c = e.axis_point + x[0] * e.axes.col(0) + x[1] * e.axes.col(1);
     const Eigen::Vector3d a = e.direction() + x[2] * e.axes.col(0) + x[3] * e.axes.col(1);
     return {c, a.normalized(), e.radius + x[4], 0.0};
 }

@@ -109,8 +109,8 @@ inline Eigen::VectorXd errors_about_axis(const auto& e, const sample& s, const d
     // Where the true axis crosses the plane across the estimated one through its point.
     Eigen::Vector3d axis = s.axis();
     if (slope == 0.0 && axis.dot(e.direction()) < 0.0) axis = -axis;
-    const double along = (e.point - s.center).dot(e.direction()) / axis.dot(e.direction());
-    const Eigen::Vector3d shift = e.axes.transpose() * (e.point - s.center - along * axis);
+    const double along = (e.axis_point - s.center).dot(e.direction()) / axis.dot(e.direction());
+    const Eigen::Vector3d shift = e.axes.transpose() * (e.axis_point - s.center - along * axis);
     const Eigen::Vector3d turn =
         e.axes.transpose() * (e.direction() - axis / axis.dot(e.direction()));
     Eigen::VectorXd x(5);

@@ -91,6 +91,15 @@ struct fitted_surface {
     normal_equations<Surface::parameters> equations;
     bool is_converged = false;
     int iterations = 0;
+    double first_gain = 0.0;  ///< what the sum of squares was to lose, at the first iteration
+
+    /// Whether that loss is none, in the variance of the residuals, or if that is less, of the
+    /// noise. It is the squared distance of the parameters from the minimum, in their deviations.
+    [[nodiscard]] bool is_settled(double gain) const {
+        constexpr double negligible = 0.01;  // chosen: a tenth of a deviation
+        const auto count = static_cast<double>(equations.count);
+        return gain <= negligible * std::max(1.0, equations.squares / count);
+    }
 
     /// Of the residuals, at most 1, which is that of the noise; 0 if it is not known.
     [[nodiscard]] double variance() const {
@@ -120,15 +129,16 @@ class surface_regression {
         double damping = first_damping;
         if (!std::isfinite(at.equations.squares)) return at;
         scaled_equations<n> scaled(at.equations);
+        at.first_gain = gain_of(scaled.step(0.0), at.equations);
         while (at.iterations < most_iterations && !at.is_converged && damping < last_damping) {
             ++at.iterations;
             const auto step = scaled.step(damping);
-            double largest = 0.0, gain = 0.0;
-            for (std::size_t k = 0; k < n; ++k) {
-                largest = std::max(largest, std::abs(step[k]));
-                gain -= step[k] * at.equations.right[k];
-            }
-            at.is_converged = gain <= unseen * at.equations.squares || largest <= negligible;
+            double largest = 0.0;
+            for (const double s : step) largest = std::max(largest, std::abs(s));
+            const double gain = gain_of(step, at.equations);
+            // Damping makes any step small: at the minimum, the whole step is.
+            at.is_converged = (gain <= unseen * at.equations.squares || largest <= negligible) &&
+                              at.is_settled(gain_of(scaled.step(0.0), at.equations));
             const Surface next = at.surface.moved(step);
             if (next.is_valid()) {
                 const normal_equations<n> there = equations_of(next);
@@ -147,15 +157,17 @@ class surface_regression {
 
     /// The surface of least squared residuals in ranges where rays are known, and in distances
     /// without their bias elsewhere: the fixed point of residuals about the surface that they give.
+    /// Not converged if the last round began far from its minimum.
     /// @param at  a surface of least squared distances, of these points or some of them
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
-        constexpr int most_rounds = 8;      // performance only: two to four are the rule
+        constexpr int most_rounds = 16;     // performance only: two to four are the rule
         constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
         for (int round = 0; round < most_rounds; ++round) {
             set_terms(at.surface, at.variance(), round < choosing_rounds);
             at = from(at.surface, most_iterations);
-            if (at.iterations <= 1) break;
+            if (at.iterations <= 1) return at;
         }
+        at.is_converged = at.is_converged && at.is_settled(at.first_gain);
         return at;
     }
 
@@ -170,6 +182,15 @@ class surface_regression {
     }
 
   private:
+    /// The decrease of the sum of squares that the undamped step brings to first order; a damped
+    /// step brings this to twice this.
+    [[nodiscard]] static double gain_of(const std::array<double, n>& step,
+                                        const normal_equations<n>& e) {
+        double gain = 0.0;
+        for (std::size_t k = 0; k < n; ++k) gain -= step[k] * e.right[k];
+        return gain;
+    }
+
     /// The terms about a surface.
     /// @param choose  whether points may be left out or in; else, as far as possible, they stay
     void set_terms(const Surface& s, double shown, bool choose) {
