@@ -21704,12 +21704,16 @@ class flush_boxes {
           limit_(limit),
           supports_{hull.start(), hull.start(), hull.start(), hull.start()} {
         const auto& arcs = hull.arcs();
+        is_complete_ = !arcs.empty();
         for (std::size_t i = 0; i < arcs.size(); ++i) {
             for (std::size_t j = i + 1; j < arcs.size(); ++j) search_pair(arcs[i], arcs[j]);
         }
     }
 
     [[nodiscard]] bool found() const { return found_; }
+    /// Whether no smaller box was missed: the polyhedron has a volume, and no family was left with
+    /// boxes that are not searched.
+    [[nodiscard]] bool is_complete() const { return is_complete_; }
     /// The axes of that box, orthogonal unit vectors.
     [[nodiscard]] const axes& best() const { return best_; }
 
@@ -21799,9 +21803,12 @@ class flush_boxes {
 
     void search(const member& from, const member& to) {
         constexpr double finest = 1e-10;  // rounding
-        if (to.s - from.s < finest || (is_singular(from) && is_singular(to)) || visits_ == 0)
-            return;
+        if (is_singular(from) && is_singular(to)) return;
         if (exceeds(from, to, from) || exceeds(from, to, to)) return;
+        if (visits_ == 0 || to.s - from.s < finest) {
+            is_complete_ = false;
+            return;
+        }
         --visits_;
         const member middle = make(split(from, to));
         search(from, middle);
@@ -21836,7 +21843,7 @@ class flush_boxes {
             const double ahead = std::abs(dot(d, directions[k].first));
             const double behind = std::abs(dot(d, directions[k].second));
             const double t = ahead / (ahead + behind);
-            constexpr double margin = 0.01;  // performance only: both parts are shorter
+            constexpr double margin = 0.1;  // numerical: recursions end within 220 calls
             if (t > margin && t < 1.0 - margin) return from.s + t * (to.s - from.s);
         }
         return 0.5 * (from.s + to.s);
@@ -21861,6 +21868,7 @@ class flush_boxes {
     double side_ = 1.0;
     int visits_ = 0;  // that are left to the family
     bool found_ = false;
+    bool is_complete_ = false;
     axes best_;
 };
 
@@ -21904,17 +21912,25 @@ class smallest_box {
         while (core_.size() <= largest_core) {
             const polytope hull(core_);
             const flush_boxes search(hull, best_.volume * (1.0 - tolerance));
-            if (!search.found()) return;
+            if (!search.found()) {
+                is_proven_ = search.is_complete();
+                return;
+            }
             const box_fit found(corners, search.best());
             const bool has_grown = join(found);
             const box_fit better = refined(found, corners);
             join(better);
             if (better.volume < best_.volume) best_ = better;
-            if (!has_grown) return;
+            if (!has_grown) {
+                is_proven_ = search.is_complete();
+                return;
+            }
         }
     }
 
     [[nodiscard]] const box_fit& best() const { return best_; }
+    /// Whether no box is smaller by more than 1e-7 of the volume.
+    [[nodiscard]] bool is_proven() const { return is_proven_; }
 
   private:
     bool join(std::uint32_t corner) {
@@ -21961,6 +21977,7 @@ class smallest_box {
     box_fit best_;
     std::vector<std::uint32_t> members_;  // corners of the core
     std::vector<Eigen::Vector3d> core_;
+    bool is_proven_ = false;
 };
 
 /// The box of a fit to local points, its axes by descending length, right-handed.
@@ -21989,8 +22006,10 @@ class smallest_box {
 /// line, without any finite point it is at its defaults.
 /// @param points      any point range of n points [m]
 /// @param projection  maps an element of the range to a point
-/// @return the smallest box, to 1e-7 of its volume for hulls of up to 200 vertices, and for larger
-///         ones wherever 200 of them prove it; never larger than that of `principal_frame`
+/// @return the smallest box, to 1e-7 of its volume where the search proves it: for all tested hulls
+///         of up to 200 vertices, and for larger ones if 200 of them suffice. It is cut off after
+///         10,000 boxes of one pair of edges, and not begun for bodies thinner than 1e-13 of their
+///         length. Never larger than the box of `principal_frame`
 /// @throws std::invalid_argument  if n is 2^32 - 1 or more
 /// Complexity: that of `convex_hull`, O(h) for its h vertices, and O(e^2) for the e edges of the
 /// core.
@@ -22342,6 +22361,15 @@ struct fitted_surface {
     normal_equations<Surface::parameters> equations;
     bool is_converged = false;
     int iterations = 0;
+    double first_gain = 0.0;  ///< what the sum of squares was to lose, at the first iteration
+
+    /// Whether that loss is none, in the variance of the residuals, or if that is less, of the
+    /// noise. It is the squared distance of the parameters from the minimum, in their deviations.
+    [[nodiscard]] bool is_settled(double gain) const {
+        constexpr double negligible = 0.01;  // chosen: a tenth of a deviation
+        const auto count = static_cast<double>(equations.count);
+        return gain <= negligible * std::max(1.0, equations.squares / count);
+    }
 
     /// Of the residuals, at most 1, which is that of the noise; 0 if it is not known.
     [[nodiscard]] double variance() const {
@@ -22371,15 +22399,16 @@ class surface_regression {
         double damping = first_damping;
         if (!std::isfinite(at.equations.squares)) return at;
         scaled_equations<n> scaled(at.equations);
+        at.first_gain = gain_of(scaled.step(0.0), at.equations);
         while (at.iterations < most_iterations && !at.is_converged && damping < last_damping) {
             ++at.iterations;
             const auto step = scaled.step(damping);
-            double largest = 0.0, gain = 0.0;
-            for (std::size_t k = 0; k < n; ++k) {
-                largest = std::max(largest, std::abs(step[k]));
-                gain -= step[k] * at.equations.right[k];
-            }
-            at.is_converged = gain <= unseen * at.equations.squares || largest <= negligible;
+            double largest = 0.0;
+            for (const double s : step) largest = std::max(largest, std::abs(s));
+            const double gain = gain_of(step, at.equations);
+            // Damping makes any step small: at the minimum, the whole step is.
+            at.is_converged = (gain <= unseen * at.equations.squares || largest <= negligible) &&
+                              at.is_settled(gain_of(scaled.step(0.0), at.equations));
             const Surface next = at.surface.moved(step);
             if (next.is_valid()) {
                 const normal_equations<n> there = equations_of(next);
@@ -22398,15 +22427,17 @@ class surface_regression {
 
     /// The surface of least squared residuals in ranges where rays are known, and in distances
     /// without their bias elsewhere: the fixed point of residuals about the surface that they give.
+    /// Not converged if the last round began far from its minimum.
     /// @param at  a surface of least squared distances, of these points or some of them
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
-        constexpr int most_rounds = 8;      // performance only: two to four are the rule
+        constexpr int most_rounds = 16;     // performance only: two to four are the rule
         constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
         for (int round = 0; round < most_rounds; ++round) {
             set_terms(at.surface, at.variance(), round < choosing_rounds);
             at = from(at.surface, most_iterations);
-            if (at.iterations <= 1) break;
+            if (at.iterations <= 1) return at;
         }
+        at.is_converged = at.is_converged && at.is_settled(at.first_gain);
         return at;
     }
 
@@ -22421,6 +22452,15 @@ class surface_regression {
     }
 
   private:
+    /// The decrease of the sum of squares that the undamped step brings to first order; a damped
+    /// step brings this to twice this.
+    [[nodiscard]] static double gain_of(const std::array<double, n>& step,
+                                        const normal_equations<n>& e) {
+        double gain = 0.0;
+        for (std::size_t k = 0; k < n; ++k) gain -= step[k] * e.right[k];
+        return gain;
+    }
+
     /// The terms about a surface.
     /// @param choose  whether points may be left out or in; else, as far as possible, they stay
     void set_terms(const Surface& s, double shown, bool choose) {
