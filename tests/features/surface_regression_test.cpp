@@ -60,11 +60,11 @@ struct sphere_without_fixed_point : sphere_surface {
     }
 };
 
-const gnomon::sequential here;
+const gnomon::sequential unthreaded;
 
 TEST(surface_regression, converges_to_the_minimum) {
     const auto points = sphere_samples(200, 1);
-    surface_regression<sphere_surface, gnomon::sequential> regression(points, here);
+    surface_regression<sphere_surface, gnomon::sequential> regression(points, unthreaded);
     const auto fit = regression.from({{0.3, 0.1, -0.2}, 1.4}, many_iterations);
     EXPECT_TRUE(fit.is_converged);
     EXPECT_NEAR(fit.surface.radius, 1.0, 5e-3);
@@ -76,14 +76,15 @@ TEST(surface_regression, converges_to_the_minimum) {
 
 TEST(surface_regression, is_not_converged_if_it_is_cut_off) {
     const auto points = sphere_samples(200, 2);
-    const surface_regression<sphere_surface, gnomon::sequential> regression(points, here);
+    const surface_regression<sphere_surface, gnomon::sequential> regression(points, unthreaded);
     EXPECT_FALSE(regression.from({{0.3, 0.1, -0.2}, 1.4}, 2).is_converged);
 }
 
 /// A step that damping has made negligible is no sign of a minimum.
 TEST(surface_regression, is_not_converged_if_all_steps_are_rejected) {
     const auto points = sphere_samples(200, 3);
-    const surface_regression<sphere_without_neighbors, gnomon::sequential> regression(points, here);
+    const surface_regression<sphere_without_neighbors, gnomon::sequential> regression(points,
+                                                                                      unthreaded);
     for (const double radius : {1.4, 1.003}) {
         const auto fit = regression.from({{{0.0, 0.0, 0.0}, radius}}, many_iterations);
         EXPECT_FALSE(fit.is_converged);
@@ -93,7 +94,8 @@ TEST(surface_regression, is_not_converged_if_all_steps_are_rejected) {
 
 TEST(surface_regression, is_not_converged_without_a_fixed_point_of_the_residuals) {
     const auto points = sphere_samples(200, 4);
-    surface_regression<sphere_without_fixed_point, gnomon::sequential> regression(points, here);
+    surface_regression<sphere_without_fixed_point, gnomon::sequential> regression(points,
+                                                                                  unthreaded);
     sphere_without_fixed_point start{{{0.0, 0.0, 0.0}, 1.1}};
     auto fit = regression.from(start, many_iterations);
     ASSERT_TRUE(fit.is_converged);
