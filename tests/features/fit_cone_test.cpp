@@ -23,18 +23,18 @@ TEST(fit_cone, is_exact_without_noise) {
 TEST(fit_cone, covariance_holds_for_noise_in_all_directions) {
     int failed = 0;
     const double nees =
-        round_samples::nees<a_cone>({.sigma = 0.01}, 2000, 2.0 * std::numbers::pi, failed);
-    EXPECT_NEAR(nees, 1.0, 0.1);
-    EXPECT_LT(failed, 20);  // .3 % are expected
+        round_samples::nees<a_cone>({.sigma = 0.01}, 2.0 * std::numbers::pi, failed);
+    EXPECT_NEAR(nees, 1.0, round_samples::draws.off);
+    EXPECT_LT(failed, round_samples::draws.failed);  // .3 % are expected
 }
 
 /// The same for one side, seen from five radii.
 TEST(fit_cone, covariance_holds_for_noise_along_rays) {
     int failed = 0;
-    const double nees = round_samples::nees<a_cone>({.sigma = 0.01, .along_rays = true}, 2000,
-                                                    std::numbers::pi, failed);
-    EXPECT_NEAR(nees, 1.0, 0.1);
-    EXPECT_LT(failed, 20);
+    const double nees =
+        round_samples::nees<a_cone>({.sigma = 0.01, .along_rays = true}, std::numbers::pi, failed);
+    EXPECT_NEAR(nees, 1.0, round_samples::draws.off);
+    EXPECT_LT(failed, round_samples::draws.failed);
 }
 
 /// An independent minimizer of the residuals in ranges finds the same parameters.
