@@ -99,8 +99,7 @@ struct perception {
     Estimator estimate{};
     Merge merge{};
     Segmentation segmentation{};
-    /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
-    /// given noise have the measured one.
+    /// Along the rays; by default it is measured.
     std::optional<noise_curve> noise = std::nullopt;
     std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};
