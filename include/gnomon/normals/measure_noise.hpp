@@ -34,6 +34,7 @@
 #include <gnomon/normals/detail/noise_coordinate.hpp>
 #include <gnomon/normals/detail/noise_fit.hpp>
 #include <gnomon/normals/detail/quantization.hpp>
+#include <gnomon/normals/detail/ray_cone.hpp>
 #include <gnomon/normals/detail/residual_sampler.hpp>
 #include <gnomon/normals/detail/several_depths.hpp>
 

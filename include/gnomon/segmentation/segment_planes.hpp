@@ -33,7 +33,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/neighborhoods/neighborhood.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/normals/detail/wide_noise.hpp>
+#include <gnomon/normals/detail/ray_cone.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_growth.hpp>
 #include <gnomon/segmentation/detail/plane_regions.hpp>
@@ -101,8 +101,7 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    const bool is_independent =
-        !index.viewpoints.empty() && !detail::is_of_camera(index, detail::some_points_of(index));
+    const bool is_independent = !index.viewpoints.empty() && !detail::is_of_camera(index);
     return detail::numbered_segments_of(
         detail::regions_of_planes(cloud, graph, graph, surface, options.min_points,
                                   options.max_angle, is_independent, team)

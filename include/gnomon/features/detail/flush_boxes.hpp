@@ -72,7 +72,7 @@ class flush_boxes {
         std::array<double, 4> breaks{0.0, zero_of(first), zero_of(last), 1.0};
         if (breaks[1] > breaks[2]) std::swap(breaks[1], breaks[2]);
         for (std::size_t i = 0; i < 3; ++i) {
-            constexpr double rounding = 1e-15;
+            constexpr double rounding = 1e-15;  // numerical: of two sines
             const double middle = 0.5 * (breaks[i] + breaks[i + 1]);
             if (!(breaks[i] < breaks[i + 1]) || sign_change(middle) > rounding) continue;
             a_ = &a;

@@ -62,10 +62,10 @@ struct regression_term {
 /// The term of a point whose ray is known. The point where the ray meets the surface is found by
 /// Newton's method, on the side of the surface that the point is on; the distance from the surface
 /// is a convex function along a line, so the method converges. Left out if the ray does not meet
-/// the surface, or more obliquely than at `least_cosine` of ray and normal.
+/// the surface, or more obliquely than at `least` cosine of ray and normal.
 template <class Surface>
 [[nodiscard]] regression_term term_along_ray(const regression_point& p, const Surface& s,
-                                             double least_cosine) {
+                                             double least) {
     constexpr int most_steps = 20;         // performance only: convergence is quadratic
     constexpr double close_enough = 1e-9;  // numerical: its square is below the rounding error
     double along = 0.0, cosine = 0.0;
@@ -75,8 +75,7 @@ template <class Surface>
         if (!(i == 0 ? c != 0.0 : c * cosine > 0.0)) break;
         cosine = c;
         const double step = foot.distance / c;
-        if (std::abs(step) < close_enough && std::abs(c) >= least_cosine)
-            return {p, along - step, c};
+        if (std::abs(step) < close_enough && std::abs(c) >= least) return {p, along - step, c};
         along -= step;
     }
     regression_term left_out(p);
@@ -160,9 +159,9 @@ class surface_regression {
     /// Not converged if the last round began far from its minimum.
     /// @param at  a surface of least squared distances, of these points or some of them
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
-        constexpr int most_rounds = 16;     // performance only: two to four are the rule
+        constexpr int rounds = 16;          // performance only: two to four are the rule
         constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < rounds; ++round) {
             set_terms(at.surface, at.variance(), round < choosing_rounds);
             at = from(at.surface, most_iterations);
             if (at.iterations <= 1) return at;
@@ -194,8 +193,8 @@ class surface_regression {
     /// The terms about a surface.
     /// @param choose  whether points may be left out or in; else, as far as possible, they stay
     void set_terms(const Surface& s, double shown, bool choose) {
-        constexpr double least_cosine = 0.2;  // chosen: of ray and normal, 78 degrees
-        const double least = choose ? least_cosine : 0.5 * least_cosine;
+        constexpr double oblique = 0.2;  // chosen: of ray and normal, 78 degrees
+        const double least = choose ? oblique : 0.5 * oblique;
         for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const regression_point& p = points_[i];

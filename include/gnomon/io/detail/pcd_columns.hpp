@@ -29,14 +29,16 @@ struct pcd_color {
     std::size_t byte;    // 0 is the lowest
 };
 
-/// The columns: values of the file, then bytes of these.
+/// The columns: values of the file, then bytes of these. (Its functions are templates, so that
+/// unused readers cost no compile time.)
 struct pcd_table {
     std::vector<file_column> columns;  // "x" for a field of one value, "fpfh[0]", ... for several
     std::vector<scalar_layout> types;  // of the values
     std::vector<pcd_color> colors;     // the last columns
 
+    /// @param header       a pcd_header
     /// @param with_colors  whether to unpack them, which takes time
-    pcd_table(const pcd_header& header, bool with_colors) {
+    pcd_table(const auto& header, bool with_colors) {
         std::vector<std::pair<std::size_t, std::size_t>> packed;  // column, number of bytes
         for (const pcd_field& field : header.fields) {
             const bool is_packed = with_colors && field.size() == 4 && field.count == 1 &&
@@ -62,7 +64,7 @@ struct pcd_table {
 
     /// Appends the bytes to the values of a point that were read from text. What the text of a
     /// float cannot hold (the bits of a NaN) becomes black.
-    void append_colors(std::vector<double>& row) const {
+    void append_colors(auto& row) const {
         for (const pcd_color& c : colors) {
             const double value = row[c.source];
             std::uint32_t bits = 0;

@@ -5,7 +5,6 @@
 #pragma once
 
 #include <algorithm>
-#include <utility>
 
 #include <Eigen/Core>
 
@@ -65,30 +64,6 @@ struct noise_coordinate {
     return std::all_of(planes.begin(), planes.end(), [&](const sampled_plane& s) {
         return length(difference(direction_of(s.ray), first)) < most;
     });
-}
-
-/// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
-/// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
-[[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
-    Eigen::Vector3d axis(0.0, 0.0, 0.0);
-    const auto farthest = [&] {
-        const Eigen::Vector3d* ray = nullptr;
-        double least = 2.0;
-        for (const sampled_plane& s : planes) {
-            const double cosine = dot(s.ray, axis) / length(s.ray);
-            if (cosine < least) least = cosine, ray = &s.ray;
-        }
-        return std::pair(ray, least);
-    };
-    constexpr int steps = 100;  // to about a degree
-    for (int i = 1; i <= steps; ++i) {
-        const auto [ray, cosine] = farthest();
-        if (ray == nullptr) return axis;
-        axis = combined(1.0 - 1.0 / i, axis, 1.0 / (i * length(*ray)), *ray);
-        if (!has_length(axis)) return {0.0, 0.0, 0.0};
-        axis = direction_of(axis);
-    }
-    return farthest().second > std::cos(0.785) ? axis : Eigen::Vector3d(0.0, 0.0, 0.0);
 }
 
 }  // namespace gnomon::detail

@@ -25,7 +25,7 @@
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
-#include <gnomon/normals/detail/wide_noise.hpp>
+#include <gnomon/normals/detail/ray_cone.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/orient.hpp>
 #include <gnomon/normals/surfel.hpp>
@@ -134,8 +134,7 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        const bool is_independent =
-            !noise_.is_across_surface && !is_of_camera(index_, some_points_of(index_));
+        const bool is_independent = !noise_.is_across_surface && !is_of_camera(index_);
         regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, is_independent, run));
     }

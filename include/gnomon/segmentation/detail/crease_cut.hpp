@@ -8,11 +8,9 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <span>
 
 #include <Eigen/Core>
 
@@ -30,15 +28,18 @@ namespace gnomon::detail {
 
 /// Where to cut the union of two regions that meet at a crease.
 /// @param cloud       a planar_cloud
-/// @param members     of either region, all finite
-/// @param regions     the two
+/// @param members     of all regions, all finite: label_groups
+/// @param regions     their planar_region
+/// @param first       one of two
+/// @param second      the other
 /// @param min_points  the least number of each part
 /// @return a plane with the first region on its negative side; nothing if they do not meet at a
 ///         crease, or a curved surface explains them better. O(n)
-[[nodiscard]] std::optional<plane> crease_cut(
-    const auto& cloud, const std::array<std::span<const point_index>, 2>& members,
-    const std::array<planar_region, 2>& regions, std::size_t min_points) {
-    const auto& [a, b] = regions;
+template <class Cloud>
+[[nodiscard]] std::optional<plane> crease_cut(const Cloud& cloud, const auto& members,
+                                              const auto& regions, std::size_t first,
+                                              std::size_t second, std::size_t min_points) {
+    const auto &a = regions[first], &b = regions[second];
     constexpr angle most = degrees(30);  // numerical: at more, noise hides the edge alone
     if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
@@ -59,9 +60,9 @@ namespace gnomon::detail {
     const double reach = 2.0 * most_deviations * noise / sine;
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
-    strips<pieces> both(middle.normal, middle.offset - reach, 2.0 * reach / pieces);
-    for (const auto& some : members)
-        for (const point_index i : some) both.add(cloud, i);
+    strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
+    for (const std::size_t r : {first, second})
+        for (const point_index i : members[r]) both.add(i);
     double least = std::numeric_limits<double>::infinity();
     return both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);

@@ -31,7 +31,9 @@ namespace gnomon::detail {
 /// @param reject_curved  whether a curved surface that explains them better is left whole
 /// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
 ///         compile it.)
-[[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
+template <class Cloud>
+[[nodiscard]] std::optional<plane> edge_cut(const Cloud& cloud,
+                                            std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points,
                                             auto&& is_edge, bool reject_curved) {
     if (members.size() < 2 * min_points) return std::nullopt;
@@ -49,8 +51,8 @@ namespace gnomon::detail {
         }
         const double width = (last - first) / static_cast<double>(pieces);
         if (!(width > 0.0)) continue;
-        strips<pieces> all(along, first, width);
-        for (const point_index i : members) all.add(cloud, i);
+        strips<Cloud, pieces> all(cloud, along, first, width);
+        for (const point_index i : members) all.add(i);
         if (const auto cut = all.best_cut(min_points, is_edge, reject_curved, least)) best = cut;
     }
     return best;

@@ -105,21 +105,21 @@ class plane_regions {
         const auto pairs = compete(cloud_, near_, regions_, labels_, is_border, run).touching;
         const label_groups parts(labels_);
         scratch<char> has_changed(regions_.size(), false);
+        bool any = false;
         for (const auto& [a, b] : pairs) {
             if (has_changed[a] != 0 || has_changed[b] != 0) continue;
-            const auto cut =
-                crease_cut(cloud_, {parts[a], parts[b]}, {regions_[a], regions_[b]}, min_points_);
+            const auto cut = crease_cut(cloud_, parts, regions_, a, b, min_points_);
             if (!cut) continue;
             for (const point_index r : {a, b}) {
                 for (const point_index i : parts[r]) {
                     const bool is_of_b = cut->signed_distance(cloud_.offsets[i]) > 0.0;
                     const auto to = static_cast<std::int32_t>(is_of_b ? b : a);
-                    if (labels_[i] != to) has_changed[a] = has_changed[b] = true;
+                    if (labels_[i] != to) has_changed[a] = has_changed[b] = any = true;
                     labels_[i] = to;
                 }
             }
         }
-        if (std::ranges::find(has_changed, true) == has_changed.end()) return false;
+        if (!any) return false;
         settle_again(run);
         return true;
     }

@@ -17,18 +17,19 @@
 
 namespace gnomon::detail {
 
-/// `count` strips of a width across a direction; the first and the last one have no end.
-template <std::size_t count>
+/// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
+/// last one have no end.
+template <class Cloud, std::size_t count>
 class strips {
   public:
+    /// @param cloud  refers to it
     /// @param along  of unit length
     /// @param first  the position of the first strip along it, from the origin of the cloud [m]
     /// @param width  of each strip, more than zero [m]
-    strips(const Eigen::Vector3d& along, double first, double width)
-        : along_(along), first_(first), width_(width) {}
+    strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width)
+        : cloud_(&cloud), along_(along), first_(first), width_(width) {}
 
-    /// @param cloud  a planar_cloud
-    void add(const auto& cloud, std::size_t i) { cloud.add(i, sums_[strip_of(cloud.offsets[i])]); }
+    void add(std::size_t i) { cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]); }
 
     /// The cut after which two planes explain the points best.
     /// @param accepts        accepts(side, side): whether these may be two planes
@@ -115,6 +116,7 @@ class strips {
         for (std::size_t s = 0; s < count; ++s) from[s] -= part * others[s];
     }
 
+    const Cloud* cloud_;
     Eigen::Vector3d along_;
     double first_;
     double width_;
