@@ -15,7 +15,7 @@ import tempfile
 
 from instructions import hold, instructions, require_valgrind
 
-LIMIT = 2.05  # for the time being: 2.0
+LIMIT = 2.0
 LOOP = """\
 #include <array>
 #include <cstddef>

@@ -1366,22 +1366,24 @@ class viewpoint_table {
     /// The view points of some of the points, in the order of `indices`: one per scan, if they are
     /// here and the scans are fewer than the indices.
     /// Precondition: covers(n) and every index is below n.
-    [[nodiscard]] viewpoint_table subset(std::span<const point_index> indices) const {
+    /// @param indices  point_index. (A template, for compile time.)
+    [[nodiscard]] viewpoint_table subset(const auto& indices) const {
         if (scope_ == scope::none || scope_ == scope::cloud) return *this;
-        if (scope_ == scope::scan && positions_.size() < indices.size()) {
-            std::vector<point_index> scans;
-            scans.reserve(indices.size());
-            for (const point_index i : indices) scans.push_back(scan_of_point_[i]);
-            return viewpoint_table(positions_, std::move(scans));
-        }
-        std::vector<Eigen::Vector3d> chosen;
-        chosen.reserve(indices.size());
-        for (const point_index i : indices) chosen.push_back((*this)[i]);
-        return viewpoint_table(std::move(chosen));
+        if (scope_ == scope::point) return viewpoint_table(chosen(positions_, indices));
+        auto scans = chosen(scan_of_point_, indices);
+        if (positions_.size() < indices.size()) return viewpoint_table(positions_, std::move(scans));
+        return viewpoint_table(chosen(positions_, scans));
     }
 
   private:
     enum class scope : char { none, cloud, scan, point };
+
+    [[nodiscard]] static auto chosen(const auto& values, const auto& indices) {
+        std::remove_cvref_t<decltype(values)> result;
+        result.reserve(indices.size());
+        for (const point_index i : indices) result.push_back(values[i]);
+        return result;
+    }
 
     [[nodiscard]] static std::uint64_t next_number() {
         static std::atomic<std::uint64_t> last{0};
@@ -9901,30 +9903,6 @@ struct noise_coordinate {
     });
 }
 
-/// The axis of the smallest cone around the rays; 0 unless all of them are within 45 degrees of
-/// it. Badoiu and Clarkson 2003: steps towards the farthest ray.
-[[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& planes) {
-    Eigen::Vector3d axis(0.0, 0.0, 0.0);
-    const auto farthest = [&] {
-        const Eigen::Vector3d* ray = nullptr;
-        double least = 2.0;
-        for (const sampled_plane& s : planes) {
-            const double cosine = dot(s.ray, axis) / length(s.ray);
-            if (cosine < least) least = cosine, ray = &s.ray;
-        }
-        return std::pair(ray, least);
-    };
-    constexpr int steps = 100;  // to about a degree
-    for (int i = 1; i <= steps; ++i) {
-        const auto [ray, cosine] = farthest();
-        if (ray == nullptr) return axis;
-        axis = combined(1.0 - 1.0 / i, axis, 1.0 / (i * length(*ray)), *ray);
-        if (!has_length(axis)) return {0.0, 0.0, 0.0};
-        axis = direction_of(axis);
-    }
-    return farthest().second > std::cos(0.785) ? axis : Eigen::Vector3d(0.0, 0.0, 0.0);
-}
-
 }  // namespace gnomon::detail
 
 // -------- gnomon/normals/detail/quantization.hpp -------------------------------------------------
@@ -9993,6 +9971,68 @@ struct quantization {
         regression.add(x, variance, 1.0 / (variance * variance));
     });
     return {true, regression.solve()};
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/ray_cone.hpp -----------------------------------------------------
+
+/// @file
+/// The cone around the rays of a sensor: a depth camera is told from a laser scanner by its narrow
+/// field of view. (Templates, so that only their users compile them.)
+
+namespace gnomon::detail {
+
+/// The axis of the smallest cone around the rays, the members `ray` of some values; 0 unless all of
+/// them are within 45 degrees of it. Badoiu and Clarkson 2003: steps towards the farthest ray.
+[[nodiscard]] Eigen::Vector3d axis_of_cone(const auto& values) {
+    Eigen::Vector3d axis(0.0, 0.0, 0.0);
+    const auto farthest = [&] {
+        const Eigen::Vector3d* ray = nullptr;
+        double least = 2.0;
+        for (const auto& s : values) {
+            const double cosine = dot(s.ray, axis) / length(s.ray);
+            if (cosine < least) least = cosine, ray = &s.ray;
+        }
+        return std::pair(ray, least);
+    };
+    constexpr int steps = 100;  // to about a degree
+    for (int i = 1; i <= steps; ++i) {
+        const auto [ray, cosine] = farthest();
+        if (ray == nullptr) return axis;
+        axis = combined(1.0 - 1.0 / i, axis, 1.0 / (i * length(*ray)), *ray);
+        if (!has_length(axis)) return {0.0, 0.0, 0.0};
+        axis = direction_of(axis);
+    }
+    return farthest().second > std::cos(0.785) ? axis : Eigen::Vector3d(0.0, 0.0, 0.0);
+}
+
+/// About `wanted` of the finite points of an index, drawn at random; all of fewer than twice as
+/// many.
+[[nodiscard]] scratch<point_index> some_points_of(const auto& index, std::size_t wanted) {
+    const std::size_t thinning = std::max<std::size_t>(index.finite() / wanted, 1);
+    scratch<point_index> some;
+    for (std::size_t i = 0; i < index.size(); ++i)
+        if (index.is_finite(i) && random_stream(i).bits() % thinning == 0)
+            some.push_back(static_cast<point_index>(i));
+    return some;
+}
+
+/// Whether all rays to some points of an index are within 45 degrees of one axis, as those of a
+/// depth camera.
+[[nodiscard]] bool is_of_camera(const auto& index, const auto& some) {
+    struct ray_of_point {
+        Eigen::Vector3d ray;
+    };
+    scratch<ray_of_point> rays;
+    for (const point_index i : some) rays.push_back({difference(index[i], index.viewpoints[i])});
+    return has_length(axis_of_cone(rays));
+}
+
+/// The same of some of all its points, drawn at random.
+[[nodiscard]] bool is_of_camera(const auto& index) {
+    constexpr std::size_t enough = 3000;  // performance only
+    return is_of_camera(index, some_points_of(index, enough));
 }
 
 }  // namespace gnomon::detail
@@ -14776,55 +14816,6 @@ template <class R, normal_range Surface, oriented_dissimilarity D, execution X =
 
 }  // namespace gnomon
 
-// -------- gnomon/normals/detail/wide_noise.hpp ---------------------------------------------------
-
-/// @file
-/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
-/// scatter, so that a wide plane deviates more than a small neighborhood. That is
-/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
-
-namespace gnomon::detail {
-
-/// About 3,000 of the finite points of an index, drawn at random; all of fewer than 6,000. (A
-/// template, as the next one, for compile time only.)
-[[nodiscard]] scratch<point_index> some_points_of(const auto& index) {
-    const std::size_t thinning = std::max<std::size_t>(index.finite() / sampled_planes, 1);
-    scratch<point_index> some;
-    for (std::size_t i = 0; i < index.size(); ++i)
-        if (index.is_finite(i) && random_stream(i).bits() % thinning == 0)
-            some.push_back(static_cast<point_index>(i));
-    return some;
-}
-
-/// Whether all rays of an index are within 45 degrees of one axis, as those of a depth camera;
-/// tested on some of them.
-[[nodiscard]] bool is_of_camera(const auto& index, const scratch<point_index>& some) {
-    scratch<sampled_plane> rays;
-    for (const point_index i : some)
-        rays.push_back({difference(index[i], index.viewpoints[i]), {0.0, 0.0, 0.0}});
-    return has_length(axis_of_cone(rays));
-}
-
-/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
-/// measured, and is more.
-/// @param noise   that of small neighborhoods
-/// @param sparse  memory for the index of these points
-template <class X>
-[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
-                                               spatial_index& sparse, const X& run) {
-    if (index.finite() / sampled_planes < 2) return noise;  // a plane for each point left
-    const scratch<point_index> some = some_points_of(index);
-    if (!is_of_camera(index, some)) return noise;
-    double range = 0.0;
-    for (const point_index i : some) range += length(difference(index[i], index.viewpoints[i]));
-    sparse.rebuild(subset_view<spatial_index>(index, some), run);
-    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
-    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
-    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
-}
-
-}  // namespace gnomon::detail
-
 // -------- gnomon/segmentation/detail/plane_growth.hpp --------------------------------------------
 
 /// @file
@@ -15151,18 +15142,19 @@ namespace gnomon::detail {
 
 namespace gnomon::detail {
 
-/// `count` strips of a width across a direction; the first and the last one have no end.
-template <std::size_t count>
+/// `count` strips of a width across a direction, of points of a planar_cloud; the first and the
+/// last one have no end.
+template <class Cloud, std::size_t count>
 class strips {
   public:
+    /// @param cloud  refers to it
     /// @param along  of unit length
     /// @param first  the position of the first strip along it, from the origin of the cloud [m]
     /// @param width  of each strip, more than zero [m]
-    strips(const Eigen::Vector3d& along, double first, double width)
-        : along_(along), first_(first), width_(width) {}
+    strips(const Cloud& cloud, const Eigen::Vector3d& along, double first, double width)
+        : cloud_(&cloud), along_(along), first_(first), width_(width) {}
 
-    /// @param cloud  a planar_cloud
-    void add(const auto& cloud, std::size_t i) { cloud.add(i, sums_[strip_of(cloud.offsets[i])]); }
+    void add(std::size_t i) { cloud_->add(i, sums_[strip_of(cloud_->offsets[i])]); }
 
     /// The cut after which two planes explain the points best.
     /// @param accepts        accepts(side, side): whether these may be two planes
@@ -15249,6 +15241,7 @@ class strips {
         for (std::size_t s = 0; s < count; ++s) from[s] -= part * others[s];
     }
 
+    const Cloud* cloud_;
     Eigen::Vector3d along_;
     double first_;
     double width_;
@@ -15270,15 +15263,18 @@ namespace gnomon::detail {
 
 /// Where to cut the union of two regions that meet at a crease.
 /// @param cloud       a planar_cloud
-/// @param members     of either region, all finite
-/// @param regions     the two
+/// @param members     of all regions, all finite: label_groups
+/// @param regions     their planar_region
+/// @param first       one of two
+/// @param second      the other
 /// @param min_points  the least number of each part
 /// @return a plane with the first region on its negative side; nothing if they do not meet at a
 ///         crease, or a curved surface explains them better. O(n)
-[[nodiscard]] std::optional<plane> crease_cut(
-    const auto& cloud, const std::array<std::span<const point_index>, 2>& members,
-    const std::array<planar_region, 2>& regions, std::size_t min_points) {
-    const auto& [a, b] = regions;
+template <class Cloud>
+[[nodiscard]] std::optional<plane> crease_cut(const Cloud& cloud, const auto& members,
+                                              const auto& regions, std::size_t first,
+                                              std::size_t second, std::size_t min_points) {
+    const auto &a = regions[first], &b = regions[second];
     constexpr angle most = degrees(30);  // numerical: at more, noise hides the edge alone
     if (!are_at_crease(a, b) || are_turned(a, b, most)) return std::nullopt;
     const Eigen::Vector3d& n = a.fit.plane.normal;
@@ -15299,9 +15295,9 @@ namespace gnomon::detail {
     const double reach = 2.0 * most_deviations * noise / sine;
     if (!(reach > 0.0)) return std::nullopt;
     constexpr std::size_t pieces = 32;  // numerical: a sixteenth of the reach
-    strips<pieces> both(middle.normal, middle.offset - reach, 2.0 * reach / pieces);
-    for (const auto& some : members)
-        for (const point_index i : some) both.add(cloud, i);
+    strips<Cloud, pieces> both(cloud, middle.normal, middle.offset - reach, 2.0 * reach / pieces);
+    for (const std::size_t r : {first, second})
+        for (const point_index i : members[r]) both.add(i);
     double least = std::numeric_limits<double>::infinity();
     return both.best_cut(
         min_points, [](const auto& l, const auto& r) { return are_at_crease(l, r); }, true, least);
@@ -15327,7 +15323,9 @@ namespace gnomon::detail {
 /// @param reject_curved  whether a curved surface that explains them better is left whole
 /// @return nothing if one plane explains them as well. O(n). (A template, so that only its users
 ///         compile it.)
-[[nodiscard]] std::optional<plane> edge_cut(const auto& cloud, std::span<const point_index> members,
+template <class Cloud>
+[[nodiscard]] std::optional<plane> edge_cut(const Cloud& cloud,
+                                            std::span<const point_index> members,
                                             const planar_region& whole, std::size_t min_points,
                                             auto&& is_edge, bool reject_curved) {
     if (members.size() < 2 * min_points) return std::nullopt;
@@ -15345,8 +15343,8 @@ namespace gnomon::detail {
         }
         const double width = (last - first) / static_cast<double>(pieces);
         if (!(width > 0.0)) continue;
-        strips<pieces> all(along, first, width);
-        for (const point_index i : members) all.add(cloud, i);
+        strips<Cloud, pieces> all(cloud, along, first, width);
+        for (const point_index i : members) all.add(i);
         if (const auto cut = all.best_cut(min_points, is_edge, reject_curved, least)) best = cut;
     }
     return best;
@@ -15439,21 +15437,21 @@ class plane_regions {
         const auto pairs = compete(cloud_, near_, regions_, labels_, is_border, run).touching;
         const label_groups parts(labels_);
         scratch<char> has_changed(regions_.size(), false);
+        bool any = false;
         for (const auto& [a, b] : pairs) {
             if (has_changed[a] != 0 || has_changed[b] != 0) continue;
-            const auto cut =
-                crease_cut(cloud_, {parts[a], parts[b]}, {regions_[a], regions_[b]}, min_points_);
+            const auto cut = crease_cut(cloud_, parts, regions_, a, b, min_points_);
             if (!cut) continue;
             for (const point_index r : {a, b}) {
                 for (const point_index i : parts[r]) {
                     const bool is_of_b = cut->signed_distance(cloud_.offsets[i]) > 0.0;
                     const auto to = static_cast<std::int32_t>(is_of_b ? b : a);
-                    if (labels_[i] != to) has_changed[a] = has_changed[b] = true;
+                    if (labels_[i] != to) has_changed[a] = has_changed[b] = any = true;
                     labels_[i] = to;
                 }
             }
         }
-        if (std::ranges::find(has_changed, true) == has_changed.end()) return false;
+        if (!any) return false;
         settle_again(run);
         return true;
     }
@@ -15640,8 +15638,7 @@ template <class R, neighborhood_graph G, normal_range Surface, execution X = seq
     detail::require_valid(options);
     detail::require_graph_of(index.size(), graph);
     const detail::planar_cloud cloud(index, options.noise, team);
-    const bool is_independent =
-        !index.viewpoints.empty() && !detail::is_of_camera(index, detail::some_points_of(index));
+    const bool is_independent = !index.viewpoints.empty() && !detail::is_of_camera(index);
     return detail::numbered_segments_of(
         detail::regions_of_planes(cloud, graph, graph, surface, options.min_points,
                                   options.max_angle, is_independent, team)
@@ -18250,13 +18247,12 @@ struct file_column {
 template <class Text>
 class scan_builder {
   public:
-    /// @param columns  of the file
+    /// @param columns  of the file: a range of file_column
     /// @param wanted   the names of the columns that become fields; "*" stands for all others that
     ///                 are neither coordinates nor viewpoints: of equal names the first
     /// @param text     position of the column names, for the error message
     /// @throws gnomon::error  if x, y, z or a requested column is missing
-    scan_builder(const std::vector<file_column>& columns, const std::vector<std::string>& wanted,
-                 const Text& text)
+    scan_builder(const auto& columns, const std::vector<std::string>& wanted, const Text& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
                 column(columns, "z", text)} {
         for (const char* const name : {"viewpoint_x", "viewpoint_y", "viewpoint_z"}) {
@@ -18298,8 +18294,7 @@ class scan_builder {
 
   private:
     /// The index of the first column `name`; their number if there is none.
-    [[nodiscard]] static std::size_t find(const std::vector<file_column>& columns,
-                                          std::string_view name) {
+    [[nodiscard]] static std::size_t find(const auto& columns, std::string_view name) {
         std::size_t k = 0;
         while (k < columns.size() && columns[k].name != name) ++k;
         return k;
@@ -18307,23 +18302,23 @@ class scan_builder {
 
     /// The index of the column `name`.
     /// @throws gnomon::error  with the list of all columns, if it is missing
-    [[nodiscard]] static std::size_t column(const std::vector<file_column>& columns,
-                                            const std::string& name, const Text& text) {
+    [[nodiscard]] static std::size_t column(const auto& columns, const std::string& name,
+                                            const Text& text) {
         const std::size_t k = find(columns, name);
         if (k < columns.size() && name != "_") return k;
 
         std::string there;
-        for (const file_column& each : columns)
+        for (const auto& each : columns)
             if (each.name != "_") there += (there.empty() ? "" : ", ") + each.name;
         text.fail("there is no field " + in_quotes(name) + "; there are: " + there);
     }
 
-    void add_field(const std::vector<file_column>& columns, std::size_t k) {
+    void add_field(const auto& columns, std::size_t k) {
         sources_.push_back(k);
         result_.fields.push_back({columns[k].name, {}, columns[k].type});
     }
 
-    void add_all(const std::vector<file_column>& columns) {
+    void add_all(const auto& columns) {
         const auto is_in = [](std::size_t k, const auto& some) {
             return std::find(some.begin(), some.end(), k) != some.end();
         };
@@ -18354,50 +18349,57 @@ class scan_builder {
 
 namespace gnomon::io::detail {
 
-/// A byte of the value of another column.
-struct pcd_color {
-    std::size_t source;  // the column
-    std::size_t byte;    // 0 is the lowest
-};
-
-/// The columns: values of the file, then bytes of these.
+/// The columns: values of the file, then bytes of these. (A template with members that depend on
+/// its argument, so that unused readers cost no compile time.)
+/// @tparam Column  a file_column
+template <class Column = file_column>
 struct pcd_table {
-    std::vector<file_column> columns;  // "x" for a field of one value, "fpfh[0]", ... for several
-    std::vector<scalar_layout> types;  // of the values
-    std::vector<pcd_color> colors;     // the last columns
+    /// A byte of the value of another column.
+    struct color {
+        std::size_t source;  // the column
+        std::size_t byte;    // 0 is the lowest
+        bool is_of_float;
+    };
 
+    std::vector<Column> columns;  // "x" for a field of one value, "fpfh[0]", ... for several
+    std::vector<color> colors;    // the last columns
+
+    /// @param header       a pcd_header
     /// @param with_colors  whether to unpack them, which takes time
-    pcd_table(const pcd_header& header, bool with_colors) {
-        std::vector<std::pair<std::size_t, std::size_t>> packed;  // column, number of bytes
-        for (const pcd_field& field : header.fields) {
+    pcd_table(const auto& header, bool with_colors) {
+        std::vector<color> packed;  // how many bytes of a column, not which
+        for (const auto& field : header.fields) {
             const bool is_packed = with_colors && field.size() == 4 && field.count == 1 &&
                                    (field.name == "rgb" || field.name == "rgba");
-            if (is_packed) packed.emplace_back(columns.size(), field.name.size());
+            if (is_packed)
+                packed.push_back({columns.size(), field.name.size(), field.type.kind == 'F'});
             for (std::size_t k = 0; k < field.count; ++k) {
                 const bool is_single = field.count == 1 || field.name == "_";
                 columns.push_back(
                     {is_single ? field.name : field.name + "[" + std::to_string(k) + "]",
                      field_type_of(field.type), !is_packed});
-                types.push_back(field.type);
             }
         }
-        constexpr std::array<std::pair<const char*, std::size_t>, 4> channels = {
-            {{"red", 2}, {"green", 1}, {"blue", 0}, {"alpha", 3}}};
-        for (const auto& [source, count] : packed) {
-            for (std::size_t k = 0; k < count; ++k) {
-                columns.push_back({channels[k].first, field_type::uint8});
-                colors.push_back({source, channels[k].second});
+        constexpr const char* channels[] = {"red", "green", "blue", "alpha"};
+        constexpr std::size_t bytes[] = {2, 1, 0, 3};  // of these
+        for (const color& source : packed) {
+            for (std::size_t k = 0; k < source.byte; ++k) {
+                columns.push_back({channels[k], field_type::uint8});
+                colors.push_back({source.source, bytes[k], source.is_of_float});
             }
         }
     }
 
+    /// The number of values of a point in the file.
+    [[nodiscard]] std::size_t values() const { return columns.size() - colors.size(); }
+
     /// Appends the bytes to the values of a point that were read from text. What the text of a
     /// float cannot hold (the bits of a NaN) becomes black.
     void append_colors(std::vector<double>& row) const {
-        for (const pcd_color& c : colors) {
+        for (const color& c : colors) {
             const double value = row[c.source];
             std::uint32_t bits = 0;
-            if (types[c.source].kind == 'F')
+            if (c.is_of_float)
                 bits = std::isfinite(value) ? std::bit_cast<std::uint32_t>(to_float(value)) : 0;
             else if (std::abs(value) <= 0xffffffffU)
                 bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(value));
@@ -18457,8 +18459,8 @@ template <class = void>
 /// Appends the places of the bytes of colors.
 template <class = void>
 [[nodiscard]] std::vector<pcd_column> with_colors(std::vector<pcd_column> columns,
-                                                  const pcd_table& table) {
-    for (const pcd_color& c : table.colors) {
+                                                  const auto& table) {
+    for (const auto& c : table.colors) {
         const pcd_column source = columns[c.source];
         columns.push_back({{'U', 1}, source.first + c.byte, source.stride});
     }
@@ -18481,13 +18483,13 @@ void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_
 }
 
 /// Reads the points of ascii data, one per line.
-void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, const pcd_table& table) {
-    text.require_rows(points, table.types.size());
+void read_pcd_ascii(auto& builder, auto text, std::uint64_t points, const auto& table) {
+    text.require_rows(points, table.values());
     builder.reserve(static_cast<std::size_t>(points));
     std::vector<double> row;
     for (std::uint64_t i = 0; i < points; ++i) {
         splitter words = text.words();
-        row.resize(table.types.size());
+        row.resize(table.values());
         for (double& value : row) value = text.number(words);
         if (words.next()) text.fail("more values than the header declares");
         table.append_colors(row);
@@ -18496,8 +18498,8 @@ void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, const
 }
 
 /// Reads the points of binary data.
-void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
-                     const pcd_table& table, std::size_t stride) {
+void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header, const auto& table,
+                     std::size_t stride) {
     bytes.require_rows(header.points, stride);
     const auto points = static_cast<std::size_t>(header.points);
     add_pcd_points(builder, bytes.take(points * stride),
@@ -18506,7 +18508,7 @@ void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
 
 /// Reads the points of binary_compressed data: two sizes, then LZF.
 void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& header,
-                         const pcd_table& table, std::size_t stride) {
+                         const auto& table, std::size_t stride) {
     const auto size = [&bytes] {
         return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
     };
@@ -18521,6 +18523,30 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
     add_pcd_points(builder, *data, with_colors(planar_columns(header, points), table), points);
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_pcd(const input& file, auto text, const auto& fields) {
+    const auto header = read_pcd_header(text);
+    const pcd_table table(header, !fields.empty());
+    scan_builder builder(table.columns, fields, text);
+
+    std::size_t stride = 0;
+    for (const auto& field : header.fields) stride += field.size();
+    const byte_cursor bytes(file, text.offset());
+
+    if (header.data == "ascii")
+        read_pcd_ascii(builder, text, header.points, table);
+    else if (header.data == "binary")
+        read_pcd_binary(builder, bytes, header, table, stride);
+    else if (header.data == "binary_compressed")
+        read_pcd_compressed(builder, bytes, header, table, stride);
+    else
+        text.fail("DATA " + in_quotes(header.data) + " is not known");
+    scan result = std::move(builder).finish(header.viewpoints);
+    result.width = static_cast<std::size_t>(header.width);
+    return result;
+}
+
 }  // namespace detail
 
 /// Parses a PCD file. NaN coordinates are kept. The position in VIEWPOINT becomes the viewpoint
@@ -18532,28 +18558,9 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 ///         the file has several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>
+template <class = void>  // templates, so that unused readers cost no compile time
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const detail::pcd_header header = detail::read_pcd_header(text);
-    const detail::pcd_table table(header, !fields.empty());
-    detail::scan_builder builder(table.columns, fields, text);
-
-    std::size_t stride = 0;
-    for (const detail::pcd_field& field : header.fields) stride += field.size();
-    const detail::byte_cursor bytes(file, text.offset());
-
-    if (header.data == "ascii")
-        detail::read_pcd_ascii(builder, text, header.points, table);
-    else if (header.data == "binary")
-        detail::read_pcd_binary(builder, bytes, header, table, stride);
-    else if (header.data == "binary_compressed")
-        detail::read_pcd_compressed(builder, bytes, header, table, stride);
-    else
-        text.fail("DATA " + detail::in_quotes(header.data) + " is not known");
-    scan result = std::move(builder).finish(header.viewpoints);
-    result.width = static_cast<std::size_t>(header.width);
-    return result;
+    return detail::read_pcd(file, detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io
@@ -18832,7 +18839,8 @@ template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);
-    detail::scan_builder builder({{"x"}, {"y"}, {"z"}}, fields, text);
+    const std::vector<detail::file_column> columns = {{"x"}, {"y"}, {"z"}};
+    detail::scan_builder builder(columns, fields, text);
     text.require_rows(points, 3);
     builder.reserve(static_cast<std::size_t>(points));
 
@@ -21744,7 +21752,7 @@ class flush_boxes {
         std::array<double, 4> breaks{0.0, zero_of(first), zero_of(last), 1.0};
         if (breaks[1] > breaks[2]) std::swap(breaks[1], breaks[2]);
         for (std::size_t i = 0; i < 3; ++i) {
-            constexpr double rounding = 1e-15;
+            constexpr double rounding = 1e-15;  // numerical: of two sines
             const double middle = 0.5 * (breaks[i] + breaks[i + 1]);
             if (!(breaks[i] < breaks[i + 1]) || sign_change(middle) > rounding) continue;
             a_ = &a;
@@ -22332,10 +22340,10 @@ struct regression_term {
 /// The term of a point whose ray is known. The point where the ray meets the surface is found by
 /// Newton's method, on the side of the surface that the point is on; the distance from the surface
 /// is a convex function along a line, so the method converges. Left out if the ray does not meet
-/// the surface, or more obliquely than at `least_cosine` of ray and normal.
+/// the surface, or more obliquely than at `least` cosine of ray and normal.
 template <class Surface>
 [[nodiscard]] regression_term term_along_ray(const regression_point& p, const Surface& s,
-                                             double least_cosine) {
+                                             double least) {
     constexpr int most_steps = 20;         // performance only: convergence is quadratic
     constexpr double close_enough = 1e-9;  // numerical: its square is below the rounding error
     double along = 0.0, cosine = 0.0;
@@ -22345,8 +22353,7 @@ template <class Surface>
         if (!(i == 0 ? c != 0.0 : c * cosine > 0.0)) break;
         cosine = c;
         const double step = foot.distance / c;
-        if (std::abs(step) < close_enough && std::abs(c) >= least_cosine)
-            return {p, along - step, c};
+        if (std::abs(step) < close_enough && std::abs(c) >= least) return {p, along - step, c};
         along -= step;
     }
     regression_term left_out(p);
@@ -22430,9 +22437,9 @@ class surface_regression {
     /// Not converged if the last round began far from its minimum.
     /// @param at  a surface of least squared distances, of these points or some of them
     [[nodiscard]] fitted_surface<Surface> refined(fitted_surface<Surface> at, int most_iterations) {
-        constexpr int most_rounds = 16;     // performance only: two to four are the rule
+        constexpr int rounds = 16;          // performance only: two to four are the rule
         constexpr int choosing_rounds = 2;  // rays at the limit would come and go without end
-        for (int round = 0; round < most_rounds; ++round) {
+        for (int round = 0; round < rounds; ++round) {
             set_terms(at.surface, at.variance(), round < choosing_rounds);
             at = from(at.surface, most_iterations);
             if (at.iterations <= 1) return at;
@@ -22464,8 +22471,8 @@ class surface_regression {
     /// The terms about a surface.
     /// @param choose  whether points may be left out or in; else, as far as possible, they stay
     void set_terms(const Surface& s, double shown, bool choose) {
-        constexpr double least_cosine = 0.2;  // chosen: of ray and normal, 78 degrees
-        const double least = choose ? least_cosine : 0.5 * least_cosine;
+        constexpr double oblique = 0.2;  // chosen: of ray and normal, 78 degrees
+        const double least = choose ? oblique : 0.5 * oblique;
         for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
             for (std::size_t i = begin; i < end; ++i) {
                 const regression_point& p = points_[i];
@@ -25801,8 +25808,7 @@ class cell_surfaces {
     void find(const segment_planes_options& planes, const X& run) {
         cloud_.emplace(index_, noise_.of_planes, run, !noise_.is_across_surface);
         cloud_->counts = cells_.counts;
-        const bool is_independent =
-            !noise_.is_across_surface && !is_of_camera(index_, some_points_of(index_));
+        const bool is_independent = !noise_.is_across_surface && !is_of_camera(index_);
         regions_.emplace(regions_of_planes(*cloud_, *graph_, *near_, surface_, planes.min_points,
                                            planes.max_angle, is_independent, run));
     }
@@ -25840,6 +25846,35 @@ class cell_surfaces {
     std::optional<planar_cloud> cloud_;
     std::optional<plane_regions<scratch_graph, first_neighbors<scratch_graph>>> regions_;
 };
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/normals/detail/wide_noise.hpp ---------------------------------------------------
+
+/// @file
+/// Noise that neighbors have in common: a depth camera bends a wall by more than single readings
+/// scatter, so that a wide plane deviates more than a small neighborhood. That is
+/// measured as the noise is, on a few of the points, whose neighborhoods are wide.
+
+namespace gnomon::detail {
+
+/// The noise of wide planes: that of neighborhoods in about 3,000 points of an index, if it can be
+/// measured, and is more.
+/// @param noise   that of small neighborhoods
+/// @param sparse  memory for the index of these points
+template <class X>
+[[nodiscard]] noise_curve noise_of_wide_planes(const spatial_index& index, const noise_curve& noise,
+                                               spatial_index& sparse, const X& run) {
+    if (index.finite() / sampled_planes < 2) return noise;  // a plane for each point left
+    const scratch<point_index> some = some_points_of(index, sampled_planes);
+    if (!is_of_camera(index, some)) return noise;
+    double range = 0.0;
+    for (const point_index i : some) range += length(difference(index[i], index.viewpoints[i]));
+    sparse.rebuild(subset_view<spatial_index>(index, some), run);
+    const measured_noise wide = noise_meter(sparse, run)(sampled_planes / 2, noise);
+    range /= static_cast<double>(std::max<std::size_t>(some.size(), 1));
+    return wide.curve && (*wide.curve)(range) > noise(range) ? *wide.curve : noise;
+}
 
 }  // namespace gnomon::detail
 

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <iterator>
 #include <span>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -83,22 +84,24 @@ class viewpoint_table {
     /// The view points of some of the points, in the order of `indices`: one per scan, if they are
     /// here and the scans are fewer than the indices.
     /// Precondition: covers(n) and every index is below n.
-    [[nodiscard]] viewpoint_table subset(std::span<const point_index> indices) const {
+    /// @param indices  point_index. (A template, for compile time.)
+    [[nodiscard]] viewpoint_table subset(const auto& indices) const {
         if (scope_ == scope::none || scope_ == scope::cloud) return *this;
-        if (scope_ == scope::scan && positions_.size() < indices.size()) {
-            std::vector<point_index> scans;
-            scans.reserve(indices.size());
-            for (const point_index i : indices) scans.push_back(scan_of_point_[i]);
-            return viewpoint_table(positions_, std::move(scans));
-        }
-        std::vector<Eigen::Vector3d> chosen;
-        chosen.reserve(indices.size());
-        for (const point_index i : indices) chosen.push_back((*this)[i]);
-        return viewpoint_table(std::move(chosen));
+        if (scope_ == scope::point) return viewpoint_table(chosen(positions_, indices));
+        auto scans = chosen(scan_of_point_, indices);
+        if (positions_.size() < indices.size()) return viewpoint_table(positions_, std::move(scans));
+        return viewpoint_table(chosen(positions_, scans));
     }
 
   private:
     enum class scope : char { none, cloud, scan, point };
+
+    [[nodiscard]] static auto chosen(const auto& values, const auto& indices) {
+        std::remove_cvref_t<decltype(values)> result;
+        result.reserve(indices.size());
+        for (const point_index i : indices) result.push_back(values[i]);
+        return result;
+    }
 
     [[nodiscard]] static std::uint64_t next_number() {
         static std::atomic<std::uint64_t> last{0};

@@ -61,8 +61,8 @@ template <class = void>
 /// Appends the places of the bytes of colors.
 template <class = void>
 [[nodiscard]] std::vector<pcd_column> with_colors(std::vector<pcd_column> columns,
-                                                  const pcd_table& table) {
-    for (const pcd_color& c : table.colors) {
+                                                  const auto& table) {
+    for (const auto& c : table.colors) {
         const pcd_column source = columns[c.source];
         columns.push_back({{'U', 1}, source.first + c.byte, source.stride});
     }
@@ -85,13 +85,13 @@ void add_pcd_points(auto& builder, std::string_view data, const std::vector<pcd_
 }
 
 /// Reads the points of ascii data, one per line.
-void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, const pcd_table& table) {
-    text.require_rows(points, table.types.size());
+void read_pcd_ascii(auto& builder, auto text, std::uint64_t points, const auto& table) {
+    text.require_rows(points, table.values());
     builder.reserve(static_cast<std::size_t>(points));
     std::vector<double> row;
     for (std::uint64_t i = 0; i < points; ++i) {
         splitter words = text.words();
-        row.resize(table.types.size());
+        row.resize(table.values());
         for (double& value : row) value = text.number(words);
         if (words.next()) text.fail("more values than the header declares");
         table.append_colors(row);
@@ -100,8 +100,8 @@ void read_pcd_ascii(auto& builder, text_cursor text, std::uint64_t points, const
 }
 
 /// Reads the points of binary data.
-void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
-                     const pcd_table& table, std::size_t stride) {
+void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header, const auto& table,
+                     std::size_t stride) {
     bytes.require_rows(header.points, stride);
     const auto points = static_cast<std::size_t>(header.points);
     add_pcd_points(builder, bytes.take(points * stride),
@@ -110,7 +110,7 @@ void read_pcd_binary(auto& builder, byte_cursor bytes, const pcd_header& header,
 
 /// Reads the points of binary_compressed data: two sizes, then LZF.
 void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& header,
-                         const pcd_table& table, std::size_t stride) {
+                         const auto& table, std::size_t stride) {
     const auto size = [&bytes] {
         return static_cast<std::size_t>(bytes.number({'U', 4}, std::endian::little));
     };
@@ -125,6 +125,30 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
     add_pcd_points(builder, *data, with_colors(planar_columns(header, points), table), points);
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_pcd(const input& file, auto text, const auto& fields) {
+    const auto header = read_pcd_header(text);
+    const pcd_table table(header, !fields.empty());
+    scan_builder builder(table.columns, fields, text);
+
+    std::size_t stride = 0;
+    for (const auto& field : header.fields) stride += field.size();
+    const byte_cursor bytes(file, text.offset());
+
+    if (header.data == "ascii")
+        read_pcd_ascii(builder, text, header.points, table);
+    else if (header.data == "binary")
+        read_pcd_binary(builder, bytes, header, table, stride);
+    else if (header.data == "binary_compressed")
+        read_pcd_compressed(builder, bytes, header, table, stride);
+    else
+        text.fail("DATA " + in_quotes(header.data) + " is not known");
+    scan result = std::move(builder).finish(header.viewpoints);
+    result.width = static_cast<std::size_t>(header.width);
+    return result;
+}
+
 }  // namespace detail
 
 /// Parses a PCD file. NaN coordinates are kept. The position in VIEWPOINT becomes the viewpoint
@@ -136,28 +160,9 @@ void read_pcd_compressed(auto& builder, byte_cursor bytes, const pcd_header& hea
 ///         the file has several rows
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>
+template <class = void>  // templates, so that unused readers cost no compile time
 [[nodiscard]] scan read_pcd(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const detail::pcd_header header = detail::read_pcd_header(text);
-    const detail::pcd_table table(header, !fields.empty());
-    detail::scan_builder builder(table.columns, fields, text);
-
-    std::size_t stride = 0;
-    for (const detail::pcd_field& field : header.fields) stride += field.size();
-    const detail::byte_cursor bytes(file, text.offset());
-
-    if (header.data == "ascii")
-        detail::read_pcd_ascii(builder, text, header.points, table);
-    else if (header.data == "binary")
-        detail::read_pcd_binary(builder, bytes, header, table, stride);
-    else if (header.data == "binary_compressed")
-        detail::read_pcd_compressed(builder, bytes, header, table, stride);
-    else
-        text.fail("DATA " + detail::in_quotes(header.data) + " is not known");
-    scan result = std::move(builder).finish(header.viewpoints);
-    result.width = static_cast<std::size_t>(header.width);
-    return result;
+    return detail::read_pcd(file, detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io

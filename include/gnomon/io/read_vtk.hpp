@@ -63,7 +63,8 @@ template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
     detail::text_cursor text(file);
     const std::uint64_t points = detail::read_vtk_header(text);
-    detail::scan_builder builder({{"x"}, {"y"}, {"z"}}, fields, text);
+    const std::vector<detail::file_column> columns = {{"x"}, {"y"}, {"z"}};
+    detail::scan_builder builder(columns, fields, text);
     text.require_rows(points, 3);
     builder.reserve(static_cast<std::size_t>(points));
 

@@ -6,13 +6,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
@@ -23,52 +21,57 @@
 
 namespace gnomon::io::detail {
 
-/// A byte of the value of another column.
-struct pcd_color {
-    std::size_t source;  // the column
-    std::size_t byte;    // 0 is the lowest
-};
-
-/// The columns: values of the file, then bytes of these. (Its functions are templates, so that
-/// unused readers cost no compile time.)
+/// The columns: values of the file, then bytes of these. (A template with members that depend on
+/// its argument, so that unused readers cost no compile time.)
+/// @tparam Column  a file_column
+template <class Column = file_column>
 struct pcd_table {
-    std::vector<file_column> columns;  // "x" for a field of one value, "fpfh[0]", ... for several
-    std::vector<scalar_layout> types;  // of the values
-    std::vector<pcd_color> colors;     // the last columns
+    /// A byte of the value of another column.
+    struct color {
+        std::size_t source;  // the column
+        std::size_t byte;    // 0 is the lowest
+        bool is_of_float;
+    };
+
+    std::vector<Column> columns;  // "x" for a field of one value, "fpfh[0]", ... for several
+    std::vector<color> colors;    // the last columns
 
     /// @param header       a pcd_header
     /// @param with_colors  whether to unpack them, which takes time
     pcd_table(const auto& header, bool with_colors) {
-        std::vector<std::pair<std::size_t, std::size_t>> packed;  // column, number of bytes
-        for (const pcd_field& field : header.fields) {
+        std::vector<color> packed;  // how many bytes of a column, not which
+        for (const auto& field : header.fields) {
             const bool is_packed = with_colors && field.size() == 4 && field.count == 1 &&
                                    (field.name == "rgb" || field.name == "rgba");
-            if (is_packed) packed.emplace_back(columns.size(), field.name.size());
+            if (is_packed)
+                packed.push_back({columns.size(), field.name.size(), field.type.kind == 'F'});
             for (std::size_t k = 0; k < field.count; ++k) {
                 const bool is_single = field.count == 1 || field.name == "_";
                 columns.push_back(
                     {is_single ? field.name : field.name + "[" + std::to_string(k) + "]",
                      field_type_of(field.type), !is_packed});
-                types.push_back(field.type);
             }
         }
-        constexpr std::array<std::pair<const char*, std::size_t>, 4> channels = {
-            {{"red", 2}, {"green", 1}, {"blue", 0}, {"alpha", 3}}};
-        for (const auto& [source, count] : packed) {
-            for (std::size_t k = 0; k < count; ++k) {
-                columns.push_back({channels[k].first, field_type::uint8});
-                colors.push_back({source, channels[k].second});
+        constexpr const char* channels[] = {"red", "green", "blue", "alpha"};
+        constexpr std::size_t bytes[] = {2, 1, 0, 3};  // of these
+        for (const color& source : packed) {
+            for (std::size_t k = 0; k < source.byte; ++k) {
+                columns.push_back({channels[k], field_type::uint8});
+                colors.push_back({source.source, bytes[k], source.is_of_float});
             }
         }
     }
 
+    /// The number of values of a point in the file.
+    [[nodiscard]] std::size_t values() const { return columns.size() - colors.size(); }
+
     /// Appends the bytes to the values of a point that were read from text. What the text of a
     /// float cannot hold (the bits of a NaN) becomes black.
-    void append_colors(auto& row) const {
-        for (const pcd_color& c : colors) {
+    void append_colors(std::vector<double>& row) const {
+        for (const color& c : colors) {
             const double value = row[c.source];
             std::uint32_t bits = 0;
-            if (types[c.source].kind == 'F')
+            if (c.is_of_float)
                 bits = std::isfinite(value) ? std::bit_cast<std::uint32_t>(to_float(value)) : 0;
             else if (std::abs(value) <= 0xffffffffU)
                 bits = static_cast<std::uint32_t>(static_cast<std::int64_t>(value));

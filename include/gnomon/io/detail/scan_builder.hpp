@@ -32,13 +32,12 @@ struct file_column {
 template <class Text>
 class scan_builder {
   public:
-    /// @param columns  of the file
+    /// @param columns  of the file: a range of file_column
     /// @param wanted   the names of the columns that become fields; "*" stands for all others that
     ///                 are neither coordinates nor viewpoints: of equal names the first
     /// @param text     position of the column names, for the error message
     /// @throws gnomon::error  if x, y, z or a requested column is missing
-    scan_builder(const std::vector<file_column>& columns, const std::vector<std::string>& wanted,
-                 const Text& text)
+    scan_builder(const auto& columns, const std::vector<std::string>& wanted, const Text& text)
         : axes_{column(columns, "x", text), column(columns, "y", text),
                 column(columns, "z", text)} {
         for (const char* const name : {"viewpoint_x", "viewpoint_y", "viewpoint_z"}) {
@@ -80,8 +79,7 @@ class scan_builder {
 
   private:
     /// The index of the first column `name`; their number if there is none.
-    [[nodiscard]] static std::size_t find(const std::vector<file_column>& columns,
-                                          std::string_view name) {
+    [[nodiscard]] static std::size_t find(const auto& columns, std::string_view name) {
         std::size_t k = 0;
         while (k < columns.size() && columns[k].name != name) ++k;
         return k;
@@ -89,23 +87,23 @@ class scan_builder {
 
     /// The index of the column `name`.
     /// @throws gnomon::error  with the list of all columns, if it is missing
-    [[nodiscard]] static std::size_t column(const std::vector<file_column>& columns,
-                                            const std::string& name, const Text& text) {
+    [[nodiscard]] static std::size_t column(const auto& columns, const std::string& name,
+                                            const Text& text) {
         const std::size_t k = find(columns, name);
         if (k < columns.size() && name != "_") return k;
 
         std::string there;
-        for (const file_column& each : columns)
+        for (const auto& each : columns)
             if (each.name != "_") there += (there.empty() ? "" : ", ") + each.name;
         text.fail("there is no field " + in_quotes(name) + "; there are: " + there);
     }
 
-    void add_field(const std::vector<file_column>& columns, std::size_t k) {
+    void add_field(const auto& columns, std::size_t k) {
         sources_.push_back(k);
         result_.fields.push_back({columns[k].name, {}, columns[k].type});
     }
 
-    void add_all(const std::vector<file_column>& columns) {
+    void add_all(const auto& columns) {
         const auto is_in = [](std::size_t k, const auto& some) {
             return std::find(some.begin(), some.end(), k) != some.end();
         };
