@@ -1371,7 +1371,8 @@ class viewpoint_table {
         if (scope_ == scope::none || scope_ == scope::cloud) return *this;
         if (scope_ == scope::point) return viewpoint_table(chosen(positions_, indices));
         auto scans = chosen(scan_of_point_, indices);
-        if (positions_.size() < indices.size()) return viewpoint_table(positions_, std::move(scans));
+        if (positions_.size() < indices.size())
+            return viewpoint_table(positions_, std::move(scans));
         return viewpoint_table(chosen(positions_, scans));
     }
 
@@ -9978,8 +9979,8 @@ struct quantization {
 // -------- gnomon/normals/detail/ray_cone.hpp -----------------------------------------------------
 
 /// @file
-/// The cone around the rays of a sensor: a depth camera is told from a laser scanner by its narrow
-/// field of view. (Templates, so that only their users compile them.)
+/// The cone around the rays of a sensor: that of a depth camera is narrow. (Templates, so that only
+/// their users compile them.)
 
 namespace gnomon::detail {
 
@@ -10029,7 +10030,7 @@ namespace gnomon::detail {
     return has_length(axis_of_cone(rays));
 }
 
-/// The same of some of all its points, drawn at random.
+/// The same for some of all its points, drawn at random.
 [[nodiscard]] bool is_of_camera(const auto& index) {
     constexpr std::size_t enough = 3000;  // performance only
     return is_of_camera(index, some_points_of(index, enough));

@@ -89,7 +89,8 @@ class viewpoint_table {
         if (scope_ == scope::none || scope_ == scope::cloud) return *this;
         if (scope_ == scope::point) return viewpoint_table(chosen(positions_, indices));
         auto scans = chosen(scan_of_point_, indices);
-        if (positions_.size() < indices.size()) return viewpoint_table(positions_, std::move(scans));
+        if (positions_.size() < indices.size())
+            return viewpoint_table(positions_, std::move(scans));
         return viewpoint_table(chosen(positions_, scans));
     }
 

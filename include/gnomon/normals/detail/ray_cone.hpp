@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The cone around the rays of a sensor: a depth camera is told from a laser scanner by its narrow
-/// field of view. (Templates, so that only their users compile them.)
+/// The cone around the rays of a sensor: that of a depth camera is narrow. (Templates, so that only
+/// their users compile them.)
 #pragma once
 
 #include <algorithm>
@@ -64,7 +64,7 @@ namespace gnomon::detail {
     return has_length(axis_of_cone(rays));
 }
 
-/// The same of some of all its points, drawn at random.
+/// The same for some of all its points, drawn at random.
 [[nodiscard]] bool is_of_camera(const auto& index) {
     constexpr std::size_t enough = 3000;  // performance only
     return is_of_camera(index, some_points_of(index, enough));
