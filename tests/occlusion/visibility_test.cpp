@@ -285,6 +285,23 @@ TEST(visibility, end_below_and_above_all_that_was_seen) {
     }
 }
 
+/// A lidar whose view point is stated a meter off: the lowest ring of its ground is nearer, and so
+/// lower, ahead of that than behind.
+TEST(visibility, end_below_what_was_seen_in_the_same_azimuth) {
+    clouds::cloud points;
+    for (int column = 0; column < 720; ++column) {
+        const gnomon::angle turned = gnomon::degrees(0.5 * column);
+        for (double range = 4.0; range < 20.0; range *= 1.05)
+            points.emplace_back(range * cos(turned), range * sin(turned), 0.0);
+    }
+    const visibility visible(gnomon::with_viewpoint(points, {1.0, 0.0, 2.0}),
+                             {.noise = constant_noise{0.01}});
+    EXPECT_EQ(visible.towards({-3.5, 0.0, 0.0}), observation::out_of_view);
+    EXPECT_EQ(visible.towards({-2.0, 1.0, 0.0}), observation::out_of_view);
+    EXPECT_EQ(visible.towards({3.5, 0.0, 0.0}), observation::out_of_view);
+    EXPECT_EQ(visible.towards({4.41, 0.0, 0.0}), observation::on_surface);
+}
+
 /// Of a sensor that sees only itself.
 TEST(visibility, are_of_nothing_where_nothing_was_seen) {
     const clouds::cloud points(5, Eigen::Vector3d(1.0, 1.0, 1.0));

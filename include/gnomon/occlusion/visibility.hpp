@@ -30,6 +30,7 @@
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/occlusion/detail/image_axes.hpp>
 #include <gnomon/occlusion/detail/sensor_places.hpp>
+#include <gnomon/occlusion/detail/view_limits.hpp>
 #include <gnomon/occlusion/merge_policy.hpp>
 #include <gnomon/occlusion/range_image.hpp>
 #include <gnomon/occlusion/ray_spacing.hpp>
@@ -115,9 +116,10 @@ class visibility {
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        const auto blind = std::count_if(
-            images_.begin(), images_.end(),
-            [&](const range_image& image) { return is_out_of_view(place, image.viewpoint()); });
+        const auto blind =
+            std::count_if(images_.begin(), images_.end(), [&](const range_image& image) {
+                return limits_.exclude(detail::difference(place, image.viewpoint()));
+            });
         return 2 * static_cast<std::size_t>(blind) > images_.size() ? observation::out_of_view
                                                                     : observation::unobserved;
     }
@@ -146,37 +148,17 @@ class visibility {
     }
 
   private:
-    /// Finds the range of elevations with returns, enlarged by two pixels, about the given pole or
-    /// the axis along which all rays vary least. The images have poles of their own, since the
-    /// common axis may lie within the field of view of one of them.
+    /// Finds the limits of the view about the given pole or the axis along which all rays vary
+    /// least. The images have poles of their own, since the common axis may lie within the field of
+    /// view of one of them.
     void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
                 detail::has_length(way))
                 ways.push_back(way);
-        pole_ =
-            detail::direction_of(pole ? *pole : detail::least_observed_axis(ways, std::identity()));
-        for (const Eigen::Vector3d& way : ways) {
-            const double sine = detail::dot(pole_, way) / detail::length(way);
-            lowest_sine_ = std::min(lowest_sine_, sine);
-            highest_sine_ = std::max(highest_sine_, sine);
-        }
-        const auto turned = [](double sine, double by) {
-            const double up = std::asin(std::clamp(sine, -1.0, 1.0)) + by;
-            return std::sin(std::clamp(up, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi));
-        };
-        lowest_sine_ = turned(lowest_sine_, -2.0 * pixel_);
-        highest_sine_ = turned(highest_sine_, 2.0 * pixel_);
-    }
-
-    /// Whether a place is below or above all that was seen from anywhere.
-    [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
-                                      const Eigen::Vector3d& viewpoint) const {
-        if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
-        const Eigen::Vector3d way = detail::difference(place, viewpoint);
-        const double up = detail::dot(pole_, way), distance = detail::length(way);
-        return up < lowest_sine_ * distance || up > highest_sine_ * distance;
+        limits_.set(ways, pole ? *pole : detail::least_observed_axis(ways, std::identity()),
+                    pixel_);
     }
 
     /// The root mean square of the standard deviations of the ranges [m].
@@ -241,9 +223,8 @@ class visibility {
     }
 
     noise_curve noise_;
-    double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;                            // of the limits
-    double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
+    double pixel_ = 0.0;  // [rad]
+    detail::view_limits limits_;
     detail::scratch<range_image> images_;
 };
 

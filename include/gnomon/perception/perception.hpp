@@ -99,7 +99,8 @@ struct perception {
     Estimator estimate{};
     Merge merge{};
     Segmentation segmentation{};
-    /// Along the rays; by default it is measured.
+    /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
+    /// given noise have the measured one.
     std::optional<noise_curve> noise = std::nullopt;
     std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};

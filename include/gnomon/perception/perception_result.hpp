@@ -32,7 +32,8 @@ struct perception_result {
     /// The noise of the points, which all steps share.
     struct known_noise {
         noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
-        /// That of wide planes: more, where neighbors have errors in common.
+        /// That of wide planes: more, where neighbors have errors in common, or planes scatter by
+        /// more than the given noise.
         noise_curve of_planes = constant_noise{0.0};
         /// Whether it is that across the surfaces, in place of that along the rays; then nothing
         /// was merged behind occluders.

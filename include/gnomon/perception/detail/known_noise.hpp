@@ -4,36 +4,54 @@
 /// across the surfaces, with the reason.
 #pragma once
 
+#include <optional>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/scratch.hpp>
+#include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
 #include <gnomon/core/range_noise.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/ray_cone.hpp>
 #include <gnomon/normals/detail/wide_noise.hpp>
 #include <gnomon/normals/measure_noise.hpp>
 #include <gnomon/normals/noise_level.hpp>
 
 namespace gnomon::detail {
 
+/// The root mean square of the noise of some of the points [m].
+[[nodiscard]] double mean_noise(const auto& points, const noise_curve& noise) {
+    double sum = 0.0;
+    const scratch<point_index> some = some_points_of(points, sampled_planes);
+    for (const point_index i : some)
+        sum += noise.variance_along(difference(points[i], points.viewpoints[i]));
+    return some.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(some.size()));
+}
+
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
-/// surfaces, and why.
+/// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
 /// @param result  its `noise` is replaced, in its memory
 /// @param chain   whose noise is given, or not
-template <class X>
-void determine_noise(auto& result, const spatial_index& points, const auto& chain, const X& run) {
+template <class Chain, class X>
+void determine_noise(auto& result, const spatial_index& points, const Chain& chain, const X& run) {
     auto& noise = result.noise;
+    const std::optional<noise_curve>& given = chain.noise;
     noise = {};
-    if (chain.noise) {
-        noise.curve = noise.of_planes = *chain.noise;
-        return;
-    }
+    if (given) noise.curve = noise.of_planes = *given;
+    if (given && !Chain::is_on_cells) return;
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
-        noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
-        return;
+        const noise_curve of_planes =
+            noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
+        if (!given) noise.curve = *found.curve;
+        if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
+            noise.of_planes = of_planes;
+    } else if (!given) {
+        noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+        noise.is_across_surface = true;
+        noise.reason = found.reason;
     }
-    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
-    noise.is_across_surface = true;
-    noise.reason = found.reason;
 }
 
 /// The same policy for this noise, if it depends on any.
