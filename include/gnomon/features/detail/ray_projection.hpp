@@ -35,10 +35,10 @@ class ray_projection {
             const step s(*this, i, p[i]);
             if (s.is_known) distances.push_back(std::abs(s.distance));
         }
-        constexpr double most_deviations = 5.0;        // chosen: the 99.99994 % quantile
+        constexpr double reach = 5.0;        // chosen: the 99.99994 % quantile
         constexpr double deviations_of_median = 1.4826;  // formula: of a normal distribution
         if (!distances.empty())
-            farthest_ = most_deviations * deviations_of_median * quantile(distances, 0.5);
+            farthest_ = reach * deviations_of_median * quantile(distances, 0.5);
     }
 
     /// Calls f(i, position) for each finite point.
