@@ -199,19 +199,18 @@ json description_of(const gnomon::scan& scan, const result& r,
         const gnomon::plane_estimate& plane = r.planes[label];
         const gnomon::segment_shape& shape = shapes[label];
         const auto members = r.surfaces[label];
-        list.push_back(
-            {{"label", label},
-             {"points", members.size()},
-             {"centroid", array_of(shape.frame.centroid)},
-             {"normal", array_of(plane.is_flat ? plane.plane.normal : shape.normal)},
-             {"flat", plane.is_flat},
-             {"surface_variation", shape.surface_variation()},
-             {"aspect_ratio", shape.aspect_ratio()},
-             {"box_size", array_of(shape.frame.box_size)},
-             {"plane", description_of(plane, bounds[label].box)},
-             {"box", description_of(bounds[label].box)},
-             {"polygon", description_of(bounds[label])},
-             {"viewpoint", array_of(scan.viewpoints[members.front()])}});
+        list.push_back({{"label", label},
+                        {"points", members.size()},
+                        {"centroid", array_of(shape.frame.centroid)},
+                        {"normal", array_of(plane.is_flat ? plane.plane.normal : shape.normal)},
+                        {"flat", plane.is_flat},
+                        {"surface_variation", shape.surface_variation()},
+                        {"aspect_ratio", shape.aspect_ratio()},
+                        {"box_size", array_of(shape.frame.box_size)},
+                        {"plane", description_of(plane, bounds[label].box)},
+                        {"box", description_of(bounds[label].box)},
+                        {"polygon", description_of(bounds[label])},
+                        {"viewpoint", array_of(scan.viewpoints[members.front()])}});
     }
     return list;
 }

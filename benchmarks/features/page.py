@@ -37,7 +37,7 @@ SECTIONS = [
      "positions\" from 60 cm to the left, where other points of a part are seen. As most features are almost "
      "always repeatable, the ratios are shown too: the median distance of the same part in both scans over that "
      "of different parts, 0 is best. Times are per part on one thread, without the normals of points, of which "
-     "mean normal and mean surface variation are averages."),
+     "mean normal and mean surface variation are averages; one call gives the first eight features."),
     ("zernike", "Zernike descriptors",
      "480 scans of one piece of furniture each, from 1.2 to 3 m away, with noise of 15 mm: the mean distance of "
      "the same part, such as seats of one model of chair, in different views, over that of different parts. "
@@ -48,8 +48,8 @@ SECTIONS = [
      "encloses all of them, and of 32 voxels along its diameter."),
     ("rectangles", "Edges of flat surfaces",
      "The rectangle of smallest area around the points of a flat surface, with noise of 15 mm, compared with that "
-     "around the same points without noise. Planes are those of `estimate_planes`, where view points are known of "
-     "maximum likelihood, to which points are moved along their rays. Without view points planes are those of "
+     "around the same points without noise. Planes are those of `estimate_planes`. With view points they are of "
+     "maximum likelihood, and points are moved to them along their rays. Without view points planes are those of "
      "smallest variance and points are projected along the normal: the noise that remains in the plane makes the "
      "rectangle too large, as the outermost points determine it. Surfaces are the true ones "
      "with 200 points and more: joined faces as on the page of surfaces, of 20 furnished rooms, and of all "

@@ -59,7 +59,7 @@ struct rectangle_error {
     double angle = 0.0;    ///< of the axes, modulo 90 degrees [degrees]
     double spacing = 0.0;  ///< of points [m]
     bool is_rectangular = false;
-    bool is_disk = false;  ///< which has no axes
+    bool is_disk = false;     ///< which has no axes
     bool is_oblique = false;  ///< to the ray at its center, by more than 45 degrees
 
     rectangle_error(const outlined& found, const positions& true_ones,

@@ -68,13 +68,13 @@ struct segment_bounds {
 
 /// The bounds of all segments.
 template <class Estimate>
-[[nodiscard]] std::vector<segment_bounds> bounds_of(
-    const gnomon::scan& scan, const gnomon::perception_result<Estimate>& r,
-    const gnomon::threads& threads) {
+[[nodiscard]] std::vector<segment_bounds> bounds_of(const gnomon::scan& scan,
+                                                    const gnomon::perception_result<Estimate>& r,
+                                                    const gnomon::threads& threads) {
     std::vector<segment_bounds> bounds(r.surfaces.size());
     threads(bounds.size(), [&](std::size_t label) {
-        bounds[label] = bounds_of(scan, r.surfaces[label], r.planes[label],
-                                  !r.noise.is_across_surface);
+        bounds[label] =
+            bounds_of(scan, r.surfaces[label], r.planes[label], !r.noise.is_across_surface);
     });
     return bounds;
 }

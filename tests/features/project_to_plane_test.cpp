@@ -83,7 +83,7 @@ TEST(project_to_plane, moves_along_the_normal_where_rays_are_not_known) {
     EXPECT_LE(largest_distance(project_to_plane(grazing, floor.plane), feet), 1e-14);
 }
 
-/// What is off the plane would be moved by far.
+/// Along its ray a point 10 cm from the plane would be moved by metres.
 TEST(project_to_plane, moves_outliers_along_the_normal) {
     seen_floor floor(7);
     const std::size_t i = floor.noisy.size() - 1;
@@ -133,8 +133,7 @@ TEST(project_to_plane, makes_outlines_free_of_noise) {
         std::vector<gnomon::point_index> half;
         for (gnomon::point_index i = 0; i < floor.noisy.size(); i += 2) half.push_back(i);
         const auto seen = floor.seen();
-        const auto some =
-            project_to_plane(gnomon::subset_view(seen, half), floor.plane);
+        const auto some = project_to_plane(gnomon::subset_view(seen, half), floor.plane);
         for (std::size_t k = 0; k < half.size(); ++k)
             EXPECT_LE((some[k] - floor.true_ones[half[k]]).norm(), 1e-12);
     }

@@ -118,15 +118,16 @@ TEST(segment_shape, faces_its_view_points_or_its_mean_normal) {
 TEST(segment_shape, moves_with_its_points_and_ignores_their_order) {
     const auto points = clouds::sheet(300, 5);
     const Eigen::Vector3d eye(0.3, 0.2, 2.0);
-    const auto surface = gnomon::estimate_normals(points, gnomon::knn{.k = 12}, gnomon::plane_pca{});
+    const auto surface =
+        gnomon::estimate_normals(points, gnomon::knn{.k = 12}, gnomon::plane_pca{});
     const auto here = segment_shape::of(gnomon::with_viewpoint(points, eye), surface, all_of(300));
     const Eigen::Matrix3d r = clouds::random_rotation(6);
     for (const Eigen::Vector3d& t : {Eigen::Vector3d(1, 2, 3), {4e5, 5e6, 100.0}}) {
         const auto moved = clouds::moved(points, r, t);
         auto turned = surface;
         for (auto& e : turned) e.normal = r * e.normal;
-        const auto there = segment_shape::of(gnomon::with_viewpoint(moved, Eigen::Vector3d(r * eye + t)),
-                                             turned, all_of(300));
+        const auto there = segment_shape::of(
+            gnomon::with_viewpoint(moved, Eigen::Vector3d(r * eye + t)), turned, all_of(300));
         EXPECT_EQ(there.spread, here.spread);
         EXPECT_LE((there.frame.centroid - r * here.frame.centroid - t).norm(), 1e-8);
         EXPECT_LE((there.normal - r * here.normal).norm(), 1e-7);
@@ -182,7 +183,8 @@ TEST(segment_shape, names_what_is_degenerate) {
 
 TEST(segment_shape, is_one_for_each_segment) {
     const auto points = clouds::sheet(300, 5);
-    const auto surface = gnomon::estimate_normals(points, gnomon::knn{.k = 12}, gnomon::plane_pca{});
+    const auto surface =
+        gnomon::estimate_normals(points, gnomon::knn{.k = 12}, gnomon::plane_pca{});
     std::vector<std::vector<point_index>> parts(7);
     for (point_index i = 0; i < 300; ++i) parts[i % 6].push_back(i);
     const auto shapes = gnomon::segment_shapes(points, surface, parts);

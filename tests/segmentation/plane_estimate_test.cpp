@@ -50,8 +50,8 @@ plane_estimate estimate_from(const clouds::cloud& points, const Eigen::Vector3d&
     return estimate(gnomon::with_viewpoint(points, eye));
 }
 
-/// The sum of the squared errors of the ranges, in variances of their noise, of a plane turned about
-/// axes 0 and 1 and shifted.
+/// The sum of the squared errors of the ranges, in variances of their noise, of a plane turned
+/// about axes 0 and 1 and shifted.
 double squares_of_ranges(const plane_estimate& e, const Eigen::Vector3d& by,
                          const clouds::cloud& points, const Eigen::Vector3d& eye,
                          const gnomon::noise_curve& noise) {
@@ -148,8 +148,8 @@ TEST(plane_estimate, of_a_strip_narrower_than_its_noise_is_right) {
                 .at(0);
         EXPECT_TRUE(e.is_flat);
         EXPECT_GT(std::abs(n.dot(e.plane.normal)), std::cos(0.5));
-        const Eigen::Vector3d turn = (n.dot(e.plane.normal) < 0.0 ? -1.0 : 1.0) *
-                                     n.cross(e.plane.normal);
+        const Eigen::Vector3d turn =
+            (n.dot(e.plane.normal) < 0.0 ? -1.0 : 1.0) * n.cross(e.plane.normal);
         const Eigen::Vector3d error(turn.dot(e.axes.col(0)), turn.dot(e.axes.col(1)),
                                     n.dot(e.centroid - Eigen::Vector3d(2.0, 0.3, 0.0)));
         nees += error.dot(e.covariance.inverse() * error) / 3.0 / scans;

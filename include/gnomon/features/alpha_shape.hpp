@@ -149,7 +149,8 @@ alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj pr
         for (int a = 0; a < 3; ++a) low[a] = is_any ? std::min(low[a], q[a]) : q[a];
         is_any = true;
     }
-    std::vector<detail::planar_point> projected = detail::planar_axes(plane).projected(points, p, low);
+    std::vector<detail::planar_point> projected =
+        detail::planar_axes(plane).projected(points, p, low);
     std::erase_if(projected, [](const detail::planar_point& q) {
         return !std::isfinite(q.x) || !std::isfinite(q.y);  // the extent overflows
     });

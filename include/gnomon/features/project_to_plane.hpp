@@ -5,10 +5,10 @@
 ///     const auto wall = gnomon::project_to_plane(gnomon::subset_view(scan, parts[s]), plane);
 ///     draw(wall[shape.polygons[0].outline[0]]);  // a corner of an alpha shape of the same points
 ///
-/// Noise displaces a point along its ray. The ray itself is known well, so its intersection with the
-/// plane is where it met the surface, whatever the error of the range. A projection along the normal
-/// keeps the part of the noise that is in the plane, which at oblique incidence is most of it: an
-/// outline is then too large, as its corners are the points with the largest errors.
+/// Noise displaces a point along its ray. The ray itself is known well, so its intersection with
+/// the plane is where it met the surface, whatever the error of the range. A projection along the
+/// normal keeps the part of the noise that is in the plane, which at oblique incidence is most of
+/// it: an outline is then too large, as its corners are the points with the largest errors.
 #pragma once
 
 #include <cstddef>

@@ -144,8 +144,7 @@ segment_shape segment_shape::of(const R& points, const Surface& surface,
     }
     if (shape.points == 0) return shape;
     constexpr double operations = 4.0;  // numerical: that rounded a coordinate
-    shape.spread =
-        detail::extent_of(shape.frame.spectrum, operations * chosen.epsilon() * largest);
+    shape.spread = detail::extent_of(shape.frame.spectrum, operations * chosen.epsilon() * largest);
     if (detail::has_length(sums.normals)) shape.mean_normal = detail::direction_of(sums.normals);
     if (sums.with_normal > 0)
         shape.mean_surface_variation = sums.variations / static_cast<double>(sums.with_normal);

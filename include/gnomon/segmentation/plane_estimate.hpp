@@ -98,11 +98,12 @@ template <class Cloud>
 /// @param variance  of the points, in that of their noise
 [[nodiscard]] inline Eigen::Matrix3d covariance_of_turns(const plane_adjustment& about,
                                                          double variance) {
-    const square_array<3> c = scaled_equations<3>(about.equations).covariance();
-    constexpr std::array<std::size_t, 3> slope{1, 0, 2};
-    constexpr std::array<double, 3> sign{-1.0, 1.0, 1.0};
+    const square_array<plane_parameters> c =
+        scaled_equations<plane_parameters>(about.equations).covariance();
+    constexpr std::array<std::size_t, plane_parameters> slope{1, 0, 2};
+    constexpr std::array<double, plane_parameters> sign{-1.0, 1.0, 1.0};
     Eigen::Matrix3d turns;
-    for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t i = 0; i < plane_parameters; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
             const auto row = static_cast<int>(i), col = static_cast<int>(j);
             turns(row, col) = variance * sign[i] * sign[j] * c[slope[i]][slope[j]];
@@ -143,8 +144,8 @@ template <class Cloud>
 
 }  // namespace detail
 
-/// The planes of segments: where rays are known of maximum likelihood, with points moved along them
-/// (detail/ray_fit.hpp), else of smallest variance.
+/// The planes of segments. Where rays are known they are of maximum likelihood, with points moved
+/// along the rays (detail/ray_fit.hpp); else of smallest variance.
 ///
 /// @param points  any point range of n points [m]; where view points are known, noise lies along
 ///                the rays, else it is the same in all directions

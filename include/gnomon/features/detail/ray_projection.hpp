@@ -18,9 +18,9 @@
 
 namespace gnomon::detail {
 
-/// Moves points to a plane along their rays, up to five standard deviations of the distances that
-/// the points are moved, which the median estimates: what is farther from the plane is no noise,
-/// and would be displaced by far at oblique incidence. All others stay.
+/// Moves points to a plane along their rays, by at most five standard deviations of the distances
+/// by which the points are moved, estimated by the median. Outliers stay: at oblique incidence they
+/// would be displaced by many times their distance from the plane. So do points without a ray.
 /// @tparam Points  a position_view, or anything with size() and positions by index
 template <class Points>
 class ray_projection {
@@ -35,10 +35,9 @@ class ray_projection {
             const step s(*this, i, p[i]);
             if (s.is_known) distances.push_back(std::abs(s.distance));
         }
-        constexpr double reach = 5.0;        // chosen: the 99.99994 % quantile
+        constexpr double reach = 5.0;                    // chosen: the 99.99994 % quantile
         constexpr double deviations_of_median = 1.4826;  // formula: of a normal distribution
-        if (!distances.empty())
-            farthest_ = reach * deviations_of_median * quantile(distances, 0.5);
+        if (!distances.empty()) farthest_ = reach * deviations_of_median * quantile(distances, 0.5);
     }
 
     /// Calls f(i, position) for each finite point.

@@ -28,14 +28,16 @@
 
 namespace gnomon::detail {
 
+inline constexpr std::size_t plane_parameters = 3;  // formula: two slopes and a shift
+
 /// The normal equations of a plane about points that are moved to it: residuals are distances from
 /// the plane in standard deviations of the noise across it, parameters the slopes of the plane
 /// towards b1 and b2 and its shift along the normal at the center [m].
 struct plane_adjustment {
     tangent_basis frame;
     Eigen::Vector3d center;  ///< of the plane [m]
-    normal_equations<3> equations;
-    weighted_moments moved;  ///< of the points on the plane, from the center [m]
+    normal_equations<plane_parameters> equations;
+    weighted_moments moved;             ///< of the points on the plane, from the center [m]
     double least_moved = sin(edge_on);  ///< cosine of normal and ray
 
     plane_adjustment(const tangent_basis& basis, const Eigen::Vector3d& on_plane)
@@ -67,9 +69,8 @@ struct plane_adjustment {
     }
 
     /// The plane after a step of the parameters.
-    [[nodiscard]] plane_adjustment after(const std::array<double, 3>& step) const {
-        const Eigen::Vector3d n =
-            combined(1.0, frame.normal, step[0], frame.b1, step[1], frame.b2);
+    [[nodiscard]] plane_adjustment after(const std::array<double, plane_parameters>& step) const {
+        const Eigen::Vector3d n = combined(1.0, frame.normal, step[0], frame.b1, step[1], frame.b2);
         return {tangent_basis(scaled(1.0 / length(n), n), frame),
                 combined(1.0, center, step[2], frame.normal)};
     }
@@ -117,10 +118,10 @@ template <class Cloud>
             cloud.add(i, on.sums);
             return true;
         });
-        if (2 * on.sums.count < start.sums.count || on.sums.count < 3) return start;
-        const std::array<double, 3> step = linear_solution(next.equations);
+        if (2 * on.sums.count < start.sums.count || on.sums.count < plane_parameters) return start;
+        const auto step = linear_solution(next.equations);
         double decrease = 0.0;  // of the sum of squares, by this step
-        for (std::size_t k = 0; k < 3; ++k) decrease -= step[k] * next.equations.right[k];
+        for (std::size_t k = 0; k < step.size(); ++k) decrease -= step[k] * next.equations.right[k];
         next = next.after(step);
         const bool rests = on.sums.count == region.sums.count;
         region = on;
