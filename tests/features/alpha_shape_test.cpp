@@ -315,17 +315,4 @@ TEST(alpha_shape, refuses_planes_that_are_none) {
     EXPECT_THROW((void)alpha_shape::of(points, {{0, 0, 1}, clouds::nan}), std::invalid_argument);
 }
 
-/// Edges that are removed are used again: their number is that of the triangulation, below 6 n.
-TEST(alpha_shape, triangulates_in_the_memory_of_its_edges) {
-    for (const std::size_t n : {2u, 13u, 1000u}) {
-        std::vector<gnomon::detail::planar_point> points;
-        gnomon::random_stream random(n);
-        for (gnomon::point_index i = 0; i < n; ++i) {
-            const double x = std::floor(1e9 * random.uniform());
-            points.push_back({x, std::floor(1e9 * random.uniform()), i});
-        }
-        EXPECT_LE(gnomon::detail::planar_delaunay(points).edges(), 6 * n);
-    }
-}
-
 }  // namespace
