@@ -9,6 +9,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/filters.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/simulation.hpp>
 

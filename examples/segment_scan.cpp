@@ -22,6 +22,7 @@
 #include "segment_scan/mesh.hpp"
 #include "segment_scan/options.hpp"
 #include "segment_scan/shape.hpp"
+#include <gnomon/features/segment_shape.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
@@ -165,11 +166,10 @@ json description_of(const gnomon::oriented_box& box) {
             {"lengths", array_of(box.lengths)}};
 }
 
-json description_of(const gnomon::scan& scan, const gnomon::plane& plane,
-                    const gnomon::alpha_shape::polygon& polygon) {
+json description_of(const segment_bounds& bounds, const gnomon::alpha_shape::polygon& polygon) {
     const auto corners_of = [&](const std::vector<gnomon::point_index>& path) {
         json corners = json::array();
-        for (const Eigen::Vector3d& corner : on_plane(scan, plane, path))
+        for (const Eigen::Vector3d& corner : bounds.corners(path))
             corners.push_back(array_of(corner));
         return corners;
     };
@@ -179,47 +179,38 @@ json description_of(const gnomon::scan& scan, const gnomon::plane& plane,
 }
 
 /// The largest polygon of a flat segment with the others as its islands, null if there is none.
-json description_of(const gnomon::scan& scan, const gnomon::plane& plane,
-                    const gnomon::alpha_shape& shape) {
-    if (shape.polygons.empty()) return nullptr;
-    json description = description_of(scan, plane, shape.polygons.front());
+json description_of(const segment_bounds& bounds) {
+    const auto& polygons = bounds.outline.polygons;
+    if (polygons.empty()) return nullptr;
+    json description = description_of(bounds, polygons.front());
     json islands = json::array();
-    for (std::size_t i = 1; i < shape.polygons.size(); ++i)
-        islands.push_back(description_of(scan, plane, shape.polygons[i]));
+    for (std::size_t i = 1; i < polygons.size(); ++i)
+        islands.push_back(description_of(bounds, polygons[i]));
     description["islands"] = islands;
     return description;
 }
 
-/// The normal of a segment: of its plane, if it is flat, else of its principal frame.
-Eigen::Vector3d normal_of(const gnomon::plane_estimate& e, const gnomon::principal_frame& frame,
-                          const Eigen::Vector3d& viewpoint) {
-    if (e.is_flat) return e.plane.normal;
-    const bool away = frame.normal().dot(frame.centroid - viewpoint) > 0.0;
-    return away ? -frame.normal() : frame.normal();
-}
-
 /// One object per segment, largest first.
 json description_of(const gnomon::scan& scan, const result& r,
-                    const std::vector<segment_shape>& shapes) {
+                    const std::vector<segment_bounds>& bounds, const options& o) {
+    const auto shapes = gnomon::segment_shapes(scan, r.surface, r.surfaces, o.threads);
     json list = json::array();
     for (std::size_t label = 0; label < r.surfaces.size(); ++label) {
-        const auto members = r.surfaces[label];
         const gnomon::plane_estimate& plane = r.planes[label];
-        const segment_shape& shape = shapes[label];
-        const auto frame = gnomon::principal_frame::of(gnomon::subset_view(scan, members));
-        const Eigen::Vector3d viewpoint = scan.viewpoints[members.front()];
+        const gnomon::segment_shape& shape = shapes[label];
+        const auto members = r.surfaces[label];
         list.push_back({{"label", label},
                         {"points", members.size()},
-                        {"centroid", array_of(frame.centroid)},
-                        {"normal", array_of(normal_of(plane, frame, viewpoint))},
+                        {"centroid", array_of(shape.frame.centroid)},
+                        {"normal", array_of(plane.is_flat ? plane.plane.normal : shape.normal)},
                         {"flat", plane.is_flat},
-                        {"surface_variation", frame.spectrum.surface_variation()},
-                        {"aspect_ratio", frame.spectrum.aspect_ratio()},
-                        {"box_size", array_of(frame.box_size)},
-                        {"plane", description_of(plane, shape.box)},
-                        {"box", description_of(shape.box)},
-                        {"polygon", description_of(scan, plane.plane, shape.outline)},
-                        {"viewpoint", array_of(viewpoint)}});
+                        {"surface_variation", shape.surface_variation()},
+                        {"aspect_ratio", shape.aspect_ratio()},
+                        {"box_size", array_of(shape.frame.box_size)},
+                        {"plane", description_of(plane, bounds[label].box)},
+                        {"box", description_of(bounds[label].box)},
+                        {"polygon", description_of(bounds[label])},
+                        {"viewpoint", array_of(scan.viewpoints[members.front()])}});
     }
     return list;
 }
@@ -250,11 +241,10 @@ void write_points(const output_directory& out, const gnomon::scan& scan, const r
 }
 
 /// The polygons of all flat segments as a PLY file.
-std::string mesh_of(const gnomon::scan& scan, const result& r,
-                    const std::vector<segment_shape>& shapes) {
+std::string mesh_of(const std::vector<segment_bounds>& bounds) {
     ply_mesh mesh;
-    for (std::size_t label = 0; label < shapes.size(); ++label)
-        mesh.add(scan, shapes[label], r.planes[label].plane, static_cast<std::int32_t>(label));
+    for (std::size_t label = 0; label < bounds.size(); ++label)
+        mesh.add(bounds[label], static_cast<std::int32_t>(label));
     return mesh.bytes();
 }
 
@@ -338,15 +328,15 @@ void segment_scan(const options& o) {
     }();
     for (const auto& step : r.steps) seconds[std::string(step.name)] = step.seconds;
     if (o.remove_floor) report_floor(r);
-    std::vector<segment_shape> shapes;
+    std::vector<segment_bounds> bounds;
     const json segments = timed("description", [&] {
-        shapes = shapes_of(scan, r.surfaces, r.planes, o.threads);
-        return description_of(scan, r, shapes);
+        bounds = bounds_of(scan, r, o.threads);
+        return description_of(scan, r, bounds, o);
     });
     const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
     timed("writing", [&] {
         write_points(out, scan, r);
-        if (o.polygons) gnomon::io::replace_file(out / "polygons.ply", mesh_of(scan, r, shapes));
+        if (o.polygons) gnomon::io::replace_file(out / "polygons.ply", mesh_of(bounds));
         gnomon::io::replace_file(out / "segments.png", png);
     });
     seconds["total"] = sum_of(seconds);

@@ -29,8 +29,8 @@ BANNER = """\
 
 
 # The headers of features that no umbrella includes, but those that others of them include.
-FEATURES = ("alpha_shape", "convex_hull", "minimum_area_rectangle", "minimum_volume_box", "fit_sphere", "fit_cylinder",
-            "fit_cone", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
+FEATURES = ("alpha_shape", "convex_hull", "minimum_area_rectangle", "minimum_volume_box", "project_to_plane",
+            "segment_shape", "fit_sphere", "fit_cylinder", "fit_cone", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
             "zernike_descriptor")
 
 

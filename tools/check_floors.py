@@ -52,6 +52,7 @@ OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp"}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
+    "project_to_plane", "segment_shape",
     "surface_fit", "fit_sphere", "fit_cylinder", "fit_cone",
     "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
     "zernike_descriptor")}

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "rooms.hpp"
+#include <gnomon/filters/crop_height.hpp>
 
 namespace sim = gnomon::simulation;
 

@@ -37,7 +37,7 @@ SECTIONS = [
      "positions\" from 60 cm to the left, where other points of a part are seen. As most features are almost "
      "always repeatable, the ratios are shown too: the median distance of the same part in both scans over that "
      "of different parts, 0 is best. Times are per part on one thread, without the normals of points, of which "
-     "mean normal and mean surface variation are averages."),
+     "mean normal and mean surface variation are averages; one call gives the first eight features."),
     ("zernike", "Zernike descriptors",
      "480 scans of one piece of furniture each, from 1.2 to 3 m away, with noise of 15 mm: the mean distance of "
      "the same part, such as seats of one model of chair, in different views, over that of different parts. "
@@ -47,14 +47,18 @@ SECTIONS = [
      "5: of points as masses in a ball of twice their root mean square distance (the default), of the ball that "
      "encloses all of them, and of 32 voxels along its diameter."),
     ("rectangles", "Edges of flat surfaces",
-     "The rectangle of smallest area around the points of a flat surface, in the plane of their principal frame, "
-     "with noise of 15 mm, compared with that around the same points without noise. Surfaces are the true ones "
+     "The rectangle of smallest area around the points of a flat surface, with noise of 15 mm, compared with that "
+     "around the same points without noise. Planes are those of `estimate_planes`. With view points they are of "
+     "maximum likelihood, and points are moved to them along their rays. Without view points planes are those of "
+     "smallest variance and points are projected along the normal: the noise that remains in the plane makes the "
+     "rectangle too large, as the outermost points determine it. Surfaces are the true ones "
      "with 200 points and more: joined faces as on the page of surfaces, of 20 furnished rooms, and of all "
      "models of furniture alone, seen from 2 m in 8 directions. Edges are right if both are within 2 cm and the "
      "spacing, the median distance of a point to its nearest neighbor; axes if they are within 2 degrees, "
      "modulo 90. Excess is the mean error of both edges with its sign. Surfaces are oblique if the ray to their "
      "center is more than 45 degrees from their normal, rectangular if their outline fills 90 % of the "
-     "rectangle."),
+     "rectangle, disks if it fills 78.5 % within 2 % and the edges are equal within 2 %: these have no axes, and "
+     "each gap between their points may turn the rectangle."),
 ]
 
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Edges of flat surfaces: the rectangle of smallest area around the points of each true surface,
-// compared with that around the same points without noise.
+// compared with that around the same points without noise; with view points and without.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -18,21 +18,25 @@
 #include "two_scans.hpp"
 #include <gnomon/features/convex_polygon.hpp>
 #include <gnomon/features/minimum_area_rectangle.hpp>
-#include <gnomon/features/principal_frame.hpp>
+#include <gnomon/segmentation/plane_estimate.hpp>
 
 namespace {
 
 using positions = std::vector<Eigen::Vector3d>;
 
-/// The outline of points in the plane of their principal frame, and its rectangle.
+constexpr double noise = 15.0;  // [mm]
+
+/// The outline of points in their plane, and its rectangle.
 struct outlined {
     double area = 0.0;  ///< of the outline [m^2]
     gnomon::oriented_box rectangle;
 
-    explicit outlined(const positions& points) {
-        const auto frame = gnomon::principal_frame::of(points);
-        const auto polygon = gnomon::convex_polygon::of(
-            points, {frame.normal(), frame.normal().dot(frame.centroid)});
+    /// @param points  with view points or without
+    explicit outlined(const auto& points) {
+        const gnomon::segments whole(std::vector<std::int32_t>(points.size(), 0));
+        const gnomon::noise_curve of_ranges = gnomon::constant_noise{1e-3 * noise};
+        const auto plane = gnomon::estimate_planes(points, whole, of_ranges).at(0).plane;
+        const auto polygon = gnomon::convex_polygon::of(points, plane);
         area = polygon.area;
         rectangle = gnomon::minimum_area_rectangle(polygon);
     }
@@ -55,12 +59,13 @@ struct rectangle_error {
     double angle = 0.0;    ///< of the axes, modulo 90 degrees [degrees]
     double spacing = 0.0;  ///< of points [m]
     bool is_rectangular = false;
+    bool is_disk = false;     ///< which has no axes
     bool is_oblique = false;  ///< to the ray at its center, by more than 45 degrees
 
-    rectangle_error(const positions& noisy, const positions& true_ones,
+    rectangle_error(const outlined& found, const positions& true_ones,
                     const Eigen::Vector3d& viewpoint)
         : spacing(spacing_of(true_ones)) {
-        const outlined found(noisy), truth(true_ones);
+        const outlined truth(gnomon::with_viewpoint(true_ones, viewpoint));
         const Eigen::Vector3d difference = found.rectangle.lengths - truth.rectangle.lengths;
         length = std::max(std::abs(difference[0]), std::abs(difference[1]));
         excess = 0.5 * (difference[0] + difference[1]);
@@ -68,9 +73,12 @@ struct rectangle_error {
         constexpr double degrees_of_radian = 57.29577951308232;
         const double turned = degrees_of_radian * std::atan2(u.cross(v).norm(), std::abs(u.dot(v)));
         angle = std::min(turned, 90.0 - turned);
-        constexpr double filled = 0.9;  // of the rectangle; a disk fills 0.79
-        is_rectangular =
-            truth.area >= filled * truth.rectangle.lengths[0] * truth.rectangle.lengths[1];
+        const double filled =
+            truth.area / (truth.rectangle.lengths[0] * truth.rectangle.lengths[1]);
+        constexpr double of_disk = 0.785, close = 0.02;
+        is_rectangular = filled >= 0.9;
+        is_disk = std::abs(filled - of_disk) < close &&
+                  truth.rectangle.lengths[1] > (1.0 - close) * truth.rectangle.lengths[0];
         const Eigen::Vector3d ray = truth.rectangle.center - viewpoint;
         constexpr double oblique = 0.7071067811865476;  // the cosine of 45 degrees
         is_oblique = std::abs(ray.dot(truth.rectangle.axes.col(2))) < oblique * ray.norm();
@@ -80,8 +88,13 @@ struct rectangle_error {
     [[nodiscard]] bool has_axes() const { return angle <= 2.0; }
 };
 
+/// The errors of all surfaces.
+struct all_errors {
+    std::vector<rectangle_error> seen, unseen;  // with view points, and without
+};
+
 /// Adds the flat surfaces of a scan with 200 points and more.
-void add_surfaces(std::vector<rectangle_error>& errors, const sim::true_scan& truth) {
+void add_surfaces(all_errors& errors, const sim::true_scan& truth) {
     std::vector<gnomon::point_index> all;
     for (gnomon::point_index i = 0; i < truth.scan.size(); ++i)
         if (truth.surfaces[i] != sim::nothing) all.push_back(i);
@@ -93,9 +106,13 @@ void add_surfaces(std::vector<rectangle_error>& errors, const sim::true_scan& tr
         true_ones.push_back(true_place(truth, i));
     }
     constexpr std::size_t fewest = 200;
-    for (const auto& [surface, both] : points)
-        if (both.first.size() >= fewest && surfaces.is_flat(surface))
-            errors.emplace_back(both.first, both.second, truth.scan.viewpoints[0]);
+    const Eigen::Vector3d eye = truth.scan.viewpoints[0];
+    for (const auto& [surface, both] : points) {
+        if (both.first.size() < fewest || !surfaces.is_flat(surface)) continue;
+        const auto& [noisy, true_ones] = both;
+        errors.seen.emplace_back(outlined(gnomon::with_viewpoint(noisy, eye)), true_ones, eye);
+        errors.unseen.emplace_back(outlined(noisy), true_ones, eye);
+    }
 }
 
 void add_row(json& rows, const char* scans, const char* which,
@@ -138,23 +155,20 @@ void add_rows(json& rows, const char* scans, const std::vector<rectangle_error>&
     add_row(rows, scans, "rectangular", errors, [](const auto& e) { return e.is_rectangular; });
     add_row(rows, scans, "not rectangular", errors,
             [](const auto& e) { return !e.is_rectangular; });
+    add_row(rows, scans, "disks", errors, [](const auto& e) { return e.is_disk; });
 }
 
 json measure(const effort& much) {
-    constexpr double noise = 15.0;  // [mm]
     const std::size_t rooms = much.quick ? 2 : 20;
-    json rows = json::array();
-    std::vector<rectangle_error> of_rooms;
+    all_errors of_rooms;
     for (std::size_t r = 0; r < rooms; ++r) {
         const std::uint64_t seed = first_seed + 100 + r;
         const sim::scene world = furnished(seed);
         add_surfaces(of_rooms, scan_of(world, sim::bvh_caster(world),
                                        {noise, "whole", "rotational"}, 1000 * seed + 1));
     }
-    add_rows(rows, "rooms", of_rooms);
-
     const auto models = sim::furniture_models();
-    std::vector<rectangle_error> of_furniture;
+    all_errors of_furniture;
     for (std::size_t m = 0; m < (much.quick ? 2 : models.size()); ++m) {
         for (int direction = 0; direction < 8; ++direction) {
             constexpr double away = 2.0, height = 1.2;  // [m]
@@ -168,8 +182,12 @@ json measure(const effort& much) {
                                  first_seed + 200 + 8 * m + static_cast<std::size_t>(direction)));
         }
     }
-    add_rows(rows, "furniture", of_furniture);
-    return {{"rectangles", rows}};
+    json seen = json::array(), unseen = json::array();
+    add_rows(seen, "rooms", of_rooms.seen);
+    add_rows(seen, "furniture", of_furniture.seen);
+    add_rows(unseen, "rooms", of_rooms.unseen);
+    add_rows(unseen, "furniture", of_furniture.unseen);
+    return {{"rectangles", seen}, {"rectangles, without view points", unseen}};
 }
 
 }  // namespace

@@ -131,16 +131,12 @@ def rectangles(tables, scans):
     return f"{share} % of {row['number']}", share >= 90.0
 
 
-OUTERMOST = ("noise displaces points along the surface, and the outermost ones determine the rectangle: it is too "
-             "large, and more so where rays are oblique")
-
-
 @relation("rectangles", "f.8", "surfaces of rooms: edges within 2 cm and one spacing, axes within 2 degrees, for 90 %",
-          "not in the thesis", OUTERMOST)
+          "not in the thesis")
 def rectangles_of_rooms(tables):
     return rectangles(tables, "rooms")
 
 
-@relation("rectangles", "f.9", "so it is for furniture 2 m away", "not in the thesis", OUTERMOST)
+@relation("rectangles", "f.9", "so it is for furniture 2 m away", "not in the thesis")
 def rectangles_of_furniture(tables):
     return rectangles(tables, "furniture")

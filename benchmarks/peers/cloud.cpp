@@ -21,6 +21,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/random.hpp>
+#include <gnomon/filters/crop_height.hpp>
 #include <gnomon/io/read.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/simulation/pose.hpp>

@@ -22,20 +22,19 @@
 class ply_mesh {
   public:
     /// Adds the triangles of a flat segment.
-    void add(const gnomon::scan& scan, const segment_shape& shape, const gnomon::plane& plane,
-             std::int32_t label) {
+    void add(const segment_bounds& bounds, std::int32_t label) {
         std::vector<gnomon::point_index> used;
-        for (const auto& triangle : shape.outline.triangles)
+        for (const auto& triangle : bounds.outline.triangles)
             used.insert(used.end(), triangle.begin(), triangle.end());
         std::ranges::sort(used);
         used.erase(std::unique(used.begin(), used.end()), used.end());
         const picture::color color = picture::color_of(label);
-        for (const Eigen::Vector3d& corner : on_plane(scan, plane, used)) {
+        for (const Eigen::Vector3d& corner : bounds.corners(used)) {
             for (const double coordinate : corner) append<std::uint64_t>(vertices_, coordinate);
             for (const std::uint8_t channel : color) append<std::uint8_t>(vertices_, channel);
             append<std::uint32_t>(vertices_, label);
         }
-        for (const auto& triangle : shape.outline.triangles) {
+        for (const auto& triangle : bounds.outline.triangles) {
             append<std::uint8_t>(faces_, std::uint8_t{3});
             for (const gnomon::point_index i : triangle) {
                 const auto place = std::ranges::lower_bound(used, i) - used.begin();
@@ -44,7 +43,7 @@ class ply_mesh {
             }
         }
         vertex_count_ += used.size();
-        face_count_ += shape.outline.triangles.size();
+        face_count_ += bounds.outline.triangles.size();
     }
 
     [[nodiscard]] std::string bytes() const {

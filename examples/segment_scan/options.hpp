@@ -48,9 +48,10 @@ segments.json: points, valid (finite ones), noise (model, and standard deviation
 first. The plane of a segment (normal . x = offset) is null where it is not flat; its
 covariance is of turns about the first two axes of the box [rad], and of a shift along
 the third, its normal [m], at its centroid. The box of a flat segment is the rectangle
-of smallest area, its third length the rms distance from the plane; else the box of
-smallest volume. Its polygon has an outline, counterclockwise seen against the normal,
-holes, area [m^2], and as islands further polygons; it is null where there is none.
+of smallest area around its points, moved along their rays to the plane; its third
+length is the rms distance from the plane. Else it is the box of smallest volume. Its
+polygon has an outline, counterclockwise seen against the normal, holes, area [m^2],
+and as islands further polygons; it is null where there is none.
 
 Exit status: 0; 1 if a file cannot be read or written, or SCAN cannot be processed; 2
 for a wrong command line.

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <gnomon/filters/crop_box.hpp>
+#include <gnomon/filters/crop_height.hpp>
 #include <gnomon/filters/remove_outliers.hpp>
 #include <gnomon/filters/subset.hpp>
 #include <gnomon/filters/voxel_grid.hpp>

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <array>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <set>
 #include <utility>
@@ -108,6 +110,19 @@ TEST(planar_delaunay, of_collinear_points_has_no_triangle) {
     }
     EXPECT_EQ(planar_delaunay({}).edges(), 0u);
     EXPECT_EQ(planar_delaunay({{1, 1, 0}, {1, 1, 1}}).edges(), 0u);
+}
+
+/// Edges that are removed are used again: their number is that of the triangulation, below 6 n.
+TEST(planar_delaunay, has_no_more_edges_than_a_triangulation) {
+    for (const std::size_t n : {2u, 13u, 1000u}) {
+        std::vector<gnomon::detail::planar_point> points;
+        gnomon::random_stream random(n);
+        for (gnomon::point_index i = 0; i < n; ++i) {
+            const double x = std::floor(1e9 * random.uniform());
+            points.push_back({x, std::floor(1e9 * random.uniform()), i});
+        }
+        EXPECT_LE(planar_delaunay(points).edges(), 6 * n);
+    }
 }
 
 }  // namespace

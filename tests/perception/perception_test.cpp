@@ -14,6 +14,7 @@
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/supervised.hpp>
 #include <gnomon/core/viewpoints.hpp>
+#include <gnomon/filters/crop_height.hpp>
 #include <gnomon/neighborhoods/radius.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation/simulate.hpp>

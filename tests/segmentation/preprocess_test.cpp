@@ -10,6 +10,7 @@
 
 #include "laws/clouds.hpp"
 #include <gnomon/core/angle.hpp>
+#include <gnomon/filters/crop_height.hpp>
 #include <gnomon/segmentation/leveling.hpp>
 #include <gnomon/segmentation/preprocess.hpp>
 #include <gnomon/simulation/furniture.hpp>
@@ -228,7 +229,6 @@ TEST(preprocess, finds_nothing_in_empty_input) {
         const auto floor = gnomon::find_floor(points);
         EXPECT_TRUE(!floor || (floor->normal.allFinite() && std::isfinite(floor->offset)));
         (void)gnomon::find_ceiling(points, floor.value_or(gnomon::plane{}));
-        (void)gnomon::crop_height(points, floor.value_or(gnomon::plane{}), 2.5);
     }
 }
 
@@ -256,17 +256,12 @@ TEST(preprocess, refuses_bands_without_width) {
          {Eigen::Vector3d(0, 0, 2), Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(0, 0, clouds::nan)}) {
         EXPECT_THROW((void)gnomon::find_floor(points, bad), std::invalid_argument);
         EXPECT_THROW((void)gnomon::find_ceiling(points, {bad, 0.0}), std::invalid_argument);
-        EXPECT_THROW((void)gnomon::crop_height(points, {bad, 0.0}, {}), std::invalid_argument);
     }
     for (const double bad : {0.0, 1e-310, 1e300, clouds::nan})
         EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.bin = bad}),
                      std::invalid_argument)
             << bad;
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_height = clouds::nan}),
-                 std::invalid_argument);
-    EXPECT_THROW((void)gnomon::crop_height(points, gnomon::plane{}, clouds::nan),
-                 std::invalid_argument);
-    EXPECT_THROW((void)gnomon::crop_height(points, gnomon::plane{}, {}, {.ceiling = clouds::nan}),
                  std::invalid_argument);
     EXPECT_THROW((void)gnomon::find_ceiling(points, gnomon::plane{}, {.min_share = clouds::nan}),
                  std::invalid_argument);

@@ -50,11 +50,13 @@ struct alpha_shape {
     std::vector<std::array<point_index, 3>> triangles;  ///< of all polygons, counterclockwise
     double area = 0.0;                                  ///< of all polygons [m^2]
 
-    /// The alpha shape of the projections of the finite points to a plane.
+    /// The alpha shape of the projections of the finite points to a plane: along their rays where
+    /// view points are known, as `project_to_plane` does.
     /// @param points      any point range of n points [m]
     /// @param plane       e.g. that of a segment
     /// @param projection  maps an element of the range to a point
-    /// @throws std::invalid_argument  if n is 2^29 or more, or unless the normal is of unit length
+    /// @throws std::invalid_argument  if n is 2^29 or more, the view points are for another number
+    ///                                of points, or unless the normal is of unit length
     /// Complexity: O(n log n). Points that differ by less than 2^-32 of the extent are one, with
     /// the smallest index of them.
     template <class R, class Proj = std::identity>
@@ -147,7 +149,8 @@ alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj pr
         for (int a = 0; a < 3; ++a) low[a] = is_any ? std::min(low[a], q[a]) : q[a];
         is_any = true;
     }
-    std::vector<detail::planar_point> projected = detail::planar_axes(plane).projected(p, low);
+    std::vector<detail::planar_point> projected =
+        detail::planar_axes(plane).projected(points, p, low);
     std::erase_if(projected, [](const detail::planar_point& q) {
         return !std::isfinite(q.x) || !std::isfinite(q.y);  // the extent overflows
     });

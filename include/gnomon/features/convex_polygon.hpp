@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The convex outline of a planar segment: the convex hull of its points, projected to its plane.
+/// The convex outline of a planar segment: the convex hull of its points, projected to its plane as
+/// `project_to_plane` does.
 /// In no umbrella: include it by name.
 ///
 ///     const auto wall = gnomon::convex_polygon::of(gnomon::subset_view(scan, parts[s]), plane);
@@ -44,12 +45,13 @@ struct convex_polygon {
                                 detail::column(axes, 1));
     }
 
-    /// The convex hull of the projections of the finite points to a plane.
+    /// The convex hull of the projections of the finite points to a plane: along their rays where
+    /// view points are known.
     /// @param points      any point range of n points [m]
     /// @param plane       e.g. that of a segment; its normal is the third axis
     /// @param projection  maps an element of the range to a point
-    /// @throws std::invalid_argument  if n is 2^32 - 1 or more, or unless the normal is of unit
-    ///                                length
+    /// @throws std::invalid_argument  if n is 2^32 - 1 or more, the view points are for another
+    ///                                number of points, or unless the normal is of unit length
     /// Complexity: O(n log n), O(n) if most points are in the interior. Of points projected to one
     /// place the smallest index is a vertex. Source: Andrew 1979 (detail/planar_hull.hpp).
     template <class R, class Proj = std::identity>
@@ -91,7 +93,7 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     if (first == p.size()) return polygon;
     polygon.origin =
         detail::combined(1.0, p[first], -plane.signed_distance(p[first]), plane.normal);
-    detail::set_outline(polygon, planar.projected(p, p[first]));
+    detail::set_outline(polygon, planar.projected(points, p, p[first]));
     return polygon;
 }
 

@@ -171,7 +171,9 @@ template <class R, class Proj = std::identity>
     if (hull.shape != hull_shape::solid) {
         const principal_frame frame = principal_frame::of(corners);
         const double offset = detail::dot(frame.normal(), frame.centroid);
-        return minimum_area_rectangle(convex_polygon::of(corners, {frame.normal(), offset}));
+        // As they are, whatever their view points.
+        const std::vector<Eigen::Vector3d> bare(corners.begin(), corners.end());
+        return minimum_area_rectangle(convex_polygon::of(bare, {frame.normal(), offset}));
     }
     const position_view<R, Proj> p(points, std::move(projection));
     const principal_frame frame = detail::principal_axes_of(detail::moments_about_first(p));

@@ -30,6 +30,7 @@
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/filters/crop_height.hpp>
 #include <gnomon/neighborhoods/noise_knn.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimator.hpp>

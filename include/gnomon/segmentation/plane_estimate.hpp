@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -15,7 +16,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/symmetric_eigen.hpp>
+#include <gnomon/core/detail/square_array.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
@@ -23,9 +24,12 @@
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/features/detail/normal_equations.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/detail/tangent_basis.hpp>
 #include <gnomon/segmentation/detail/planar_cloud.hpp>
 #include <gnomon/segmentation/detail/plane_sums.hpp>
+#include <gnomon/segmentation/detail/ray_fit.hpp>
 #include <gnomon/segmentation/detail/region_fit.hpp>
 #include <gnomon/segmentation/detail/surface_noise.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -37,7 +41,7 @@ struct plane_estimate {
     /// In Hesse normal form, towards the view point of the points, or else the origin; without a
     /// normal if the points do not determine one.
     gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
-    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane, moved to it [m]
     /// Unit columns: the directions of largest and second largest variance in the plane, and its
     /// normal.
     Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
@@ -65,37 +69,83 @@ template <class Cloud>
     return std::ranges::count_if(members, is_off) < fewest_off;
 }
 
+/// The number of finite points.
+template <class Cloud>
+[[nodiscard]] std::size_t count_of(const Cloud& cloud, std::span<const point_index> members) {
+    std::size_t count = 0;
+    for (const point_index i : members)
+        if (cloud.is_finite(i)) count += cloud.counts.empty() ? 1 : cloud.counts[i];
+    return count;
+}
+
+/// The normal equations of a plane about the mean of the points on it, along their principal axes.
+template <class Cloud>
+[[nodiscard]] plane_adjustment adjustment_of(const Cloud& cloud,
+                                             std::span<const point_index> members,
+                                             const region_plane& of) {
+    const auto is_on = [&](point_index i) { return cloud.is_on(i, of); };
+    const gnomon::plane& p = of.plane;
+    plane_adjustment first(tangent_basis(p.normal),
+                           combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
+    first.add_all(cloud, members, true, is_on);
+    plane_adjustment principal = first.principal();
+    principal.add_all(cloud, members, true, is_on);
+    return principal;
+}
+
+/// The covariance of the turns about b1 and b2 and of the shift. A slope towards b2 is a turn about
+/// -b1, one towards b1 a turn about b2.
+/// @param variance  of the points, in that of their noise
+[[nodiscard]] inline Eigen::Matrix3d covariance_of_turns(const plane_adjustment& about,
+                                                         double variance) {
+    const square_array<plane_parameters> c =
+        scaled_equations<plane_parameters>(about.equations).covariance();
+    constexpr std::array<std::size_t, plane_parameters> slope{1, 0, 2};
+    constexpr std::array<double, plane_parameters> sign{-1.0, 1.0, 1.0};
+    Eigen::Matrix3d turns;
+    for (std::size_t i = 0; i < plane_parameters; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const auto row = static_cast<int>(i), col = static_cast<int>(j);
+            turns(row, col) = variance * sign[i] * sign[j] * c[slope[i]][slope[j]];
+            turns(col, row) = turns(row, col);
+        }
+    }
+    return turns;
+}
+
 /// The plane of some points of a cloud, with its covariance.
 /// @param exact  the same points, with the noise of each for itself
 template <class Cloud>
 [[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
                                          const Cloud& exact) {
-    const auto& [sums, fit, is_planar] = region_of(cloud, members);
+    planar_region region = region_of(cloud, members);
     plane_estimate e;
-    e.points = sums.count;
+    e.points = region.sums.count;
     if (e.points == 0) return e;
-    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
-    if (!fit.is_determined) return e;
-    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
+    e.centroid = combined(1.0, cloud.origin, 1.0, region.fit.centroid);
+    if (!region.fit.is_determined) return e;
+    region = region_along_rays(cloud, members, region);
+    e.points = region.sums.count;
+    gnomon::plane& plane = region.fit.plane;
     const auto on_plane = std::ranges::find_if(
-        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, fit); });
-    const bool is_away =
-        on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
-    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
-    const Eigen::Vector3d first = column(principal.vectors, 0);
-    e.axes = from_columns(first, cross(n, first), n);
-    e.plane = {n, dot(n, e.centroid)};
-    e.chi2 = fit.chi2;
-    e.is_flat = is_planar && has_few_off(exact, members, fit);
-    // A turn about one axis moves the points along the other one.
-    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
-    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, region.fit); });
+    if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
+        plane = {scaled(-1.0, plane.normal), -plane.offset};
+    const plane_adjustment about = adjustment_of(cloud, members, region.fit);
+    e.centroid = combined(1.0, cloud.origin, 1.0, about.center);
+    e.axes = from_columns(about.frame.b1, about.frame.b2, plane.normal);
+    e.plane = {plane.normal, dot(plane.normal, e.centroid)};
+    e.chi2 = region.fit.chi2;
+    e.is_flat =
+        region.explains(count_of(cloud, members)) && has_few_off(exact, members, region.fit);
+    e.covariance = covariance_of_turns(about, std::max(e.chi2, 1.0));
     return e;
 }
 
 }  // namespace detail
 
-/// The planes of segments.
+/// The planes of segments. Where rays are known they are of maximum likelihood, with points moved
+/// along the rays (detail/ray_fit.hpp); else of smallest variance.
 ///
 /// @param points  any point range of n points [m]; where view points are known, noise lies along
 ///                the rays, else it is the same in all directions

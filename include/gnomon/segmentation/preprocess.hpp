@@ -1,16 +1,15 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Finds floor and ceiling, and removes both: they are often more than half of an indoor scan and
-/// connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands
-/// open; the floor is refitted to its band until it converges, so that tilts are found. A level
-/// plane that is no floor, such as a table top, is not taken for one.
+/// Finds floor and ceiling, for `crop_height` to remove both: they are often more than half of an
+/// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
+/// of the bands open; the floor is refitted to its band until it converges, so that tilts are
+/// found. A level plane that is no floor, such as a table top, is not taken for one.
 #pragma once
 
 #include <cstddef>
 #include <functional>
 #include <optional>
 #include <utility>
-#include <vector>
 
 #include <Eigen/Core>
 
@@ -38,12 +37,6 @@ struct find_ceiling_options {
     double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one; chosen
 };
 
-/// Which heights above the floor to leave out.
-struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]; rho_o
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
-};
-
 namespace detail {
 
 inline void require_valid(const find_floor_options& search) {
@@ -57,11 +50,6 @@ inline void require_valid(const find_ceiling_options& search) {
             "find_ceiling: the bin must be from 1e-6 m to 1e6 m wide");
     require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
     require(!std::isnan(search.min_height), "find_ceiling: min_height must not be NaN");
-}
-
-inline void require_valid(const crop_height_options& bands) {
-    require(!std::isnan(bands.floor) && !std::isnan(bands.ceiling),
-            "crop_height: the bands must not be NaN");
 }
 
 }  // namespace detail
@@ -124,44 +112,6 @@ template <class R, class Proj = std::identity>
         near += 1.0;
     }
     return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
-}
-
-namespace detail {
-
-/// crop_height(), over a position_view and in the memory of `kept`.
-void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
-                      std::optional<double> ceiling, const crop_height_options& bands) {
-    require_hesse(floor);
-    require_valid(bands);
-    require(!ceiling || !std::isnan(*ceiling), "crop_height: the ceiling must not be NaN");
-    kept.clear();
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
-        const double height = floor.signed_distance(p[i]);
-        if (height > bands.floor && !(ceiling && height >= *ceiling - bands.ceiling))
-            kept.push_back(static_cast<point_index>(i));
-    }
-}
-
-}  // namespace detail
-
-/// The indices of the points between the bands of floor and ceiling, ascending; see subset_view.
-/// Points that are not finite are left out.
-///
-/// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
-/// @throws std::invalid_argument  unless the floor's normal is of unit length, or if a height is
-///                                NaN
-/// Complexity: O(n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] std::vector<point_index> crop_height(const R& points, const plane& floor,
-                                                   std::optional<double> ceiling,
-                                                   const crop_height_options& bands = {},
-                                                   Proj projection = {}) {
-    std::vector<point_index> kept;
-    detail::crop_height_into(kept, position_view<R, Proj>(points, std::move(projection)), floor,
-                             ceiling, bands);
-    return kept;
 }
 
 }  // namespace gnomon

@@ -29,7 +29,7 @@ class planar_delaunay {
     explicit planar_delaunay(std::vector<planar_point> points) : points_(std::move(points)) {
         sort_by_place(points_);
         if (points_.size() < 2) return;
-        const std::size_t edges = 6 * points_.size();
+        const std::size_t edges = 6 * points_.size();  // at most, at any time
         origin_.reserve(edges);
         next_.reserve(edges);
         previous_.reserve(edges);
@@ -92,6 +92,14 @@ class planar_delaunay {
     }
 
     edge add(std::uint32_t from, std::uint32_t to) {
+        if (free_ != no_edge) {
+            const edge e = std::exchange(free_, previous_[free_]);
+            next_[e] = previous_[e] = e;
+            next_[e ^ 1] = previous_[e ^ 1] = e ^ 1;
+            origin_[e] = from;
+            origin_[e ^ 1] = to;
+            return e;
+        }
         const edge e = edges();
         for (const std::uint32_t end : {from, to}) {
             next_.push_back(edges());
@@ -118,6 +126,7 @@ class planar_delaunay {
         splice(e, previous_[e]);
         splice(e ^ 1, previous_[e ^ 1]);
         next_[e] = next_[e ^ 1] = no_edge;
+        previous_[e] = std::exchange(free_, e);
     }
 
     outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
@@ -215,6 +224,7 @@ class planar_delaunay {
     std::vector<planar_point> points_;
     std::vector<std::uint32_t> origin_;
     std::vector<edge> next_, previous_;  // about the origin
+    edge free_ = no_edge;  // the last edge that was removed; previous_ has the one before
 };
 
 }  // namespace gnomon::detail

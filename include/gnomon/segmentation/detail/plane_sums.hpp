@@ -97,8 +97,13 @@ struct plane_sums {
         f.plane = {n, dot(n, f.centroid)};
         f.is_determined = true;
         f.chi2 = chi2_of(std::max(0.0, e.values[2]), n);
-        f.is_seen = squared_cosine(n) >= sin(edge_on) * sin(edge_on);
+        f.is_seen = is_seen(n);
         return f;
+    }
+
+    /// A given plane, relative to the origin, as the plane of the points. Precondition: there are.
+    [[nodiscard]] region_plane about(const gnomon::plane& to) const {
+        return {to, positions.mean(), chi2_about(to), true, is_seen(to.normal)};
     }
 
     /// The sum of the squared deviations from the plane that is fit to the points, in variances of
@@ -116,6 +121,10 @@ struct plane_sums {
     }
 
   private:
+    [[nodiscard]] bool is_seen(const Eigen::Vector3d& n) const {
+        return squared_cosine(n) >= sin(edge_on) * sin(edge_on);
+    }
+
     /// @param variance  of the points across the plane [m^2]
     [[nodiscard]] double chi2_of(double variance, const Eigen::Vector3d& normal) const {
         return variance / (static_cast<double>(count) * noise_across(normal));
@@ -127,6 +136,13 @@ struct planar_region {
     plane_sums sums;
     region_plane fit;
     bool is_planar = true;  ///< else the plane does not explain its points
+
+    /// Whether the plane explains a region of `all` points: most of them are on it, their variance
+    /// is at most 2.5 times that of the noise, and it is not seen edge-on.
+    [[nodiscard]] bool explains(std::size_t all) const {
+        return fit.is_determined && fit.is_seen && fit.chi2 <= region_plane::most_excess &&
+               2 * sums.count > all;
+    }
 };
 
 }  // namespace gnomon::detail

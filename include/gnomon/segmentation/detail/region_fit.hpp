@@ -41,8 +41,7 @@ namespace gnomon::detail {
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
 /// out, and it is fit again, until their number stays the same. If more than half are off the plane
-/// of all, the plane of the half around the middle is the first one. Planar if most points are on
-/// it, their variance is at most 2.5 times that of the noise, and it is not seen edge-on.
+/// of all, the plane of the half around the middle is the first one.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -66,8 +65,7 @@ template <class Cloud>
         region = on;
         if (rests) break;
     }
-    region.is_planar = region.fit.is_determined && region.fit.is_seen &&
-                       region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
+    region.is_planar = region.explains(all);
     return region;
 }
 
