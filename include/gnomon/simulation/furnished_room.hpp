@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <optional>
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
@@ -16,12 +15,30 @@
 #include <gnomon/simulation/detail/object_builder.hpp>
 #include <gnomon/simulation/detail/openings.hpp>
 #include <gnomon/simulation/detail/room.hpp>
-#include <gnomon/simulation/detail/wall.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon::simulation::scenes {
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// The radius of a circle about the origin that holds a piece of furniture, seen from above [m].
+[[nodiscard]] inline double radius_of(const furniture_model& model) {
+    scene alone;
+    add(alone, model);
+    double radius = 0.0;
+    for (const placed_shape& s : alone.shapes()) {
+        const auto& [low, high] = s.extent;
+        radius = std::max(radius,
+                          std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
+    }
+    return radius;
+}
+
+}  // namespace detail
+
+namespace scenes {
 
 /// Options of furnished_room().
 struct room_options {
@@ -49,15 +66,13 @@ struct room_options {
     const double height = random.uniform(2.4, 3.0);
     const bounds room{{0.0, -0.5 * width, 0.0}, {length, 0.5 * width, height}};
     const double side = random.uniform() < 0.5 ? -0.5 * width : 0.5 * width - 0.9;
-    const double top = random.uniform(1.2, 2.1);
-    std::optional<detail::room_openings> openings;
-    if (options.openings) {
-        random_stream own(options.seed, 1);
-        openings.emplace(
-            room, detail::wall_rectangle{side, side + 0.9, -0.5 * height, top - 0.5 * height}, own);
-    }
-    detail::add_room(world, room, openings ? openings->holes() : detail::wall_holes{});
-    detail::add_block(world, "cupboard", {{length - 0.55, side, 0.0}, {length, side + 0.9, top}});
+    const bounds cupboard{{length - 0.55, side, 0.0},
+                          {length, side + 0.9, random.uniform(1.2, 2.1)}};
+    detail::room_openings openings;
+    if (options.openings)
+        openings = detail::room_openings(room, cupboard, random_stream(options.seed, 1));
+    detail::add_room(world, room, openings.holes());
+    detail::add_block(world, "cupboard", cupboard);
 
     // The circles about the pieces do not overlap each other, the walls, the sensor or the
     // cupboard.
@@ -70,14 +85,7 @@ struct room_options {
     const auto models = furniture_models();
     for (int piece = 0; piece < options.pieces; ++piece) {
         const furniture_model& model = models[random.bits() % models.size()];
-        scene alone;
-        add(alone, model);
-        double radius = 0.0;
-        for (const placed_shape& s : alone.shapes()) {
-            const auto& [low, high] = s.extent;
-            radius = std::max(
-                radius, std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
-        }
+        const double radius = detail::radius_of(model);
         for (int trial = 0; trial < 100; ++trial) {
             const circle place{random.uniform(radius, length - radius),
                                random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
@@ -93,8 +101,9 @@ struct room_options {
             break;
         }
     }
-    if (openings) detail::add_openings(world, room, *openings);
+    detail::add_openings(world, room, openings);
     return world;
 }
 
-}  // namespace gnomon::simulation::scenes
+}  // namespace scenes
+}  // namespace gnomon::simulation

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Doors and windows of a room, at random: holes of its walls with reveals, and what is behind.
+/// Doors and windows of a room, at random: holes of its walls with reveals, and the surfaces
+/// behind.
 #pragma once
 
 #include <algorithm>
@@ -24,7 +25,7 @@
 
 namespace gnomon::simulation::detail {
 
-/// What a ray meets behind a hole.
+/// The surfaces behind a hole.
 enum class behind_hole : char { nothing, leaf, corridor, house };
 
 /// A door or a window.
@@ -33,7 +34,7 @@ struct room_opening {
     std::size_t wall = 0;
     wall_rectangle hole{};
     behind_hole behind = behind_hole::nothing;
-    double distance = 0.0;  ///< of what is behind, from the wall [m]
+    double distance = 0.0;  ///< of the surfaces behind it from the wall [m]
 };
 
 /// The openings of a room, from random numbers of their own. The sizes are those usual in houses.
@@ -41,17 +42,19 @@ struct room_openings {
     double thickness = 0.0;  ///< of all walls [m]
     std::vector<room_opening> all;
 
-    /// One or two doors and one to three windows, fewer if they do not fit; no two of a wall are
-    /// nearer than 35 cm, and none is nearer than 25 cm to a corner, or behind `piece`.
-    /// @param piece  of furniture at the last wall, as a rectangle of it
-    room_openings(const bounds& room, const wall_rectangle& piece, random_stream& random) {
-        thickness = random.uniform(0.12, 0.36);
+    room_openings() = default;
+
+    /// One or two doors and one to three windows, fewer if they do not fit: two in one wall are at
+    /// least 35 cm apart, and none is nearer than 25 cm to a corner or behind `piece`.
+    /// @param piece  of furniture that touches walls
+    room_openings(const bounds& room, const bounds& piece, random_stream random)
+        : thickness(random.uniform(0.12, 0.36)) {
         const auto doors = 1 + random.bits() % 2;
         const auto windows = 1 + random.bits() % 3;
-        for (std::uint64_t i = 0; i < doors; ++i)
-            add(door(room.size().z(), random), room, piece, random);
+        const double height = room.size().z();
+        for (std::uint64_t i = 0; i < doors; ++i) add(door(height, random), room, piece, random);
         for (std::uint64_t i = 0; i < windows; ++i)
-            add(window(room.size().z(), random), room, piece, random);
+            add(window(height, random), room, piece, random);
     }
 
     [[nodiscard]] wall_holes holes() const {
@@ -61,7 +64,6 @@ struct room_openings {
     }
 
   private:
-    /// Left of the middle of its wall.
     [[nodiscard]] room_opening door(double room_height, random_stream& random) const {
         room_opening o;
         o.hole = {0.0, random.uniform(0.75, 1.05), -0.5 * room_height,
@@ -90,29 +92,41 @@ struct room_openings {
         return o;
     }
 
-    /// Moves an opening along a wall until it is free, if it can be.
-    void add(room_opening o, const bounds& room, const wall_rectangle& piece,
-             random_stream& random) {
+    /// Puts an opening into a wall where there is room for it, if that is found.
+    void add(room_opening o, const bounds& room, const bounds& piece, random_stream& random) {
         const auto places = walls_of(room);
         const double width = o.hole.width();
         for (int trial = 0; trial < 50; ++trial) {
             o.wall = random.bits() % places.size();
-            const double most = 0.5 * places[o.wall].length - 0.25 - width;
-            o.hole.left = random.uniform(-0.5 * places[o.wall].length + 0.25, most);
+            const double most = 0.5 * places[o.wall].length - 0.25;
+            o.hole.left = random.uniform(-most, most - width);
             o.hole.right = o.hole.left + width;
             const bool is_free =
                 std::none_of(all.begin(), all.end(), [&](const room_opening& other) {
                     return other.wall == o.wall && o.hole.is_near(other.hole, 0.35);
                 });
-            const bool is_behind = o.wall + 1 == places.size() && o.hole.is_near(piece, 0.05);
-            if (!is_free || is_behind) continue;
+            if (!is_free || is_behind(piece, o.hole, places[o.wall].frame)) continue;
             all.push_back(o);
             return;
         }
     }
+
+    /// Whether furniture is nearer than 5 cm.
+    [[nodiscard]] static bool is_behind(const bounds& piece, const wall_rectangle& hole,
+                                        const pose& wall) {
+        bounds around;
+        for (const double side : {-0.05, 0.05}) {
+            around.extend(wall.point_out({hole.left, hole.low, side}));
+            around.extend(wall.point_out({hole.right, hole.high, side}));
+        }
+        for (int a = 0; a < 3; ++a) {
+            if (around.low[a] > piece.high[a] || piece.low[a] > around.high[a]) return false;
+        }
+        return true;
+    }
 };
 
-/// Adds what belongs to one opening: its reveals, what is behind, and the truth about it.
+/// Adds the reveals of an opening, the surfaces behind it, and its entry in the list of openings.
 inline void add_opening(scene& world, const room_opening& o, const wall_place& place,
                         double thickness, const std::string& name) {
     const wall_rectangle& hole = o.hole;
