@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <iterator>
 #include <limits>
 #include <numbers>
 #include <optional>
@@ -136,20 +137,28 @@ class edge_likelihood {
     std::vector<seen_ray> rays_;
 };
 
-/// The farthest place at which an edge can be after the last ray on the wall before it: where no
-/// ray returns from the opening, the wall ends before the next ray would have hit it. That is at
-/// most the largest gap between rays on the wall.
+/// The farthest place at which an edge can be after the last ray on the wall before it, if hardly a
+/// ray returns from the opening: the wall ends before the next ray would have hit it, which is at
+/// most the largest gap between rays on the wall away.
 class gaps_on_wall {
   public:
-    explicit gaps_on_wall(const std::vector<edge_ray>& rays, double certain) {
-        for (const edge_ray& r : rays)
-            if (std::abs(r.depth) <= 3.0 * r.sigma) on_.push_back(r.inwards);
+    /// @param reach  the rays farther from the edge are certain to be on the wall
+    gaps_on_wall(const std::vector<edge_ray>& rays, double reach) {
+        constexpr double least_returned = 0.25;  // of the number on the wall; chosen
+        double on = 0.0, through = 0.0;
+        for (const edge_ray& r : rays) {
+            const bool is_on = std::abs(r.depth) <= 3.0 * r.sigma;
+            if (is_on) on_.push_back(r.inwards);
+            if (std::abs(r.inwards) < reach) (is_on ? on : through) += 1.0;
+        }
+        is_empty_ = through < least_returned * on;
         std::ranges::sort(on_);
-        for (std::size_t i = 1; i < on_.size() && on_[i] < -certain; ++i)
+        for (std::size_t i = 1; i < on_.size() && on_[i] < -reach; ++i)
             largest_ = std::max(largest_, on_[i] - on_[i - 1]);
     }
 
     [[nodiscard]] bool allow(double edge) const {
+        if (!is_empty_) return true;
         const auto next = std::ranges::lower_bound(on_, edge);
         return next != on_.begin() && edge - *std::prev(next) <= largest_;
     }
@@ -158,6 +167,7 @@ class gaps_on_wall {
   private:
     std::vector<double> on_;
     double largest_ = 0.0;
+    bool is_empty_ = false;
 };
 
 }  // namespace detail
