@@ -13,7 +13,7 @@
 #include <optional>
 #include <vector>
 
-#include "flat_part.hpp"
+#include "room.hpp"
 
 /// A ray that crosses the plane of a wall near an edge.
 struct edge_ray {
@@ -30,6 +30,13 @@ namespace detail {
 [[nodiscard]] inline double normal_density(double x, double sigma) {
     const double z = x / sigma;
     return std::exp(-0.5 * z * z) / (sigma * std::sqrt(2.0 * std::numbers::pi));
+}
+
+/// Precondition: there are some.
+[[nodiscard]] inline double median_of(std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
 }
 
 /// The densities of depths on a surface, and behind an opening.
@@ -74,12 +81,6 @@ class depth_model {
   private:
     static constexpr double anywhere = 0.01;  // share of rays with any depth; chosen
     static constexpr double deepest = 10.0;   // [m], of a uniform density; chosen
-
-    [[nodiscard]] static double median_of(std::vector<double> values) {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, middle);
-        return *middle;
-    }
 
     double behind_ = 0.0;    // depth of the surface behind [m]
     double variance_ = 0.0;  // of the surface, in addition to noise [m^2]
@@ -170,6 +171,29 @@ class gaps_on_wall {
     bool is_empty_ = false;
 };
 
+/// Corrects depths by that of the wall next to the edge, and their standard deviations by the
+/// dispersion there, as walls are not quite flat.
+inline void level_out(std::vector<edge_ray>& rays, double window) {
+    constexpr std::size_t fewest = 10;  // rays; chosen
+    constexpr double margin = 0.03;     // [m]; chosen: before the guess of the edge
+    std::vector<double> depths, scaled;
+    for (const edge_ray& r : rays)
+        if (r.inwards < -margin && r.inwards > -window &&
+            std::abs(r.depth) < std::max(3.0 * r.sigma, unevenness))
+            depths.push_back(r.depth);
+    if (depths.size() < fewest) return;
+    const double offset = median_of(depths);
+    for (edge_ray& r : rays) {
+        r.depth -= offset;
+        if (r.inwards < -margin && r.inwards > -window &&
+            std::abs(r.depth) < std::max(3.0 * r.sigma, unevenness))
+            scaled.push_back(std::abs(r.depth) / r.sigma);
+    }
+    constexpr double of_normal = 1.4826;  // standard deviation over median deviation
+    const double scale = scaled.empty() ? 1.0 : std::max(1.0, of_normal * median_of(scaled));
+    for (edge_ray& r : rays) r.sigma *= scale;
+}
+
 }  // namespace detail
 
 /// The edge of an opening relative to a first guess: mean and standard deviation of its posterior
@@ -208,5 +232,7 @@ inline std::optional<measured_length> edge_near(const std::vector<edge_ray>& ray
     }
     const double mean = first / weight;
     const double variance = second / weight - mean * mean + step * step / 12.0;
-    return measured_length{mean, std::sqrt(std::max(variance, step * step / 12.0))};
+    const double sigma = std::sqrt(std::max(variance, step * step / 12.0));
+    if (std::abs(mean) + 2.0 * sigma > reach) return std::nullopt;  // the guess is not good enough
+    return measured_length{mean, sigma};
 }

@@ -9,6 +9,7 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include <Eigen/Core>
 
@@ -30,12 +31,13 @@ class floor_plan {
     floor_plan(const gnomon::scan& scan, const survey& s) : survey_(s), sheet_(width, height) {
         set_frame();
         draw_slice(scan);
-        for (std::size_t i = 0; i < s.planes.walls.size(); ++i) draw_wall(s.planes.walls[i], i);
+        for (const wall& w : s.planes.walls) draw_wall(w);
         for (const auto& o : s.openings) draw_opening(o);
         draw_distances();
         const auto [x, y] = pixel(scan.viewpoints[0]);
         sheet_.fill(x - 5, y - 1, x + 6, y + 2, sensor);
         sheet_.fill(x - 1, y - 5, x + 2, y + 6, sensor);
+        write_lengths();
         draw_scale_and_height();
     }
 
@@ -43,8 +45,17 @@ class floor_plan {
 
   private:
     using pixel_place = std::pair<int, int>;
+    struct box {
+        int x0, y0, x1, y1;
+    };
 
-    static constexpr int width = 1400, height = 1100, margin = 150;
+    [[nodiscard]] bool is_written(const box& b) const {
+        return std::ranges::any_of(written_, [&](const box& o) {
+            return b.x0 < o.x1 + 6 && o.x0 < b.x1 + 6 && b.y0 < o.y1 + 2 && o.y0 < b.y1 + 2;
+        });
+    }
+
+    static constexpr int width = 1500, height = 1200, margin = 240;
     static constexpr picture::color cloud{205, 208, 214}, sensor{214, 65, 70}, door{40, 140, 90},
         window{66, 133, 200}, dimension{110, 112, 120};
 
@@ -96,59 +107,82 @@ class floor_plan {
         }
     }
 
-    /// Text about a place, on white.
-    void write(const Eigen::Vector3d& at, double away_x, double away_y, const std::string& text,
-               const picture::color& c, int line = 0) {
-        const auto [x, y] = pixel(at);
-        const int w = picture::image::width_of(text);
-        // Beside upright walls, above and below level ones.
-        int left = x - w / 2 + static_cast<int>(away_x * (0.5 * w + 16));
-        int top = y - 8 - static_cast<int>(away_y * 30.0) + 20 * line;
-        left = std::clamp(left, 4, width - w - 4), top = std::clamp(top, 4, height - 24);
-        sheet_.fill(left - 3, top - 3, left + w + 3, top + 17, picture::white);
-        sheet_.write(left, top, text, c);
+    /// Lines of text at a place, on white, beside it in the direction `away`, where they are free.
+    void write(const Eigen::Vector3d& at, const Eigen::Vector3d& away,
+               const std::vector<std::string>& lines, const picture::color& c) {
+        constexpr int line_height = 20, gap = 16;
+        auto [x, y] = pixel(at);
+        int w = 0;
+        for (const std::string& line : lines) w = std::max(w, picture::image::width_of(line));
+        const int h = line_height * static_cast<int>(lines.size());
+        const double dx = x_.dot(away), dy = -y_.dot(away);  // of unit length, or 0
+        x += static_cast<int>(dx * (0.5 * w + gap)), y += static_cast<int>(dy * (0.5 * h + gap));
+        box text{x - w / 2, y - h / 2, x - w / 2 + w, y - h / 2 + h};
+        // Moved on in the same direction, or down, until nothing else is written there.
+        const int step_x = static_cast<int>(std::lround(8.0 * dx));
+        const int step_y = away.isZero() ? 8 : static_cast<int>(std::lround(8.0 * dy));
+        for (int k = 0; k < 60 && is_written(text); ++k)
+            text = {text.x0 + step_x, text.y0 + step_y, text.x1 + step_x, text.y1 + step_y};
+        written_.push_back(text);
+        sheet_.fill(text.x0 - 3, text.y0 - 2, text.x1 + 3, text.y1, picture::white);
+        for (std::size_t k = 0; k < lines.size(); ++k)
+            sheet_.write(text.x0, text.y0 + line_height * static_cast<int>(k), lines[k], c);
     }
 
-    void draw_wall(const wall& w, std::size_t number) {
+    void draw_wall(const wall& w) {
         draw_line(w.at(w.left, 0.0), w.at(w.right, 0.0), picture::ink, 7);
-        const auto length = length_of(survey_.planes, w);
-        std::string text = std::to_string(number + 1);
-        if (length) text += ": " + text_of(*length);
-        const Eigen::Vector3d n = w.normal();
-        write(w.middle(), -x_.dot(n), -y_.dot(n), text, picture::ink, 0);
     }
 
     void draw_opening(const survey::named_opening& o) {
         const wall& w = survey_.planes.walls[o.wall];
-        const double left = o.edges[0] ? o.edges[0]->value : o.left;
-        const double right = o.edges[1] ? o.edges[1]->value : o.right;
+        const auto [left, right] = ends_of(o);
         const picture::color& c = o.is_door ? door : window;
         draw_line(w.at(left, 0.0), w.at(right, 0.0), picture::white, 9);
         draw_line(w.at(left, 0.0), w.at(right, 0.0), c, o.is_door ? 1 : 3);
         const Eigen::Vector3d across = 0.06 * w.normal();
         for (const double u : {left, right})
             draw_line(w.at(u, 0.0) - across, w.at(u, 0.0) + across, c, 3);
-        int line = 0;
-        const Eigen::Vector3d at = w.at(o.middle_u(), 0.0), n = w.normal();
-        write(at, 1.1 * x_.dot(n), 1.1 * y_.dot(n), o.name, c, line++);
-        for (const survey_length& l : survey_.lengths) {
-            if (l.kind != "opening" || !l.name.starts_with(o.name + " ")) continue;
-            const std::string what = l.name.substr(o.name.size() + 1);
-            write(at, 1.1 * x_.dot(n), 1.1 * y_.dot(n), what + " " + text_of(l.length), c, line++);
-        }
+    }
+
+    [[nodiscard]] static std::pair<double, double> ends_of(const wall_opening& o) {
+        return {o.edges[0] ? o.edges[0]->value : o.left, o.edges[1] ? o.edges[1]->value : o.right};
     }
 
     void draw_distances() {
         const room& r = survey_.planes;
         for (std::size_t i = 0; i < r.opposite.size(); ++i) {
             const wall &a = r.walls[r.opposite[i].first], &b = r.walls[r.opposite[i].second];
-            Eigen::Vector3d place = detail::between(a, b);
+            const Eigen::Vector3d place = detail::between(a, b);
+            draw_line(place - a.distance(place) * a.normal(),
+                      place - b.distance(place) * b.normal(), dimension, 1);
+        }
+    }
+
+    /// The lengths inside and outside of the walls, after all lines.
+    void write_lengths() {
+        const room& r = survey_.planes;
+        for (const auto& o : survey_.openings) {
+            std::vector<std::string> lines{o.name};
+            for (const survey_length& l : survey_.lengths)
+                if (l.kind == "opening" && l.name.starts_with(o.name + " "))
+                    lines.push_back(l.name.substr(o.name.size() + 1) + " " + text_of(l.length));
+            const wall& w = r.walls[o.wall];
+            const auto [left, right] = ends_of(o);
+            write(w.at(0.5 * (left + right), 0.0), w.normal(), lines, o.is_door ? door : window);
+        }
+        for (std::size_t i = 0; i < r.walls.size(); ++i) {
+            const auto length = length_of(r, r.walls[i]);
+            std::vector<std::string> lines{"wall " + std::to_string(i + 1)};
+            if (length) lines.push_back(text_of(*length));
+            write(r.walls[i].middle(), -r.walls[i].normal(), lines, picture::ink);
+        }
+        for (std::size_t i = 0; i < r.opposite.size(); ++i) {
+            const wall &a = r.walls[r.opposite[i].first], &b = r.walls[r.opposite[i].second];
+            const Eigen::Vector3d place = detail::between(a, b);
             const Eigen::Vector3d from = place - a.distance(place) * a.normal();
             const Eigen::Vector3d to = place - b.distance(place) * b.normal();
-            draw_line(from, to, dimension, 1);
-            const double share = 0.5 + 0.12 * (static_cast<double>(i % 3) - 1.0);
-            write(from + share * (to - from), 0.0, 0.0, text_of(distance_between(a, b, place)),
-                  dimension);
+            write(from + (i % 2 == 0 ? 0.35 : 0.65) * (to - from), Eigen::Vector3d::Zero(),
+                  {text_of(distance_between(a, b, place))}, dimension);
         }
     }
 
@@ -165,6 +199,7 @@ class floor_plan {
 
     const survey& survey_;
     picture::image sheet_;
+    std::vector<box> written_;
     Eigen::Vector3d up_, x_, y_;
     Eigen::Vector2d middle_;
     double scale_ = 1.0;  // [pixels / m]

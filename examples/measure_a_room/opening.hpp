@@ -11,6 +11,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -45,20 +46,26 @@ struct wall_rays {
 
     wall_rays(const wall& w, const gnomon::scan& scan, const flat_parts& parts,
               const scan_noise& noise) {
+        constexpr double cell = 0.1;  // [m]; chosen
         std::size_t on = 0;
+        std::set<std::pair<int, int>> covered;
         for (std::size_t i = 0; i < scan.size(); ++i) {
             auto c = w.cross(scan, i, noise);
-            if (c) {
-                const std::int32_t plane = parts.plane_of_point[i];
-                c->is_of_other =
-                    plane != gnomon::unlabeled && plane != static_cast<std::int32_t>(w.number);
+            if (c && parts.plane_of_point[i] != gnomon::unlabeled) {
+                const auto plane = static_cast<std::size_t>(parts.plane_of_point[i]);
+                (plane == w.number ? c->is_of_wall : c->is_of_other) = true;
             }
             if (!c || c->u < w.left || c->u > w.right || c->v < 0.0 || c->v > w.top) continue;
             rays.push_back(*c);
-            on += c->is_on() ? 1 : 0;
+            if (!c->is_on()) continue;
+            ++on;
+            covered.emplace(static_cast<int>(std::floor(c->u / cell)),
+                            static_cast<int>(std::floor(c->v / cell)));
         }
-        spacing = std::sqrt((w.right - w.left) * w.top /
-                            static_cast<double>(std::max<std::size_t>(on, 1)));
+        spacing =
+            on == 0
+                ? cell
+                : cell * std::sqrt(static_cast<double>(covered.size()) / static_cast<double>(on));
     }
 };
 
@@ -243,6 +250,7 @@ inline std::optional<measured_length> edge_of(const wall_opening& o, std::size_t
     const double inwards = side % 2 == 0 ? 1.0 : -1.0;
     const double begin = is_upright ? o.bottom : o.left, end = is_upright ? o.top : o.right;
     const double size = is_upright ? o.right - o.left : o.top - o.bottom;
+    constexpr double window = 0.3;  // [m]; chosen
     const double margin = std::max(0.1 * (end - begin), std::min(reach, 0.3 * (end - begin)));
     std::vector<edge_ray> rays;
     int before = 0, others = 0;
@@ -257,6 +265,7 @@ inline std::optional<measured_length> edge_of(const wall_opening& o, std::size_t
                         slope == 0.0 ? std::numeric_limits<double>::infinity()
                                      : ((slope > 0.0 ? end : begin) - lengthwise) / slope});
     }
+    detail::level_out(rays, window);
     constexpr int most_hidden = 5;  // one ray in so many next to the edge; chosen
     auto edge = edge_near(rays, reach, most_hidden * before > others);
     if (edge) edge->value = guess + inwards * edge->value;
@@ -271,7 +280,7 @@ inline std::vector<wall_opening> openings_of(const room& r, std::size_t number,
                                              const scan_noise& noise) {
     constexpr std::size_t fewest_through = 20;  // rays; chosen
     constexpr double least_certain = 0.05;      // [m]; chosen: a standard deviation
-    constexpr double threshold = 0.1;           // [m]; chosen: a door has no higher one
+    constexpr double threshold = 0.2;           // [m]; chosen: a door has no higher one
     constexpr double highest_guess = 0.4;       // [m]; chosen: the floor is hidden by furniture
     const wall& w = r.walls[number];
     const detail::wall_rays seen(w, scan, parts, noise);
@@ -296,6 +305,8 @@ inline std::vector<wall_opening> openings_of(const room& r, std::size_t number,
         o->is_door = r.floor && o->bottom < highest_guess &&
                      !(bottom && bottom->value - 3.0 * bottom->sigma > threshold);
         if (o->is_door) o->edges[2].reset();
+        const auto& [left, right, low, top] = o->edges;
+        if (!(left && right) && !((low || o->is_door) && top)) continue;  // not seen well enough
         openings.push_back(*o);
     }
     std::ranges::sort(openings, {}, &wall_opening::left);

@@ -12,6 +12,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -20,6 +21,9 @@
 #include "flat_part.hpp"
 #include <gnomon/gnomon.hpp>
 
+/// How far a wall may be from a plane in places [m]; chosen: plaster, less than a leaf is set back.
+inline constexpr double unevenness = 0.03;
+
 /// Where a ray crosses the plane of a wall. Only its range has noise, so that the crossing has no
 /// error along the wall.
 struct crossing {
@@ -27,13 +31,15 @@ struct crossing {
     double depth = 0.0;                   ///< of the measured point behind the wall [m]
     double sigma = 0.0;                   ///< of the depth [m]
     double slope_u = 0.0, slope_v = 0.0;  ///< of the ray, per depth
-    bool is_of_other = false;             ///< whether the point is on another plane
+    bool is_of_wall = false;              ///< whether the point is of a segment of this plane,
+    bool is_of_other = false;             ///< or of another one
 
-    [[nodiscard]] bool is_on() const { return !is_of_other && std::abs(depth) <= 3.0 * sigma; }
-    [[nodiscard]] bool is_through() const {
-        return depth > (is_of_other ? sigma : std::max(3.0 * sigma, 0.03));
+    [[nodiscard]] double tolerance() const { return std::max(3.0 * sigma, unevenness); }
+    [[nodiscard]] bool is_on() const {
+        return !is_of_other && std::abs(depth) <= (is_of_wall ? tolerance() : 3.0 * sigma);
     }
-    [[nodiscard]] bool is_before() const { return depth < -3.0 * sigma; }
+    [[nodiscard]] bool is_through() const { return depth > (is_of_other ? sigma : tolerance()); }
+    [[nodiscard]] bool is_before() const { return depth < -tolerance(); }
 };
 
 /// A wall, or a part of one. It is seen from inside: u goes to the right.
@@ -69,6 +75,7 @@ struct wall : flat_part {
                         sigma_of(scan, i, noise),
                         along.dot(ray) / approach,
                         up.dot(ray) / approach,
+                        false,
                         false};
     }
 };
@@ -187,6 +194,17 @@ inline bool is_beyond(const wall& w, const wall& other, const gnomon::scan& scan
     return 2 * crossed > all;
 }
 
+/// Whether a larger plane is at about the same place, as a wall is behind its cornice.
+inline bool is_part_of(const wall& w, const wall& larger) {
+    constexpr double near = 0.3;        // [m]; chosen
+    constexpr double parallel = 0.985;  // the cosine of 10 degrees; chosen
+    if (larger.area <= w.area || larger.normal().dot(w.normal()) < parallel) return false;
+    const double a = larger.u_of(w.at(w.left, 0.0)), b = larger.u_of(w.at(w.right, 0.0));
+    const double overlap =
+        std::min(larger.right, std::max(a, b)) - std::max(larger.left, std::min(a, b));
+    return std::abs(larger.distance(w.middle())) < near && 2.0 * overlap > w.right - w.left;
+}
+
 /// The place of the intersection with another wall, along the first one.
 inline std::optional<double> corner_of(const wall& w, const wall& other) {
     constexpr double least_sine = 0.5;  // of 30 degrees; chosen
@@ -243,7 +261,7 @@ inline room room_of(const gnomon::scan& scan, const flat_parts& all, const scan_
                     const Eigen::Vector3d& up) {
     constexpr double upright = 0.1;        // the sine of 6 degrees; chosen
     constexpr double narrowest = 0.3;      // [m]; chosen
-    constexpr double smallest_area = 0.3;  // [m^2]; chosen
+    constexpr double smallest_area = 0.5;  // [m^2]; chosen
     constexpr double facing = -0.9962;     // the cosine of 175 degrees; chosen
     constexpr double least_overlap = 0.5;  // [m]; chosen
     const std::vector<flat_part>& parts = all.planes;
@@ -268,16 +286,33 @@ inline room room_of(const gnomon::scan& scan, const flat_parts& all, const scan_
             walls.back().left = left, walls.back().right = right;
         }
     }
-    std::ranges::copy_if(walls, std::back_inserter(r.walls), [&](const wall& w) {
-        return std::ranges::none_of(
-            walls, [&](const wall& other) { return detail::is_beyond(w, other, scan, noise); });
-    });
+    const auto leave_out = [](std::vector<wall>& from, auto&& is_out) {
+        std::vector<wall> kept;
+        std::ranges::copy_if(from, std::back_inserter(kept), [&](const wall& w) {
+            return std::ranges::none_of(from, [&](const wall& other) { return is_out(w, other); });
+        });
+        from = std::move(kept);
+    };
+    const auto is_outside = [&](const wall& w, const wall& other) {
+        return detail::is_beyond(w, other, scan, noise);
+    };
+    leave_out(walls, is_outside);
+    leave_out(walls, detail::is_part_of);
+    r.walls = std::move(walls);
     const Eigen::Vector3d viewpoint = scan.viewpoints[0];
     const Eigen::Vector3d first = up.unitOrthogonal(), second = up.cross(first);
     std::ranges::sort(r.walls, std::greater<>{}, [&](const wall& w) {
         const Eigen::Vector3d x = w.middle() - viewpoint;
         return std::atan2(second.dot(x), first.dot(x));
     });
+    std::vector<wall> joined = r.walls;
+    detail::find_corners(joined);
+    constexpr double narrow = 1.0;  // [m]; chosen: without a corner, furniture or a pillar
+    for (std::size_t i = joined.size(); i-- > 0;) {
+        const bool has_corner = joined[i].left_neighbor || joined[i].right_neighbor;
+        if (!has_corner && joined[i].right - joined[i].left < narrow)
+            r.walls.erase(r.walls.begin() + static_cast<std::ptrdiff_t>(i));
+    }
     detail::find_corners(r.walls);
     for (std::size_t a = 0; a < r.walls.size(); ++a) {
         for (std::size_t b = a + 1; b < r.walls.size(); ++b) {
