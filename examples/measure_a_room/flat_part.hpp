@@ -182,8 +182,7 @@ inline std::optional<patch_fit> fit_of(std::vector<patch_sums> patches) {
 /// Fits the plane again, without the points next to other things, and scales its covariance by the
 /// dispersion of the mean residuals of square patches, relative to that of independent noise (the
 /// quasi-likelihood of Wedderburn 1974): where a surface is not quite flat, or the sensor has
-/// errors in common for neighboring points, many points are not as good as so many independent
-/// ones.
+/// errors in common for neighboring points, the points are not independent.
 inline void refine(flat_part& part, const gnomon::scan& scan, const scan_noise& noise) {
     constexpr double patch = 0.25;     // [m]; chosen: a part of a wall, many points
     constexpr double cell = 0.05;      // [m]; chosen
@@ -261,7 +260,7 @@ inline flat_parts flat_parts_of(const gnomon::scan& scan, const auto& seen, cons
     return parts;
 }
 
-/// The distance of two planes that face each other, at a place between them [m].
+/// The distance between planes that face each other, at a place between them [m].
 inline measured_length distance_between(const flat_part& a, const flat_part& b,
                                         const Eigen::Vector3d& place) {
     return {a.distance(place) + b.distance(place),

@@ -107,7 +107,7 @@ class floor_plan {
         }
     }
 
-    /// Lines of text at a place, on white, beside it in the direction `away`, where they are free.
+    /// Lines of text at a place, on white, moved in the direction `away`, where they are free.
     void write(const Eigen::Vector3d& at, const Eigen::Vector3d& away,
                const std::vector<std::string>& lines, const picture::color& c) {
         constexpr int line_height = 20, gap = 16;

@@ -266,7 +266,7 @@ inline std::optional<measured_length> edge_of(const wall_opening& o, std::size_t
                                      : ((slope > 0.0 ? end : begin) - lengthwise) / slope});
     }
     detail::level_out(rays, window);
-    constexpr int most_hidden = 5;  // one ray in so many next to the edge; chosen
+    constexpr int most_hidden = 5;  // of five rays next to the edge, one; chosen
     auto edge = edge_near(rays, reach, most_hidden * before > others);
     if (edge) edge->value = guess + inwards * edge->value;
     return edge;

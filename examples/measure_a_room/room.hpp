@@ -196,13 +196,15 @@ inline bool is_beyond(const wall& w, const wall& other, const gnomon::scan& scan
 
 /// Whether a larger plane is at about the same place, as a wall is behind its cornice.
 inline bool is_part_of(const wall& w, const wall& larger) {
-    constexpr double near = 0.3;        // [m]; chosen
-    constexpr double parallel = 0.985;  // the cosine of 10 degrees; chosen
+    constexpr double near = 0.3;          // [m]; chosen
+    constexpr double least_share = 0.25;  // of its width; chosen
+    constexpr double parallel = 0.985;    // the cosine of 10 degrees; chosen
     if (larger.area <= w.area || larger.normal().dot(w.normal()) < parallel) return false;
     const double a = larger.u_of(w.at(w.left, 0.0)), b = larger.u_of(w.at(w.right, 0.0));
     const double overlap =
         std::min(larger.right, std::max(a, b)) - std::max(larger.left, std::min(a, b));
-    return std::abs(larger.distance(w.middle())) < near && 2.0 * overlap > w.right - w.left;
+    return std::abs(larger.distance(w.middle())) < near &&
+           overlap > least_share * (w.right - w.left);
 }
 
 /// The place of the intersection with another wall, along the first one.
