@@ -140,10 +140,10 @@ class edge_likelihood {
 
 /// The farthest place at which an edge can be after the last ray on the wall before it, if hardly a
 /// ray returns from the opening: the wall ends before the next ray would have hit it, which is at
-/// most the largest gap between rays on the wall away.
+/// most about the largest gap between rays on the wall away.
 class gaps_on_wall {
   public:
-    /// @param reach  the rays farther from the edge are certain to be on the wall
+    /// @param reach  the error of the guess is smaller [m]
     gaps_on_wall(const std::vector<edge_ray>& rays, double reach) {
         constexpr double least_returned = 0.25;  // of the number on the wall; chosen
         double on = 0.0, through = 0.0;
@@ -154,19 +154,20 @@ class gaps_on_wall {
         }
         is_empty_ = through < least_returned * on;
         std::ranges::sort(on_);
-        for (std::size_t i = 1; i < on_.size() && on_[i] < -reach; ++i)
+        for (std::size_t i = 1; i < on_.size() && on_[i] < 0.0; ++i)
             largest_ = std::max(largest_, on_[i] - on_[i - 1]);
     }
 
     [[nodiscard]] bool allow(double edge) const {
         if (!is_empty_) return true;
         const auto next = std::ranges::lower_bound(on_, edge);
-        return next != on_.begin() && edge - *std::prev(next) <= largest_;
+        return next != on_.begin() && edge - *std::prev(next) <= allowance * largest_;
     }
     [[nodiscard]] std::size_t rays() const { return on_.size(); }
 
   private:
     std::vector<double> on_;
+    static constexpr double allowance = 1.5;  // chosen: gaps are wider where rays are oblique
     double largest_ = 0.0;
     bool is_empty_ = false;
 };

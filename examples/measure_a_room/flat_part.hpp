@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <optional>
 #include <set>
@@ -62,6 +63,15 @@ struct flat_part {
                noise.across(scan.points[i] - scan.viewpoints[i], normal());
     }
 
+    /// Where the ray of a point crosses the plane; not finite if it does not.
+    [[nodiscard]] Eigen::Vector3d crossing_of(const gnomon::scan& scan, std::size_t i) const {
+        const Eigen::Vector3d& from = scan.viewpoints[i];
+        const Eigen::Vector3d ray = scan.points[i] - from;
+        const double share = -distance(from) / normal().dot(ray);
+        return share > 0.0 ? Eigen::Vector3d(from + share * ray)
+                           : Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    }
+
     /// The variance of the distance of the plane from a place [m^2]: a turn about one axis moves
     /// the plane along the normal by the offset along the other one.
     [[nodiscard]] double variance_at(const Eigen::Vector3d& x) const {
@@ -72,6 +82,8 @@ struct flat_part {
 };
 
 namespace detail {
+
+inline constexpr double largest_plane = 1e3;  // [m], of the middle of a plane; numerical
 
 /// Square cells of a plane, by the axes of its estimate.
 class plane_cells {
@@ -94,26 +106,41 @@ class plane_cells {
     double size_;
 };
 
-/// The cells next to something that stands on a plane, or is at its edge: a leg, another wall.
-/// There, points of both are within the noise of the plane, and would shift it.
-inline std::set<plane_cells::cell> cells_at_others(const flat_part& part, const plane_cells& cells,
+/// The cells next to something that stands on a plane or is at its edge, such as a leg or another
+/// wall, and behind it: there, points of both are within the noise of the plane, and would shift
+/// it.
+inline std::set<plane_cells::cell> cells_at_others(const flat_part& part, double size,
                                                    const gnomon::scan& scan,
                                                    const scan_noise& noise) {
-    constexpr double reach = 0.15;   // [m] in front of the noise; chosen
-    constexpr double certain = 4.0;  // standard deviations; chosen
-    constexpr int fewest = 2;        // points; chosen
-    std::map<plane_cells::cell, int> in_front;
+    constexpr double reach = 0.15;     // [m] in front of the noise; chosen
+    constexpr double certain = 4.0;    // standard deviations; chosen
+    constexpr double displaced = 6.0;  // standard deviations: three of each of two points
+    constexpr int fewest = 2;          // points; chosen
+    struct points_in_front {
+        int number = 0;
+        double sigma = 0.0;  // the largest one along a ray [m]
+    };
+    const plane_cells cells(part.plane, size);
+    std::map<plane_cells::cell, points_in_front> in_front;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         const double sigma = part.sigma_of(scan, i, noise);
         const double distance = part.distance(scan.points[i]);
-        if (distance > certain * sigma && distance < certain * sigma + reach)
-            ++in_front[cells.of(cells.local(scan.points[i]))];
+        if (!(distance > certain * sigma && distance < certain * sigma + reach)) continue;
+        const double along = noise.curve.along(scan.points[i] - scan.viewpoints[i]);
+        for (const Eigen::Vector3d& x : {scan.points[i], part.crossing_of(scan, i)}) {
+            const Eigen::Vector3d local = cells.local(x);
+            if (!(local.norm() < largest_plane)) continue;
+            points_in_front& p = in_front[cells.of(local)];
+            ++p.number;
+            p.sigma = std::max(p.sigma, along);
+        }
     }
     std::set<plane_cells::cell> result;
-    for (const auto& [c, n] : in_front) {
-        if (n < fewest) continue;
-        for (int i = -1; i <= 1; ++i)
-            for (int j = -1; j <= 1; ++j) result.emplace(c.first + i, c.second + j);
+    for (const auto& [c, p] : in_front) {
+        if (p.number < fewest) continue;
+        const int far = static_cast<int>(std::ceil(displaced * p.sigma / size));
+        for (int i = -far; i <= far; ++i)
+            for (int j = -far; j <= far; ++j) result.emplace(c.first + i, c.second + j);
     }
     return result;
 }
@@ -179,27 +206,36 @@ inline std::optional<patch_fit> fit_of(std::vector<patch_sums> patches) {
 
 }  // namespace detail
 
-/// Fits the plane again, without the points next to other things, and scales its covariance by the
-/// dispersion of the mean residuals of square patches, relative to that of independent noise (the
-/// quasi-likelihood of Wedderburn 1974): where a surface is not quite flat, or the sensor has
-/// errors in common for neighboring points, the points are not independent.
+/// Fits the plane again, to all points near it whose rays cross it where its members are, but not
+/// next to other things: which points these are does not depend on their noise, unlike the choice
+/// of the members, which is one-sided at edges. Scales its covariance by the dispersion of the mean
+/// residuals of square patches, relative to that of independent noise (the quasi-likelihood of
+/// Wedderburn 1974): where a surface is not quite flat, or the sensor has errors in common for
+/// neighboring points, the points are not independent.
 inline void refine(flat_part& part, const gnomon::scan& scan, const scan_noise& noise) {
     constexpr double patch = 0.25;     // [m]; chosen: a part of a wall, many points
     constexpr double cell = 0.05;      // [m]; chosen
     constexpr double area_cell = 0.1;  // [m]; chosen: wider than gaps between rays
     const gnomon::plane_estimate before = part.plane;
     const detail::plane_cells cells(before, cell), patches(before, patch), areas(before, area_cell);
-    const auto left_out = detail::cells_at_others(part, cells, scan, noise);
-    std::set<detail::plane_cells::cell> covered;
-    std::map<detail::plane_cells::cell, detail::patch_sums> by_patch;
+    const auto left_out = detail::cells_at_others(part, cell, scan, noise);
+    std::set<detail::plane_cells::cell> covered, own;
+    const auto place_of = [&](std::size_t i) { return cells.local(part.crossing_of(scan, i)); };
     for (const auto i : part.members) {
-        const Eigen::Vector3d x = cells.local(scan.points[i]);
-        if (!x.allFinite()) continue;
+        const Eigen::Vector3d x = place_of(i);
+        if (!(x.norm() < detail::largest_plane)) continue;
         covered.insert(areas.of(x));
-        const double sigma = part.sigma_of(scan, i, noise);
-        if (std::abs(x[2]) > 3.0 * sigma || left_out.contains(cells.of(x))) continue;
-        const Eigen::Vector3d effect(x[1], -x[0], 1.0);
-        by_patch[patches.of(x)].add(effect, x[2], sigma * sigma);
+        if (!left_out.contains(cells.of(x))) own.insert(cells.of(x));
+    }
+    std::map<detail::plane_cells::cell, detail::patch_sums> by_patch;
+    for (std::size_t i = 0; i < scan.size(); ++i) {
+        const Eigen::Vector3d x = place_of(i);
+        const double sigma = part.sigma_of(scan, i, noise),
+                     residual = part.distance(scan.points[i]);
+        if (!(x.norm() < detail::largest_plane && std::abs(residual) <= 3.0 * sigma && sigma > 0.0))
+            continue;
+        if (own.contains(cells.of(x)))
+            by_patch[patches.of(x)].add({x[1], -x[0], 1.0}, residual, sigma * sigma);
     }
     part.area = area_cell * area_cell * static_cast<double>(covered.size());
     std::vector<detail::patch_sums> sums;
