@@ -153,8 +153,7 @@ def rooms(tables, lengths, column):
 
 @relation("rooms", "f.10", "lengths of rooms: 98 % are within three stated standard deviations of the truth, with "
           "noise of 5 and of 15 mm", "not in the thesis",
-          "planes are fit to many thousand points, so that what touches a surface within its noise moves it by "
-          "several standard deviations, if only by tenths of a millimetre")
+          "edges of openings are misjudged where furniture hides a part of them")
 def lengths_have_their_deviations(tables):
     shares = rooms(tables, "all", "within 3 standard deviations [%]")
     return ("; ".join(f"{share} % of {number} with {noise:g} mm" for noise, number, share in shares),
