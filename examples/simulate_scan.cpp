@@ -122,7 +122,9 @@ void write_points(const std::string& path, const sim::true_scan& truth) {
                scalar_property("range", truth.ranges), scalar_property("echo", truth.echoes)});
 }
 
-/// Which number means what.
+json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
+
+/// Which number means what, and where doors and windows are.
 json names_of(const sim::scene& world) {
     json parts = json::array();
     for (const auto& part : world.parts())
@@ -130,7 +132,18 @@ json names_of(const sim::scene& world) {
     json surfaces = json::array();
     for (const auto& surface : world.surfaces())
         surfaces.push_back({{"name", surface.name}, {"part", surface.part}});
-    return {{"objects", world.objects()}, {"parts", parts}, {"surfaces", surfaces}};
+    json openings = json::array();
+    for (const auto& [name, rectangle] : world.openings) {
+        openings.push_back({{"name", name},
+                            {"center", array_of(rectangle.center)},
+                            {"horizontal", array_of(rectangle.axes.col(0))},
+                            {"width", rectangle.lengths[0]},
+                            {"height", rectangle.lengths[1]}});
+    }
+    return {{"objects", world.objects()},
+            {"parts", parts},
+            {"surfaces", surfaces},
+            {"openings", openings}};
 }
 
 void simulate_scan(const options& o) {

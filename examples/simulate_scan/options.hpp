@@ -27,6 +27,7 @@ what is true of them (normal, object, part, surface, range, echo), scan.png and 
   --scene NAME         kitchen, living_room, box_and_cylinder, boxes_and_bin, two_chairs,
                        seat_armchair_table, furnished_room or street (of the seed), or a mesh file
                        such as FILE.obj, z up, in metres (kitchen)
+  --openings           doors and windows in the walls of furnished_room
   --scanner NAME       range_finder; a depth camera with its own resolution and noise:
                        structured_light, time_of_flight or stereo; or one sweep of a spinning lidar:
                        velodyne_vlp_16, velodyne_hdl_32e or velodyne_hdl_64e (range_finder)
@@ -57,6 +58,7 @@ struct options {
     sim::scanner finder;
     sim::beam beam{.sigma = 0.015};
     bool skimmed = false;
+    bool openings = false;
     std::optional<Eigen::Vector3d> sensor;
     std::optional<gnomon::angle> yaw;
     std::optional<gnomon::angle> pitch;
@@ -118,6 +120,8 @@ inline const option<options> known_options[] = {
      [](options& o, const std::string& name, const std::string& value) {
          o.beam.sigma = number_within(name, value, 0.0, 10.0, "from 0 to 10");
      }},
+    {"--openings", false,
+     [](options& o, const std::string&, const std::string&) { o.openings = true; }},
     {"--skimmed", false,
      [](options& o, const std::string&, const std::string&) { o.skimmed = true; }},
     {"--seed", true,

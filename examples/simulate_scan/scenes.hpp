@@ -45,7 +45,10 @@ inline sim::scene scene_of(const options& o) {
         {"two_chairs", [](const options&) { return sim::scenes::two_chairs(); }},
         {"seat_armchair_table", [](const options&) { return sim::scenes::seat_armchair_table(); }},
         {"furnished_room",
-         [](const options& with) { return sim::scenes::furnished_room({.seed = with.beam.seed}); }},
+         [](const options& with) {
+             return sim::scenes::furnished_room(
+                 {.seed = with.beam.seed, .openings = with.openings});
+         }},
         {"street",
          [](const options& with) { return sim::scenes::street({.seed = with.beam.seed}); }}};
     const auto known = scenes.find(o.scene);

@@ -13187,8 +13187,14 @@ struct plane_sums {
         f.plane = {n, dot(n, f.centroid)};
         f.is_determined = true;
         f.chi2 = chi2_of(std::max(0.0, e.values[2]), n);
-        f.is_seen = squared_cosine(n) >= sin(edge_on) * sin(edge_on);
+        f.is_seen = is_seen(n);
         return f;
+    }
+
+    /// A given plane, relative to the origin, as the plane of the points. Precondition: there are.
+    /// (A template, so that only its users compile it.)
+    [[nodiscard]] region_plane about(const auto& to) const {
+        return {to, positions.mean(), chi2_about(to), true, is_seen(to.normal)};
     }
 
     /// The sum of the squared deviations from the plane that is fit to the points, in variances of
@@ -13206,6 +13212,10 @@ struct plane_sums {
     }
 
   private:
+    [[nodiscard]] bool is_seen(const Eigen::Vector3d& n) const {
+        return squared_cosine(n) >= sin(edge_on) * sin(edge_on);
+    }
+
     /// @param variance  of the points across the plane [m^2]
     [[nodiscard]] double chi2_of(double variance, const Eigen::Vector3d& normal) const {
         return variance / (static_cast<double>(count) * noise_across(normal));
@@ -13217,6 +13227,13 @@ struct planar_region {
     plane_sums sums;
     region_plane fit;
     bool is_planar = true;  ///< else the plane does not explain its points
+
+    /// Whether the plane explains a region of `all` points: most of them are on it, their variance
+    /// is at most 2.5 times that of the noise, and it is not seen edge-on.
+    [[nodiscard]] bool explains(std::size_t all) const {
+        return fit.is_determined && fit.is_seen && fit.chi2 <= region_plane::most_excess &&
+               2 * sums.count > all;
+    }
 };
 
 }  // namespace gnomon::detail
@@ -13725,8 +13742,7 @@ namespace gnomon::detail {
 
 /// The plane of some points of a cloud, in coordinates of the cloud. Points off the plane are left
 /// out, and it is fit again, until their number stays the same. If more than half are off the plane
-/// of all, the plane of the half around the middle is the first one. Planar if most points are on
-/// it, their variance is at most 2.5 times that of the noise, and it is not seen edge-on.
+/// of all, the plane of the half around the middle is the first one.
 template <class Cloud>
 [[nodiscard]] planar_region region_of(const Cloud& cloud, std::span<const point_index> members) {
     const auto sums_of = [&](auto&& is_of) {
@@ -13750,8 +13766,7 @@ template <class Cloud>
         region = on;
         if (rests) break;
     }
-    region.is_planar = region.fit.is_determined && region.fit.is_seen &&
-                       region.fit.chi2 <= region_plane::most_excess && 2 * region.sums.count > all;
+    region.is_planar = region.explains(all);
     return region;
 }
 
@@ -14202,6 +14217,234 @@ struct leveling {
 
 }  // namespace gnomon
 
+// -------- gnomon/features/detail/normal_equations.hpp --------------------------------------------
+
+/// @file
+/// The normal equations of a least-squares problem with few parameters, and their solution by the
+/// eigenvectors of the matrix, which state as well what the observations do not determine.
+
+namespace gnomon::detail {
+
+/// J^T J, J^T r and r^T r of residuals r with the rows of J as derivatives, summed row by row.
+template <std::size_t N>
+struct normal_equations {
+    square_array<N> left{};         ///< lower triangle of J^T J
+    std::array<double, N> right{};  ///< J^T r
+    double squares = 0.0;           ///< r^T r
+    std::size_t count = 0;          ///< rows
+
+    void add(const std::array<double, N>& row, double residual) {
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t j = 0; j <= i; ++j) left[i][j] += row[i] * row[j];
+            right[i] += row[i] * residual;
+        }
+        squares += residual * residual;
+        ++count;
+    }
+
+    void add(const normal_equations& other) {
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t j = 0; j <= i; ++j) left[i][j] += other.left[i][j];
+            right[i] += other.right[i];
+        }
+        squares += other.squares;
+        count += other.count;
+    }
+};
+
+/// The decomposition of J^T J after each column of J is divided by its length, so that its diagonal
+/// is 1 and the units of the parameters do not matter.
+template <std::size_t N>
+class scaled_equations {
+  public:
+    /// Precondition: the entries of `e` are finite.
+    explicit scaled_equations(const normal_equations<N>& e) {
+        square_array<N> unit{};
+        for (std::size_t i = 0; i < N; ++i)
+            scale_[i] = e.left[i][i] > 0.0 ? 1.0 / std::sqrt(e.left[i][i]) : 0.0;
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t j = 0; j <= i; ++j)
+                unit[i][j] = unit[j][i] = e.left[i][j] * scale_[i] * scale_[j];
+        }
+        eigen_ = jacobi_eigen<N>(unit);
+        for (std::size_t k = 0; k < N; ++k) {
+            for (std::size_t i = 0; i < N; ++i)
+                right_[k] += eigen_.vectors[i][k] * scale_[i] * e.right[i];
+        }
+    }
+
+    /// Whether the observations determine all parameters, up to rounding.
+    [[nodiscard]] bool is_regular() const { return eigen_.values[N - 1] > rounding; }
+
+    /// -(J^T J + damping diag(J^T J))^-1 J^T r, the step to the minimum; 0 along directions that
+    /// the observations do not determine.
+    [[nodiscard]] std::array<double, N> step(double damping) const {
+        std::array<double, N> s{};
+        for (std::size_t k = 0; k < N; ++k) {
+            if (eigen_.values[k] <= rounding) continue;
+            const double along = right_[k] / (eigen_.values[k] + damping);
+            for (std::size_t i = 0; i < N; ++i) s[i] -= scale_[i] * eigen_.vectors[i][k] * along;
+        }
+        return s;
+    }
+
+    /// (J^T J)^-1, the covariance of the parameters if residuals have the variance 1.
+    /// Precondition: is_regular().
+    [[nodiscard]] square_array<N> covariance() const {
+        square_array<N> c{};
+        for (std::size_t i = 0; i < N; ++i) {
+            for (std::size_t j = 0; j < N; ++j) {
+                for (std::size_t k = 0; k < N; ++k)
+                    c[i][j] += scale_[i] * scale_[j] * eigen_.vectors[i][k] * eigen_.vectors[j][k] /
+                               eigen_.values[k];
+            }
+        }
+        return c;
+    }
+
+  private:
+    static constexpr double rounding = 1e-13;  // numerical: of eigenvalues, whose sum is N
+
+    std::array<double, N> scale_{};
+    std::array<double, N> right_{};
+    small_eigen_decomposition<N> eigen_{};
+};
+
+/// The parameters x that minimize the squares of rows . x - values, from `add(row, -value)`.
+template <std::size_t N>
+[[nodiscard]] std::array<double, N> linear_solution(const normal_equations<N>& e) {
+    return scaled_equations<N>(e).step(0.0);
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/segmentation/detail/ray_fit.hpp -------------------------------------------------
+
+/// @file
+/// The plane of a region by maximum likelihood where rays are known: the squares of the errors of
+/// the ranges are minimized, in variances of their noise, by the method of Gauss and Newton.
+///
+/// The plane of smallest variance, from which it starts, takes noise as isotropic: of a strip that
+/// is hardly wider than the noise, its normal is in the surface and not across. Here each point is
+/// moved along its ray to the plane, where it is free of noise, before it has a lever arm.
+
+namespace gnomon::detail {
+
+inline constexpr std::size_t plane_parameters = 3;  // formula: two slopes and a shift
+
+/// The normal equations of a plane about points that are moved to it: residuals are distances from
+/// the plane in standard deviations of the noise across it, parameters the slopes of the plane
+/// towards b1 and b2 and its shift along the normal at the center [m].
+/// @tparam Cloud  a planar_cloud
+template <class Cloud>
+struct plane_adjustment {
+    tangent_basis frame;
+    Eigen::Vector3d center;  ///< of the plane [m]
+    normal_equations<plane_parameters> equations;
+    weighted_moments moved;             ///< of the points on the plane, from the center [m]
+    double least_moved = sin(edge_on);  ///< cosine of normal and ray
+
+    plane_adjustment(const tangent_basis& basis, const Eigen::Vector3d& on_plane)
+        : frame(basis), center(on_plane) {}
+
+    /// @param moves  whether the point is moved along its ray; else along the normal
+    void add(const Eigen::Vector3d& x, const point_noise& noise, double points, bool moves) {
+        const Eigen::Vector3d offset = difference(x, center);
+        const double distance = dot(frame.normal, offset);
+        const double cosine = dot(frame.normal, noise.ray);
+        moves = moves && std::abs(cosine) > least_moved;
+        const Eigen::Vector3d m = combined(1.0, offset, -distance / (moves ? cosine : 1.0),
+                                           moves ? noise.ray : frame.normal);
+        const double weight = std::sqrt(points) / noise.across(frame.normal);
+        equations.add({weight * dot(frame.b1, m), weight * dot(frame.b2, m), -weight},
+                      weight * distance);
+        moved.add(m, points / (noise.sigma * noise.sigma));
+    }
+
+    /// Of some points of a cloud.
+    void add_all(const Cloud& cloud, std::span<const point_index> members, bool moves,
+                 auto&& is_of) {
+        for (const point_index i : members) {
+            if (!cloud.is_finite(i) || !is_of(i)) continue;
+            const double points = cloud.counts.empty() ? 1.0 : static_cast<double>(cloud.counts[i]);
+            add(cloud.offsets[i], cloud.noise[i], points, moves && cloud.noise[i].has_ray());
+        }
+    }
+
+    /// The covariance of the parameters.
+    [[nodiscard]] auto covariance() const {
+        return scaled_equations<plane_parameters>(equations).covariance();
+    }
+
+    /// The plane after a step of the parameters.
+    [[nodiscard]] plane_adjustment after(const std::array<double, plane_parameters>& step) const {
+        const Eigen::Vector3d n = combined(1.0, frame.normal, step[0], frame.b1, step[1], frame.b2);
+        return {tangent_basis(scaled(1.0 / length(n), n), frame),
+                combined(1.0, center, step[2], frame.normal)};
+    }
+
+    /// The same plane about the mean of the moved points, with b1 along their largest variance.
+    /// Precondition: there are points.
+    [[nodiscard]] plane_adjustment principal() const {
+        const Eigen::Vector3d first = column(symmetric_eigen(moved.covariance()).vectors, 0);
+        const Eigen::Vector3d mean = moved.mean();
+        plane_adjustment same(
+            frame, combined(1.0, center, 1.0, mean, -dot(frame.normal, mean), frame.normal));
+        same.frame.b1 = first;
+        same.frame = tangent_basis(frame.normal, same.frame);
+        return same;
+    }
+};
+
+/// The region of the same plane by maximum likelihood, of the points that are on it; or `start`, if
+/// no ray is known, or if most of its points would not be on that plane.
+/// @param start  of these points, with a plane
+template <class Cloud>
+[[nodiscard]] planar_region region_along_rays(const Cloud& cloud,
+                                              std::span<const point_index> members,
+                                              const planar_region& start) {
+    const auto is_on_start = [&](point_index i) { return cloud.is_on(i, start.fit); };
+    Eigen::Vector3d sum(0.0, 0.0, 0.0);
+    for (const point_index i : members)
+        if (cloud.is_finite(i)) sum = combined(1.0, sum, 1.0, cloud.noise[i].ray);
+    if (!has_length(sum)) return start;
+    // The regression of the depth along the mean ray is linear, and for parallel rays the result.
+    plane_adjustment<Cloud> next(tangent_basis(direction_of(sum)), start.fit.centroid);
+    next.add_all(cloud, members, false, is_on_start);
+    next = next.after(linear_solution(next.equations));
+
+    const auto plane_of = [](const auto& of) {
+        return gnomon::plane{of.frame.normal, dot(of.frame.normal, of.center)};
+    };
+    planar_region region = start;
+    constexpr int most_passes = 50;  // numerical: five are the rule
+    for (int pass = 0; pass < most_passes; ++pass) {
+        const gnomon::plane plane = plane_of(next);
+        if (!all_finite(plane.normal) || !std::isfinite(plane.offset)) return start;
+        const region_plane fit = pass == 0 ? start.sums.about(plane) : region.sums.about(plane);
+        planar_region on;
+        const auto is_on = [&](point_index i) { return cloud.is_on(i, fit); };
+        next.add_all(cloud, members, true, [&](point_index i) {
+            if (!is_on(i)) return false;
+            cloud.add(i, on.sums);
+            return true;
+        });
+        if (2 * on.sums.count < start.sums.count || on.sums.count < plane_parameters) return start;
+        const auto step = linear_solution(next.equations);
+        double decrease = 0.0;  // of the sum of squares, by this step
+        for (std::size_t k = 0; k < step.size(); ++k) decrease -= step[k] * next.equations.right[k];
+        next = next.after(step);
+        const bool rests = on.sums.count == region.sums.count;
+        region = on;
+        region.fit = on.sums.about(plane_of(next));
+        constexpr double negligible = 1e-8;  // numerical: squared standard deviations
+        if (rests && decrease <= negligible) break;
+    }
+    return region;
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/segmentation/plane_estimate.hpp -------------------------------------------------
 
 /// @file
@@ -14217,7 +14460,7 @@ struct plane_estimate {
     /// In Hesse normal form, towards the view point of the points, or else the origin; without a
     /// normal if the points do not determine one.
     gnomon::plane plane{Eigen::Vector3d(0.0, 0.0, 0.0), 0.0};
-    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane [m]
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< of the points on the plane, moved to it [m]
     /// Unit columns: the directions of largest and second largest variance in the plane, and its
     /// normal.
     Eigen::Matrix3d axes = detail::diagonal(1.0, 1.0, 1.0);
@@ -14245,37 +14488,84 @@ template <class Cloud>
     return std::ranges::count_if(members, is_off) < fewest_off;
 }
 
+/// The number of finite points.
+template <class Cloud>
+[[nodiscard]] std::size_t count_of(const Cloud& cloud, std::span<const point_index> members) {
+    std::size_t count = 0;
+    for (const point_index i : members)
+        if (cloud.is_finite(i)) count += cloud.counts.empty() ? 1 : cloud.counts[i];
+    return count;
+}
+
+/// The normal equations of a plane about the mean of the points on it, along their principal axes.
+template <class Cloud>
+[[nodiscard]] plane_adjustment<Cloud> adjustment_of(const Cloud& cloud,
+                                                    std::span<const point_index> members,
+                                                    const region_plane& of) {
+    const auto is_on = [&](point_index i) { return cloud.is_on(i, of); };
+    const gnomon::plane& p = of.plane;
+    plane_adjustment<Cloud> first(
+        tangent_basis(p.normal),
+        combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
+    first.add_all(cloud, members, true, is_on);
+    plane_adjustment<Cloud> principal = first.principal();
+    principal.add_all(cloud, members, true, is_on);
+    return principal;
+}
+
+/// The covariance of the turns about b1 and b2 and of the shift. A slope towards b2 is a turn about
+/// -b1, one towards b1 a turn about b2.
+/// @param about     a plane_adjustment
+/// @param variance  of the points, in that of their noise. (A template, so that only its users
+///                  compile it.)
+[[nodiscard]] Eigen::Matrix3d covariance_of_turns(const auto& about, double variance) {
+    const auto c = about.covariance();
+    constexpr std::size_t slope[] = {1, 0, 2};
+    constexpr double sign[] = {-1.0, 1.0, 1.0};
+    Eigen::Matrix3d turns;
+    for (std::size_t i = 0; i < plane_parameters; ++i) {
+        for (std::size_t j = 0; j <= i; ++j) {
+            const auto row = static_cast<int>(i), col = static_cast<int>(j);
+            turns(row, col) = variance * sign[i] * sign[j] * c[slope[i]][slope[j]];
+            turns(col, row) = turns(row, col);
+        }
+    }
+    return turns;
+}
+
 /// The plane of some points of a cloud, with its covariance.
 /// @param exact  the same points, with the noise of each for itself
 template <class Cloud>
 [[nodiscard]] plane_estimate estimate_of(const Cloud& cloud, std::span<const point_index> members,
                                          const Cloud& exact) {
-    const auto& [sums, fit, is_planar] = region_of(cloud, members);
+    planar_region region = region_of(cloud, members);
     plane_estimate e;
-    e.points = sums.count;
+    e.points = region.sums.count;
     if (e.points == 0) return e;
-    e.centroid = combined(1.0, cloud.origin, 1.0, fit.centroid);
-    if (!fit.is_determined) return e;
-    const eigen_decomposition principal = symmetric_eigen(sums.positions.covariance());
+    e.centroid = combined(1.0, cloud.origin, 1.0, region.fit.centroid);
+    if (!region.fit.is_determined) return e;
+    region = region_along_rays(cloud, members, region);
+    e.points = region.sums.count;
+    gnomon::plane& plane = region.fit.plane;
     const auto on_plane = std::ranges::find_if(
-        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, fit); });
-    const bool is_away =
-        on_plane != members.end() && dot(fit.plane.normal, cloud.ray(*on_plane)) > 0.0;
-    const Eigen::Vector3d n = scaled(is_away ? -1.0 : 1.0, fit.plane.normal);
-    const Eigen::Vector3d first = column(principal.vectors, 0);
-    e.axes = from_columns(first, cross(n, first), n);
-    e.plane = {n, dot(n, e.centroid)};
-    e.chi2 = fit.chi2;
-    e.is_flat = is_planar && has_few_off(exact, members, fit);
-    // A turn about one axis moves the points along the other one.
-    const double shift = std::max(fit.chi2, 1.0) * sums.noise_across(n);
-    e.covariance = diagonal(shift / principal.values[1], shift / principal.values[0], shift);
+        members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, region.fit); });
+    if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
+        plane = {scaled(-1.0, plane.normal), -plane.offset};
+    const auto about = adjustment_of(cloud, members, region.fit);
+    e.centroid = combined(1.0, cloud.origin, 1.0, about.center);
+    e.axes = from_columns(about.frame.b1, about.frame.b2, plane.normal);
+    e.plane = {plane.normal, dot(plane.normal, e.centroid)};
+    e.chi2 = region.fit.chi2;
+    e.is_flat =
+        region.explains(count_of(cloud, members)) && has_few_off(exact, members, region.fit);
+    e.covariance = covariance_of_turns(about, std::max(e.chi2, 1.0));
     return e;
 }
 
 }  // namespace detail
 
-/// The planes of segments.
+/// The planes of segments. Where rays are known they are of maximum likelihood, with points moved
+/// along the rays (detail/ray_fit.hpp); else of smallest variance.
 ///
 /// @param points  any point range of n points [m]; where view points are known, noise lies along
 ///                the rays, else it is the same in all directions
@@ -14573,10 +14863,10 @@ class floor_search {
 // -------- gnomon/segmentation/preprocess.hpp -----------------------------------------------------
 
 /// @file
-/// Finds floor and ceiling, and removes both: they are often more than half of an indoor scan and
-/// connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths of the bands
-/// open; the floor is refitted to its band until it converges, so that tilts are found. A level
-/// plane that is no floor, such as a table top, is not taken for one.
+/// Finds floor and ceiling, for `crop_height` to remove both: they are often more than half of an
+/// indoor scan and connect all objects on them. Klasing 2010, Sec. 4.2.2, which leaves the widths
+/// of the bands open; the floor is refitted to its band until it converges, so that tilts are
+/// found. A level plane that is no floor, such as a table top, is not taken for one.
 
 namespace gnomon {
 
@@ -14593,12 +14883,6 @@ struct find_ceiling_options {
     double min_share = 0.01;  ///< of all points that the ceiling's bin must hold to be one; chosen
 };
 
-/// Which heights above the floor to leave out.
-struct crop_height_options {
-    double floor = 0.05;    ///< up to this height [m]; rho_o
-    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
-};
-
 namespace detail {
 
 inline void require_valid(const find_floor_options& search) {
@@ -14612,11 +14896,6 @@ inline void require_valid(const find_ceiling_options& search) {
             "find_ceiling: the bin must be from 1e-6 m to 1e6 m wide");
     require(search.min_share >= 0.0, "find_ceiling: min_share must not be negative or NaN");
     require(!std::isnan(search.min_height), "find_ceiling: min_height must not be NaN");
-}
-
-inline void require_valid(const crop_height_options& bands) {
-    require(!std::isnan(bands.floor) && !std::isnan(bands.ceiling),
-            "crop_height: the bands must not be NaN");
 }
 
 }  // namespace detail
@@ -14679,44 +14958,6 @@ template <class R, class Proj = std::identity>
         near += 1.0;
     }
     return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
-}
-
-namespace detail {
-
-/// crop_height(), over a position_view and in the memory of `kept`.
-void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
-                      std::optional<double> ceiling, const crop_height_options& bands) {
-    require_hesse(floor);
-    require_valid(bands);
-    require(!ceiling || !std::isnan(*ceiling), "crop_height: the ceiling must not be NaN");
-    kept.clear();
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        if (!is_finite(p[i])) continue;
-        const double height = floor.signed_distance(p[i]);
-        if (height > bands.floor && !(ceiling && height >= *ceiling - bands.ceiling))
-            kept.push_back(static_cast<point_index>(i));
-    }
-}
-
-}  // namespace detail
-
-/// The indices of the points between the bands of floor and ceiling, ascending; see subset_view.
-/// Points that are not finite are left out.
-///
-/// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
-/// @throws std::invalid_argument  unless the floor's normal is of unit length, or if a height is
-///                                NaN
-/// Complexity: O(n).
-template <class R, class Proj = std::identity>
-    requires point_range<R, Proj>
-[[nodiscard]] std::vector<point_index> crop_height(const R& points, const plane& floor,
-                                                   std::optional<double> ceiling,
-                                                   const crop_height_options& bands = {},
-                                                   Proj projection = {}) {
-    std::vector<point_index> kept;
-    detail::crop_height_into(kept, position_view<R, Proj>(points, std::move(projection)), floor,
-                             ceiling, bands);
-    return kept;
 }
 
 }  // namespace gnomon
@@ -16241,6 +16482,77 @@ struct sensor_place {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/occlusion/detail/view_limits.hpp ------------------------------------------------
+
+/// @file
+/// The field of view of a scan: between the lowest and the highest elevation with returns. What is
+/// below the lowest beam of a lidar was not observed, so it does not separate surfaces. The limits
+/// differ by azimuth where the sensor is tilted about the pole, or not quite at its view point.
+
+namespace gnomon::detail {
+
+/// The limits in each of some sectors of azimuth.
+struct view_limits {
+    /// Those of rays, enlarged by two pixels.
+    /// @param ways   the rays, of any length but 0 [m]
+    /// @param pole   the axis of elevation, of any length
+    /// @param pixel  [rad]
+    void set(const auto& ways, const auto& pole, double pixel) {
+        axes_ = image_axes::with_pole(pole);
+        all_ = {};
+        for (limits& sector : sectors_) sector = {};
+        for (const Eigen::Vector3d& way : ways) {
+            const double sine = dot(axes_.z, way) / length(way);
+            sectors_[sector_of(way)].add({sine, sine});
+            all_.add({sine, sine});
+        }
+        for (limits& sector : sectors_) sector.enlarge(2.0 * pixel);
+        all_.enlarge(2.0 * pixel);
+    }
+
+    /// Whether a ray is below or above all rays of its sector and the two next to it; of all, if
+    /// these have none.
+    [[nodiscard]] bool exclude(const auto& way) const {
+        const std::size_t sector = sector_of(way), count = sectors_.size();
+        limits here = sectors_[sector];
+        here.add(sectors_[(sector + 1) % count]);
+        here.add(sectors_[(sector + count - 1) % count]);
+        if (here.lowest > here.highest) here = all_;
+        const double up = dot(axes_.z, way), distance = length(way);
+        return here.lowest <= here.highest &&
+               (up < here.lowest * distance || up > here.highest * distance);
+    }
+
+  private:
+    /// Sines of elevations.
+    struct limits {
+        double lowest = 1.0, highest = -1.0;  // of no ray
+
+        void add(const limits& other) {
+            lowest = std::min(lowest, other.lowest);
+            highest = std::max(highest, other.highest);
+        }
+        void enlarge(double by) {
+            if (lowest > highest) return;
+            constexpr double right = 0.5 * std::numbers::pi;
+            lowest = std::sin(std::max(std::asin(std::max(lowest, -1.0)) - by, -right));
+            highest = std::sin(std::min(std::asin(std::min(highest, 1.0)) + by, right));
+        }
+    };
+
+    [[nodiscard]] std::size_t sector_of(const auto& way) const {
+        const double azimuth = std::atan2(dot(axes_.y, way), dot(axes_.x, way)) + std::numbers::pi;
+        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors_.size());
+        return static_cast<std::size_t>(azimuth / width) % sectors_.size();
+    }
+
+    image_axes axes_;
+    std::array<limits, 128> sectors_;  // numerical: limits hardly differ within three of them
+    limits all_;
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/occlusion/range_image.hpp -------------------------------------------------------
 
 /// @file
@@ -16639,9 +16951,10 @@ class visibility {
         for (const auto other : {observation::on_surface, observation::occluded})
             if (count[other] > count[most]) most = other;
         if (count[most] > 0) return most;
-        const auto blind = std::count_if(
-            images_.begin(), images_.end(),
-            [&](const range_image& image) { return is_out_of_view(place, image.viewpoint()); });
+        const auto blind =
+            std::count_if(images_.begin(), images_.end(), [&](const range_image& image) {
+                return limits_.exclude(detail::difference(place, image.viewpoint()));
+            });
         return 2 * static_cast<std::size_t>(blind) > images_.size() ? observation::out_of_view
                                                                     : observation::unobserved;
     }
@@ -16670,37 +16983,17 @@ class visibility {
     }
 
   private:
-    /// Finds the range of elevations with returns, enlarged by two pixels, about the given pole or
-    /// the axis along which all rays vary least. The images have poles of their own, since the
-    /// common axis may lie within the field of view of one of them.
+    /// Finds the limits of the view about the given pole or the axis along which all rays vary
+    /// least. The images have poles of their own, since the common axis may lie within the field of
+    /// view of one of them.
     void find_limits(const auto& p, const viewpoint_table& viewpoints, const auto& pole) {
         detail::scratch<Eigen::Vector3d> ways;
         for (std::size_t i = 0; i < p.size(); ++i)
             if (const Eigen::Vector3d way = detail::difference(p[i], viewpoints[i]);
                 detail::has_length(way))
                 ways.push_back(way);
-        pole_ =
-            detail::direction_of(pole ? *pole : detail::least_observed_axis(ways, std::identity()));
-        for (const Eigen::Vector3d& way : ways) {
-            const double sine = detail::dot(pole_, way) / detail::length(way);
-            lowest_sine_ = std::min(lowest_sine_, sine);
-            highest_sine_ = std::max(highest_sine_, sine);
-        }
-        const auto turned = [](double sine, double by) {
-            const double up = std::asin(std::clamp(sine, -1.0, 1.0)) + by;
-            return std::sin(std::clamp(up, -0.5 * std::numbers::pi, 0.5 * std::numbers::pi));
-        };
-        lowest_sine_ = turned(lowest_sine_, -2.0 * pixel_);
-        highest_sine_ = turned(highest_sine_, 2.0 * pixel_);
-    }
-
-    /// Whether a place is below or above all that was seen from anywhere.
-    [[nodiscard]] bool is_out_of_view(const Eigen::Vector3d& place,
-                                      const Eigen::Vector3d& viewpoint) const {
-        if (lowest_sine_ > highest_sine_) return false;  // nothing was seen
-        const Eigen::Vector3d way = detail::difference(place, viewpoint);
-        const double up = detail::dot(pole_, way), distance = detail::length(way);
-        return up < lowest_sine_ * distance || up > highest_sine_ * distance;
+        limits_.set(ways, pole ? *pole : detail::least_observed_axis(ways, std::identity()),
+                    pixel_);
     }
 
     /// The root mean square of the standard deviations of the ranges [m].
@@ -16765,9 +17058,8 @@ class visibility {
     }
 
     noise_curve noise_;
-    double pixel_ = 0.0;                              // [rad]
-    Eigen::Vector3d pole_;                            // of the limits
-    double lowest_sine_ = 1.0, highest_sine_ = -1.0;  // of elevations in which something is seen
+    double pixel_ = 0.0;  // [rad]
+    detail::view_limits limits_;
     detail::scratch<range_image> images_;
 };
 
@@ -18753,6 +19045,27 @@ template <class Rows, class Builder>
     return std::move(builder).finish(header.viewpoints);
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_ply(const input& file, auto text, const auto& fields) {
+    const auto header = read_ply_header(text);
+
+    std::vector<file_column> columns;
+    for (const auto& element : header.elements) {
+        if (element.name != "vertex") continue;
+        for (const auto& p : element.properties)
+            if (!p.length) columns.push_back({p.name, field_type_of(p.type)});
+        break;
+    }
+    scan_builder builder(columns, fields, text);
+
+    if (header.format == ply_format::ascii)
+        return read_ply_vertices(ascii_rows(text), header, std::move(builder));
+    const std::endian order =
+        header.format == ply_format::binary_big_endian ? std::endian::big : std::endian::little;
+    return read_ply_vertices(binary_rows({file, text.offset()}, order), header, std::move(builder));
+}
+
 }  // namespace detail
 
 /// Parses a PLY file, ascii or binary of either byte order. NaN coordinates are kept. Properties
@@ -18764,26 +19077,9 @@ template <class Rows, class Builder>
 /// @return the vertices [m] in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>  // templates, so that unused readers cost no compile time
 [[nodiscard]] scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const detail::ply_header header = detail::read_ply_header(text);
-
-    std::vector<detail::file_column> columns;
-    for (const detail::ply_element& element : header.elements) {
-        if (element.name != "vertex") continue;
-        for (const detail::ply_property& p : element.properties)
-            if (!p.length) columns.push_back({p.name, detail::field_type_of(p.type)});
-        break;
-    }
-    detail::scan_builder builder(columns, fields, text);
-
-    if (header.format == ply_format::ascii)
-        return read_ply_vertices(detail::ascii_rows(text), header, std::move(builder));
-    const std::endian order =
-        header.format == ply_format::binary_big_endian ? std::endian::big : std::endian::little;
-    return read_ply_vertices(detail::binary_rows({file, text.offset()}, order), header,
-                             std::move(builder));
+    return detail::read_ply(file, detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io
@@ -18803,8 +19099,8 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// Reads up to and including the line "POINTS n type".
 /// @return n, as declared
 /// @throws gnomon::error  if the header is damaged, BINARY or of another kind of data set
-template <class = void>  // templates, so that unused readers cost no compile time
-[[nodiscard]] std::uint64_t read_vtk_header(text_cursor& text) {
+/// (A template, as all here, so that unused readers cost no compile time.)
+[[nodiscard]] std::uint64_t read_vtk_header(auto& text) {
     if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
     static_cast<void>(text.line());  // the title
 
@@ -18827,6 +19123,28 @@ template <class = void>  // templates, so that unused readers cost no compile ti
     return points;
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_vtk(auto text, const auto& fields) {
+    const auto points = read_vtk_header(text);
+    const std::vector<file_column> columns = {{"x"}, {"y"}, {"z"}};
+    scan_builder builder(columns, fields, text);
+    text.require_rows(points, 3);
+    builder.reserve(static_cast<std::size_t>(points));
+
+    // Line breaks can be anywhere between numbers.
+    splitter words;
+    std::vector<double> row;
+    for (std::uint64_t i = 0; i < points; ++i) {
+        for (row.clear(); row.size() < 3;) {
+            if (words.empty()) words = text.words();
+            row.push_back(text.number(words));
+        }
+        builder.add(row);
+    }
+    return std::move(builder).finish();
+}
+
 }  // namespace detail
 
 /// Parses a legacy VTK file. NaN coordinates are kept. The format has no viewpoints.
@@ -18838,24 +19156,7 @@ template <class = void>  // templates, so that unused readers cost no compile ti
 /// Complexity: O(bytes).
 template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const std::uint64_t points = detail::read_vtk_header(text);
-    const std::vector<detail::file_column> columns = {{"x"}, {"y"}, {"z"}};
-    detail::scan_builder builder(columns, fields, text);
-    text.require_rows(points, 3);
-    builder.reserve(static_cast<std::size_t>(points));
-
-    // Line breaks can be anywhere between numbers.
-    detail::splitter words;
-    std::vector<double> row;
-    for (std::uint64_t i = 0; i < points; ++i) {
-        for (row.clear(); row.size() < 3;) {
-            if (words.empty()) words = text.words();
-            row.push_back(text.number(words));
-        }
-        builder.add(row);
-    }
-    return std::move(builder).finish();
+    return detail::read_vtk(detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io
@@ -18915,6 +19216,35 @@ template <class = void>  // templates, so that unused readers cost no compile ti
     return result;
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_xyz(auto text, const auto& fields) {
+    text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
+    std::optional<scan_builder<decltype(text)>> builder;
+    std::vector<double> row;
+    bool has_points = false;
+    while (const auto line = text.line()) {
+        splitter words = split_values(*line);
+        if (words.empty()) continue;
+        splitter ahead = words;
+        const std::string_view first = ahead.next().value_or("");
+        if (first.starts_with('#') || first.starts_with("//")) continue;
+        if (!builder) {
+            const bool has_names = !begins_values(first);
+            const auto columns = xyz_columns(words, has_names, text);
+            builder.emplace(columns, fields, text);
+            row.resize(columns.size());
+            if (has_names) continue;
+        }
+        for (double& value : row) value = text.number(words);
+        if (!words.empty()) text.fail("more values than on the lines before");
+        builder->add(row);
+        has_points = true;
+    }
+    if (!has_points) text.fail("no points");
+    return std::move(*builder).finish();
+}
+
 }  // namespace detail
 
 /// Parses a text with x y z [m] first on each line. Blank lines and lines that begin with '#' or
@@ -18928,31 +19258,7 @@ template <class = void>  // templates, so that unused readers cost no compile ti
 /// Complexity: O(bytes).
 template <class = void>
 [[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
-    std::optional<detail::scan_builder<detail::text_cursor>> builder;
-    std::vector<double> row;
-    bool has_points = false;
-    while (const auto line = text.line()) {
-        detail::splitter words = detail::split_values(*line);
-        if (words.empty()) continue;
-        detail::splitter ahead = words;
-        const std::string_view first = ahead.next().value_or("");
-        if (first.starts_with('#') || first.starts_with("//")) continue;
-        if (!builder) {
-            const bool has_names = !detail::begins_values(first);
-            const auto columns = detail::xyz_columns(words, has_names, text);
-            builder.emplace(columns, fields, text);
-            row.resize(columns.size());
-            if (has_names) continue;
-        }
-        for (double& value : row) value = text.number(words);
-        if (!words.empty()) text.fail("more values than on the lines before");
-        builder->add(row);
-        has_points = true;
-    }
-    if (!has_points) text.fail("no points");
-    return std::move(*builder).finish();
+    return detail::read_xyz(detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io
@@ -19274,6 +19580,65 @@ template <class R, class Proj = std::identity>
     detail::require_valid(box);
     return detail::points_within(points, std::move(projection), detail::box_around(box),
                                  [&](const Eigen::Vector3d& x) { return box.contains(x); });
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/filters/crop_height.hpp ---------------------------------------------------------
+
+/// @file
+/// Crops a cloud to the heights between floor and ceiling, which `find_floor` and `find_ceiling`
+/// find. Klasing 2010, Sec. 4.2.2.
+
+namespace gnomon {
+
+/// Which heights above the floor to leave out.
+struct crop_height_options {
+    double floor = 0.05;    ///< up to this height [m]; rho_o
+    double ceiling = 0.05;  ///< down to this far below the ceiling [m]; rho_o
+};
+
+namespace detail {
+
+inline void require_valid(const crop_height_options& bands) {
+    require(!std::isnan(bands.floor) && !std::isnan(bands.ceiling),
+            "crop_height: the bands must not be NaN");
+}
+
+/// crop_height(), over a position_view and in the memory of `kept`.
+void crop_height_into(std::vector<point_index>& kept, const auto& p, const plane& floor,
+                      std::optional<double> ceiling, const crop_height_options& bands) {
+    require_hesse(floor);
+    require_valid(bands);
+    require(!ceiling || !std::isnan(*ceiling), "crop_height: the ceiling must not be NaN");
+    kept.clear();
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        if (!is_finite(p[i])) continue;
+        const double height = floor.signed_distance(p[i]);
+        if (height > bands.floor && !(ceiling && height >= *ceiling - bands.ceiling))
+            kept.push_back(static_cast<point_index>(i));
+    }
+}
+
+}  // namespace detail
+
+/// The indices of the points between the bands of floor and ceiling, ascending; see subset_view.
+/// Points that are not finite are left out.
+///
+/// @param ceiling  its height above the floor [m], or nothing to keep all that is above the floor
+/// @throws std::invalid_argument  unless the floor's normal is of unit length, or if a height is
+///                                NaN
+/// Complexity: O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<point_index> crop_height(const R& points, const plane& floor,
+                                                   std::optional<double> ceiling,
+                                                   const crop_height_options& bands = {},
+                                                   Proj projection = {}) {
+    std::vector<point_index> kept;
+    detail::crop_height_into(kept, position_view<R, Proj>(points, std::move(projection)), floor,
+                             ceiling, bands);
+    return kept;
 }
 
 }  // namespace gnomon
@@ -20061,7 +20426,7 @@ class planar_delaunay {
     explicit planar_delaunay(std::vector<planar_point> points) : points_(std::move(points)) {
         sort_by_place(points_);
         if (points_.size() < 2) return;
-        const std::size_t edges = 6 * points_.size();
+        const std::size_t edges = 6 * points_.size();  // at most, at any time
         origin_.reserve(edges);
         next_.reserve(edges);
         previous_.reserve(edges);
@@ -20124,6 +20489,14 @@ class planar_delaunay {
     }
 
     edge add(std::uint32_t from, std::uint32_t to) {
+        if (free_ != no_edge) {
+            const edge e = std::exchange(free_, previous_[free_]);
+            next_[e] = previous_[e] = e;
+            next_[e ^ 1] = previous_[e ^ 1] = e ^ 1;
+            origin_[e] = from;
+            origin_[e ^ 1] = to;
+            return e;
+        }
         const edge e = edges();
         for (const std::uint32_t end : {from, to}) {
             next_.push_back(edges());
@@ -20150,6 +20523,7 @@ class planar_delaunay {
         splice(e, previous_[e]);
         splice(e ^ 1, previous_[e ^ 1]);
         next_[e] = next_[e ^ 1] = no_edge;
+        previous_[e] = std::exchange(free_, e);
     }
 
     outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
@@ -20247,6 +20621,7 @@ class planar_delaunay {
     std::vector<planar_point> points_;
     std::vector<std::uint32_t> origin_;
     std::vector<edge> next_, previous_;  // about the origin
+    edge free_ = no_edge;  // the last edge that was removed; previous_ has the one before
 };
 
 }  // namespace gnomon::detail
@@ -20452,6 +20827,77 @@ class alpha_complex {
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/features/detail/ray_projection.hpp ----------------------------------------------
+
+/// @file
+/// Points moved along their rays to a plane.
+
+namespace gnomon::detail {
+
+/// Moves points to a plane along their rays, by at most five standard deviations of the distances
+/// by which the points are moved, estimated by the median. Outliers stay: at oblique incidence they
+/// would be displaced by many times their distance from the plane. So do points without a ray.
+/// @tparam Points  a position_view, or anything with size() and positions by index
+template <class Points>
+class ray_projection {
+  public:
+    /// Refers to all of them.
+    ray_projection(const Points& p, const viewpoint_table& viewpoints, const plane& to)
+        : points_(p), viewpoints_(viewpoints), plane_(to) {
+        if (viewpoints.empty()) return;
+        scratch<double> distances;
+        distances.reserve(p.size());
+        for (std::size_t i = 0; i < p.size(); ++i) {
+            const step s(*this, i, p[i]);
+            if (s.is_known) distances.push_back(std::abs(s.distance));
+        }
+        constexpr double reach = 5.0;                    // chosen: the 99.99994 % quantile
+        constexpr double deviations_of_median = 1.4826;  // formula: of a normal distribution
+        if (!distances.empty()) farthest_ = reach * deviations_of_median * quantile(distances, 0.5);
+    }
+
+    /// Calls f(i, position) for each finite point.
+    void for_each(auto&& f) const {
+        for (std::size_t i = 0; i < points_.size(); ++i) {
+            const Eigen::Vector3d x = points_[i];
+            if (!gnomon::is_finite(x)) continue;
+            if (viewpoints_.empty()) {
+                f(i, x);
+                continue;
+            }
+            const step s(*this, i, x);
+            const bool moves = s.is_known && std::abs(s.distance) <= farthest_;
+            f(i, moves ? combined(1.0, x, s.distance, s.ray) : x);
+        }
+    }
+
+  private:
+    /// From a point along its ray to the plane; unknown unless the ray is, and at grazing
+    /// incidence.
+    struct step {
+        Eigen::Vector3d ray{0.0, 0.0, 0.0};
+        double distance = 0.0;  // [m]
+        bool is_known = false;
+
+        step(const ray_projection& of, std::size_t i, const Eigen::Vector3d& x) {
+            const Eigen::Vector3d way = difference(x, of.viewpoints_[i]);
+            if (!all_finite(way) || !has_length(way)) return;
+            ray = scaled(1.0 / length(way), way);
+            const double cosine = dot(of.plane_.normal, ray);
+            is_known = std::abs(cosine) >= of.least_cosine_;
+            if (is_known) distance = -of.plane_.signed_distance(x) / cosine;
+        }
+    };
+
+    const Points& points_;
+    const viewpoint_table& viewpoints_;
+    const plane& plane_;
+    double least_cosine_ = sin(degrees(1));  // chosen, as for planes that are seen edge-on
+    double farthest_ = 0.0;                  // [m]
+};
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/features/detail/planar_projection.hpp -------------------------------------------
 
 /// @file
@@ -20461,24 +20907,27 @@ namespace gnomon::detail {
 
 /// Two axes of a plane, right-handed with its normal.
 struct planar_axes {
+    plane of;
     Eigen::Vector3d x;
     Eigen::Vector3d y;
 
-    explicit planar_axes(const plane& p) : x(orthogonal(p.normal)), y(cross(p.normal, x)) {}
+    explicit planar_axes(const plane& p) : of(p), x(orthogonal(p.normal)), y(cross(p.normal, x)) {}
 
-    /// The finite points along the axes [m], from a point near them.
-    /// @param p  a position_view, or anything with size() and positions by index
-    template <class Points>
-    [[nodiscard]] std::vector<planar_point> projected(const Points& p,
+    /// The finite points along the axes [m], from a point near them; those with known view points
+    /// are moved along their rays.
+    /// @param p  the view of the points
+    template <class R, class Proj>
+    [[nodiscard]] std::vector<planar_point> projected(const R& points,
+                                                      const position_view<R, Proj>& p,
                                                       const Eigen::Vector3d& from) const {
         std::vector<planar_point> result;
         result.reserve(p.size());
-        for (std::size_t i = 0; i < p.size(); ++i) {
-            const Eigen::Vector3d q = p[i];
-            if (!is_finite(q)) continue;
-            const Eigen::Vector3d d = difference(q, from);
-            result.push_back({dot(d, x), dot(d, y), static_cast<point_index>(i)});
-        }
+        with_table_of(points, [&](const viewpoint_table& viewpoints) {
+            ray_projection(p, viewpoints, of).for_each([&](std::size_t i, const auto& q) {
+                const Eigen::Vector3d d = difference(q, from);
+                result.push_back({dot(d, x), dot(d, y), static_cast<point_index>(i)});
+            });
+        });
         return result;
     }
 };
@@ -20519,11 +20968,13 @@ struct alpha_shape {
     std::vector<std::array<point_index, 3>> triangles;  ///< of all polygons, counterclockwise
     double area = 0.0;                                  ///< of all polygons [m^2]
 
-    /// The alpha shape of the projections of the finite points to a plane.
+    /// The alpha shape of the projections of the finite points to a plane: along their rays where
+    /// view points are known, as `project_to_plane` does.
     /// @param points      any point range of n points [m]
     /// @param plane       e.g. that of a segment
     /// @param projection  maps an element of the range to a point
-    /// @throws std::invalid_argument  if n is 2^29 or more, or unless the normal is of unit length
+    /// @throws std::invalid_argument  if n is 2^29 or more, the view points are for another number
+    ///                                of points, or unless the normal is of unit length
     /// Complexity: O(n log n). Points that differ by less than 2^-32 of the extent are one, with
     /// the smallest index of them.
     template <class R, class Proj = std::identity>
@@ -20616,7 +21067,8 @@ alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj pr
         for (int a = 0; a < 3; ++a) low[a] = is_any ? std::min(low[a], q[a]) : q[a];
         is_any = true;
     }
-    std::vector<detail::planar_point> projected = detail::planar_axes(plane).projected(p, low);
+    std::vector<detail::planar_point> projected =
+        detail::planar_axes(plane).projected(points, p, low);
     std::erase_if(projected, [](const detail::planar_point& q) {
         return !std::isfinite(q.x) || !std::isfinite(q.y);  // the extent overflows
     });
@@ -21307,7 +21759,8 @@ convex_hull convex_hull::of(const R& points, Proj projection) {
 // -------- gnomon/features/convex_polygon.hpp -----------------------------------------------------
 
 /// @file
-/// The convex outline of a planar segment: the convex hull of its points, projected to its plane.
+/// The convex outline of a planar segment: the convex hull of its points, projected to its plane as
+/// `project_to_plane` does.
 /// In no umbrella: include it by name.
 ///
 ///     const auto wall = gnomon::convex_polygon::of(gnomon::subset_view(scan, parts[s]), plane);
@@ -21333,12 +21786,13 @@ struct convex_polygon {
                                 detail::column(axes, 1));
     }
 
-    /// The convex hull of the projections of the finite points to a plane.
+    /// The convex hull of the projections of the finite points to a plane: along their rays where
+    /// view points are known.
     /// @param points      any point range of n points [m]
     /// @param plane       e.g. that of a segment; its normal is the third axis
     /// @param projection  maps an element of the range to a point
-    /// @throws std::invalid_argument  if n is 2^32 - 1 or more, or unless the normal is of unit
-    ///                                length
+    /// @throws std::invalid_argument  if n is 2^32 - 1 or more, the view points are for another
+    ///                                number of points, or unless the normal is of unit length
     /// Complexity: O(n log n), O(n) if most points are in the interior. Of points projected to one
     /// place the smallest index is a vertex. Source: Andrew 1979 (detail/planar_hull.hpp).
     template <class R, class Proj = std::identity>
@@ -21380,7 +21834,7 @@ convex_polygon convex_polygon::of(const R& points, const gnomon::plane& plane, P
     if (first == p.size()) return polygon;
     polygon.origin =
         detail::combined(1.0, p[first], -plane.signed_distance(p[first]), plane.normal);
-    detail::set_outline(polygon, planar.projected(p, p[first]));
+    detail::set_outline(polygon, planar.projected(points, p, p[first]));
     return polygon;
 }
 
@@ -22031,7 +22485,9 @@ template <class R, class Proj = std::identity>
     if (hull.shape != hull_shape::solid) {
         const principal_frame frame = principal_frame::of(corners);
         const double offset = detail::dot(frame.normal(), frame.centroid);
-        return minimum_area_rectangle(convex_polygon::of(corners, {frame.normal(), offset}));
+        // As they are, whatever their view points.
+        const std::vector<Eigen::Vector3d> bare(corners.begin(), corners.end());
+        return minimum_area_rectangle(convex_polygon::of(bare, {frame.normal(), offset}));
     }
     const position_view<R, Proj> p(points, std::move(projection));
     const principal_frame frame = detail::principal_axes_of(detail::moments_about_first(p));
@@ -22040,6 +22496,212 @@ template <class R, class Proj = std::identity>
                                       {detail::column(frame.axes, 0), detail::column(frame.axes, 1),
                                        detail::column(frame.axes, 2)});
     return detail::box_of(search.best(), local);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/features/project_to_plane.hpp ---------------------------------------------------
+
+/// @file
+/// The points of a planar segment, moved onto its plane. In no umbrella: include it by name.
+///
+///     const auto wall = gnomon::project_to_plane(gnomon::subset_view(scan, parts[s]), plane);
+///     draw(wall[shape.polygons[0].outline[0]]);  // a corner of an alpha shape of the same points
+///
+/// Noise displaces a point along its ray. The ray itself is known well, so its intersection with
+/// the plane is where it met the surface, whatever the error of the range. A projection along the
+/// normal keeps the part of the noise that is in the plane, which at oblique incidence is most of
+/// it: an outline is then too large, as its corners are the points with the largest errors.
+
+namespace gnomon {
+
+/// Moves points along their rays to where these meet a plane. A point is moved along the normal
+/// instead if its view point is not known; if its ray is within a degree of the plane; or if it is
+/// farther from the plane, along the ray, than five standard deviations of all points, estimated by
+/// the median.
+/// @param points      any point range of n points [m]
+/// @param plane       e.g. that of a segment
+/// @param projection  maps an element of the range to a point
+/// @return n positions [m] in the order of the points; those of points that are not finite are the
+///         same as before
+/// @throws std::invalid_argument  if n is 2^32 - 1 or more, the view points are for another number
+///                                of points, or unless the normal is of unit length
+/// Complexity: O(n).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] std::vector<Eigen::Vector3d> project_to_plane(const R& points,
+                                                            const gnomon::plane& plane,
+                                                            Proj projection = {}) {
+    detail::require_hesse(plane);
+    const position_view<R, Proj> p(points, std::move(projection));
+    std::vector<Eigen::Vector3d> result;
+    result.reserve(p.size());
+    for (std::size_t i = 0; i < p.size(); ++i) result.push_back(p[i]);
+    detail::with_table_of(points, [&](const viewpoint_table& viewpoints) {
+        detail::ray_projection(p, viewpoints, plane)
+            .for_each([&](std::size_t i, const Eigen::Vector3d& x) {
+                result[i] = detail::combined(1.0, x, -plane.signed_distance(x), plane.normal);
+            });
+    });
+    return result;
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/features/segment_shape.hpp ------------------------------------------------------
+
+/// @file
+/// The features of a segment that follow from its moments and from the normals of its points, as
+/// one value (Klasing 2010, Sec. 3.5.1). In no umbrella: include it by name.
+///
+///     const auto shape = gnomon::segment_shape::of(scan, surface, parts[s]);
+///     if (shape.is_surface()) use(shape.frame.centroid, shape.normal, shape.surface_variation());
+///     const auto shapes = gnomon::segment_shapes(scan, surface, parts, gnomon::threads{});
+///
+/// The mean surface variation of the points of a segment is not that of the segment: on a cylinder
+/// the first is near zero, as every neighborhood is nearly flat, and the second is large.
+
+namespace gnomon {
+
+/// Position, orientation and shape of a segment. All members are at their defaults if no point is
+/// finite.
+struct segment_shape {
+    /// How far the points are spread: by more than the rounding of their coordinates.
+    enum class extent : std::uint8_t {
+        none,   ///< no point is finite
+        point,  ///< all are at one place
+        line,   ///< they are collinear: there is no normal
+        plane,  ///< they are coplanar
+        volume
+    };
+
+    extent spread = extent::none;
+    std::size_t points = 0;  ///< that are finite
+    principal_frame frame;   ///< centroid, principal axes, variances along them, and box
+    /// The axis of smallest variance, towards the view points; where none is known on the side of
+    /// the mean normal. The zero vector without a surface.
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};
+    /// The direction of the sum of the normals of the points, each towards its view point, or as it
+    /// is where that is not known. The zero vector if there are none, or if the sum is zero.
+    Eigen::Vector3d mean_normal{0.0, 0.0, 0.0};
+    /// Of the points with a normal; zero if there are none, or if the surface has no spectra.
+    double mean_surface_variation = 0.0;
+
+    /// Whether the points determine a normal, at least as well as rounding does.
+    [[nodiscard]] bool is_surface() const { return spread >= extent::plane; }
+    /// The surface variation of all points, Eq. (3.28): 0 for a plane, 1 for a ball.
+    [[nodiscard]] double surface_variation() const { return frame.spectrum.surface_variation(); }
+    /// The aspect ratio of all points, Eq. (3.19).
+    [[nodiscard]] double aspect_ratio() const { return frame.spectrum.aspect_ratio(); }
+
+    /// The shape of a segment.
+    /// @param points      any point range of n points [m], or the `spatial_index` of them
+    /// @param surface     n surface elements with normals, such as the result of
+    ///                    `estimate_normals`; their mean surface variation is known if they have a
+    ///                    member surface_variation(). Normals that are missing or not finite are
+    ///                    left out, their points are not.
+    /// @param members     the indices of the points of the segment
+    /// @param projection  maps an element of the range to a point
+    /// @throws std::invalid_argument  if points, surface or view points differ in number, or an
+    ///                                index is not below n
+    /// Complexity: O(members). The signs of the axes of the frame are arbitrary but deterministic.
+    template <class R, normal_range Surface, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] static segment_shape of(const R& points, const Surface& surface,
+                                          std::span<const point_index> members,
+                                          Proj projection = {});
+};
+
+namespace detail {
+
+/// The number of dimensions in which points with a spectrum are spread, as the extent of a segment.
+/// @param rounding  of the coordinates [m]
+[[nodiscard]] inline segment_shape::extent extent_of(const spectrum& s, double rounding) {
+    constexpr double flat = 1e-14;  // numerical: rounding errors of eigenvalues
+    const double least = std::max(flat * s.lambda[0], rounding * rounding);
+    int dimensions = 0;
+    while (dimensions < 3 && s.lambda[dimensions] > least) ++dimensions;
+    return static_cast<segment_shape::extent>(dimensions + 1);
+}
+
+/// The sums over the points of a segment from which its signs and means follow.
+struct oriented_sums {
+    Eigen::Vector3d towards{0.0, 0.0, 0.0};  ///< view points, where they are known
+    Eigen::Vector3d normals{0.0, 0.0, 0.0};
+    double variations = 0.0;
+    std::size_t with_normal = 0;
+
+    /// @param element  of the surface
+    /// @param way      unit vector to the view point, zero where that is not known
+    void add(const auto& element, const Eigen::Vector3d& way) {
+        towards = combined(1.0, towards, 1.0, way);
+        const Eigen::Vector3d n = element.normal;
+        if (is_missing(n) || !all_finite(n)) return;
+        normals = combined(1.0, normals, dot(n, way) < 0.0 ? -1.0 : 1.0, n);
+        ++with_normal;
+        if constexpr (requires {
+                          { element.surface_variation() } -> std::convertible_to<double>;
+                      })
+            variations += element.surface_variation();
+    }
+};
+
+}  // namespace detail
+
+template <class R, normal_range Surface, class Proj>
+    requires point_range<R, Proj>
+segment_shape segment_shape::of(const R& points, const Surface& surface,
+                                std::span<const point_index> members, Proj projection) {
+    detail::require(std::ranges::size(surface) == std::ranges::size(points),
+                    "segment_shape: points and normals differ in number");
+    const subset_view<R, Proj> chosen(points, members, std::move(projection));
+    segment_shape shape;
+    shape.frame = principal_frame::of(chosen);
+    detail::oriented_sums sums;
+    double largest = 0.0;
+    for (std::size_t i = 0; i < chosen.size(); ++i) {
+        const Eigen::Vector3d x = chosen[i];
+        if (!is_finite(x)) continue;
+        ++shape.points;
+        for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(x[a]));
+        Eigen::Vector3d way(0.0, 0.0, 0.0);
+        if (!chosen.viewpoints.empty()) way = detail::difference(chosen.viewpoints[i], x);
+        const bool is_known = detail::all_finite(way) && detail::has_length(way);
+        sums.add(surface[members[i]],
+                 is_known ? detail::direction_of(way) : Eigen::Vector3d(0.0, 0.0, 0.0));
+    }
+    if (shape.points == 0) return shape;
+    constexpr double operations = 4.0;  // numerical: that rounded a coordinate
+    shape.spread = detail::extent_of(shape.frame.spectrum, operations * chosen.epsilon() * largest);
+    if (detail::has_length(sums.normals)) shape.mean_normal = detail::direction_of(sums.normals);
+    if (sums.with_normal > 0)
+        shape.mean_surface_variation = sums.variations / static_cast<double>(sums.with_normal);
+    if (!shape.is_surface()) return shape;
+    const Eigen::Vector3d n = shape.frame.normal();
+    const double seen = detail::dot(n, sums.towards);
+    const bool is_away = seen != 0.0 ? seen < 0.0 : detail::dot(n, sums.normals) < 0.0;
+    shape.normal = detail::scaled(is_away ? -1.0 : 1.0, n);
+    return shape;
+}
+
+/// The shapes of all segments, in their order.
+/// @param parts  groups of indices of points, such as `segments`: parts.size() and parts[s]
+/// @param run    `sequential{}` or `threads{n}`; the result does not depend on it
+/// The other parameters and errors are those of `segment_shape::of`. Complexity: O(n).
+template <class R, normal_range Surface, class Parts, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj> && requires(const Parts& parts, std::size_t s) {
+        { parts.size() } -> std::convertible_to<std::size_t>;
+        { parts[s] } -> std::convertible_to<std::span<const point_index>>;
+    }
+[[nodiscard]] std::vector<segment_shape> segment_shapes(const R& points, const Surface& surface,
+                                                        const Parts& parts, const X& run = {},
+                                                        Proj projection = {}) {
+    std::vector<segment_shape> shapes(parts.size());
+    run(parts.size(), [&](std::size_t s) {
+        shapes[s] = segment_shape::of(points, surface, parts[s], projection);
+    });
+    return shapes;
 }
 
 }  // namespace gnomon
@@ -22186,107 +22848,6 @@ struct revolved_line {
 
 using cylinder_surface = revolved_line<5>;
 using cone_surface = revolved_line<6>;
-
-}  // namespace gnomon::detail
-
-// -------- gnomon/features/detail/normal_equations.hpp --------------------------------------------
-
-/// @file
-/// The normal equations of a least-squares problem with few parameters, and their solution by the
-/// eigenvectors of the matrix, which state as well what the observations do not determine.
-
-namespace gnomon::detail {
-
-/// J^T J, J^T r and r^T r of residuals r with the rows of J as derivatives, summed row by row.
-template <std::size_t N>
-struct normal_equations {
-    square_array<N> left{};         ///< lower triangle of J^T J
-    std::array<double, N> right{};  ///< J^T r
-    double squares = 0.0;           ///< r^T r
-    std::size_t count = 0;          ///< rows
-
-    void add(const std::array<double, N>& row, double residual) {
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j <= i; ++j) left[i][j] += row[i] * row[j];
-            right[i] += row[i] * residual;
-        }
-        squares += residual * residual;
-        ++count;
-    }
-
-    void add(const normal_equations& other) {
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j <= i; ++j) left[i][j] += other.left[i][j];
-            right[i] += other.right[i];
-        }
-        squares += other.squares;
-        count += other.count;
-    }
-};
-
-/// The decomposition of J^T J after each column of J is divided by its length, so that its diagonal
-/// is 1 and the units of the parameters do not matter.
-template <std::size_t N>
-class scaled_equations {
-  public:
-    /// Precondition: the entries of `e` are finite.
-    explicit scaled_equations(const normal_equations<N>& e) {
-        square_array<N> unit{};
-        for (std::size_t i = 0; i < N; ++i)
-            scale_[i] = e.left[i][i] > 0.0 ? 1.0 / std::sqrt(e.left[i][i]) : 0.0;
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j <= i; ++j)
-                unit[i][j] = unit[j][i] = e.left[i][j] * scale_[i] * scale_[j];
-        }
-        eigen_ = jacobi_eigen<N>(unit);
-        for (std::size_t k = 0; k < N; ++k) {
-            for (std::size_t i = 0; i < N; ++i)
-                right_[k] += eigen_.vectors[i][k] * scale_[i] * e.right[i];
-        }
-    }
-
-    /// Whether the observations determine all parameters, up to rounding.
-    [[nodiscard]] bool is_regular() const { return eigen_.values[N - 1] > rounding; }
-
-    /// -(J^T J + damping diag(J^T J))^-1 J^T r, the step to the minimum; 0 along directions that
-    /// the observations do not determine.
-    [[nodiscard]] std::array<double, N> step(double damping) const {
-        std::array<double, N> s{};
-        for (std::size_t k = 0; k < N; ++k) {
-            if (eigen_.values[k] <= rounding) continue;
-            const double along = right_[k] / (eigen_.values[k] + damping);
-            for (std::size_t i = 0; i < N; ++i) s[i] -= scale_[i] * eigen_.vectors[i][k] * along;
-        }
-        return s;
-    }
-
-    /// (J^T J)^-1, the covariance of the parameters if residuals have the variance 1.
-    /// Precondition: is_regular().
-    [[nodiscard]] square_array<N> covariance() const {
-        square_array<N> c{};
-        for (std::size_t i = 0; i < N; ++i) {
-            for (std::size_t j = 0; j < N; ++j) {
-                for (std::size_t k = 0; k < N; ++k)
-                    c[i][j] += scale_[i] * scale_[j] * eigen_.vectors[i][k] * eigen_.vectors[j][k] /
-                               eigen_.values[k];
-            }
-        }
-        return c;
-    }
-
-  private:
-    static constexpr double rounding = 1e-13;  // numerical: of eigenvalues, whose sum is N
-
-    std::array<double, N> scale_{};
-    std::array<double, N> right_{};
-    small_eigen_decomposition<N> eigen_{};
-};
-
-/// The parameters x that minimize the squares of rows . x - values, from `add(row, -value)`.
-template <std::size_t N>
-[[nodiscard]] std::array<double, N> linear_solution(const normal_equations<N>& e) {
-    return scaled_equations<N>(e).step(0.0);
-}
 
 }  // namespace gnomon::detail
 
@@ -25591,7 +26152,8 @@ struct perception_result {
     /// The noise of the points, which all steps share.
     struct known_noise {
         noise_curve curve = constant_noise{0.0};  ///< along the rays, as measured or given
-        /// That of wide planes: more, where neighbors have errors in common.
+        /// That of wide planes: more, where neighbors have errors in common, or planes scatter by
+        /// more than the given noise.
         noise_curve of_planes = constant_noise{0.0};
         /// Whether it is that across the surfaces, in place of that along the rays; then nothing
         /// was merged behind occluders.
@@ -25887,27 +26449,38 @@ template <class X>
 
 namespace gnomon::detail {
 
+/// The root mean square of the noise of some of the points [m].
+[[nodiscard]] double mean_noise(const auto& points, const noise_curve& noise) {
+    double sum = 0.0;
+    const scratch<point_index> some = some_points_of(points, sampled_planes);
+    for (const point_index i : some)
+        sum += noise.variance_along(difference(points[i], points.viewpoints[i]));
+    return some.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(some.size()));
+}
+
 /// The noise along the rays, as given or measured; where it cannot be measured, that across the
-/// surfaces, and why.
+/// surfaces, and why. Planes that scatter by more than the given noise have the measured one.
 /// @param result  its `noise` is replaced, in its memory
 /// @param chain   whose noise is given, or not
-template <class X>
-void determine_noise(auto& result, const spatial_index& points, const auto& chain, const X& run) {
+template <class Chain, class X>
+void determine_noise(auto& result, const spatial_index& points, const Chain& chain, const X& run) {
     auto& noise = result.noise;
+    const std::optional<noise_curve>& given = chain.noise;
     noise = {};
-    if (chain.noise) {
-        noise.curve = noise.of_planes = *chain.noise;
-        return;
-    }
+    if (given) noise.curve = noise.of_planes = *given;
+    if (given && !Chain::is_on_cells) return;
     const measured_noise found = measure_noise(points, run);
     if (found.curve) {
-        noise.curve = *found.curve;
-        noise.of_planes = noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
-        return;
+        const noise_curve of_planes =
+            noise_of_wide_planes(points, *found.curve, result.memory.sparse, run);
+        if (!given) noise.curve = *found.curve;
+        if (!given || mean_noise(points, of_planes) > mean_noise(points, *given))
+            noise.of_planes = of_planes;
+    } else if (!given) {
+        noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
+        noise.is_across_surface = true;
+        noise.reason = found.reason;
     }
-    noise.curve = noise.of_planes = constant_noise{noise_level(points, run)};
-    noise.is_across_surface = true;
-    noise.reason = found.reason;
 }
 
 /// The same policy for this noise, if it depends on any.
@@ -26207,7 +26780,8 @@ struct perception {
     Estimator estimate{};
     Merge merge{};
     Segmentation segmentation{};
-    /// Along the rays; by default it is measured.
+    /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
+    /// given noise have the measured one.
     std::optional<noise_curve> noise = std::nullopt;
     std::optional<floor_and_ceiling> leave_out = std::nullopt;
     merge_occluded_options merging{};
@@ -26913,6 +27487,12 @@ struct scene_part {
     std::int32_t object;  ///< that it belongs to
 };
 
+/// A door or a window of a scene: a hole of a surface.
+struct opening {
+    std::string name;        ///< such as "door 1"
+    oriented_box rectangle;  ///< level edge first, then the upright one; without a third length
+};
+
 namespace detail {
 
 /// A type-erased shape.
@@ -26973,6 +27553,8 @@ class scene {
   public:
     /// The recommended sensor pose. By default the origin, level.
     pose sensor;
+    /// The known holes of surfaces, such as doors and windows; rays do not depend on them.
+    std::vector<opening> openings;
 
     /// A new object.
     /// @return its number
@@ -28152,6 +28734,88 @@ struct plane_patch {
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/detail/wall.hpp ------------------------------------------------------
+
+/// @file
+/// A wall with rectangular holes.
+
+namespace gnomon::simulation::detail {
+
+/// A rectangle of a wall, in the frame of its patch.
+struct wall_rectangle {
+    double left, right;  ///< x [m]
+    double low, high;    ///< y [m]
+
+    [[nodiscard]] double width() const { return right - left; }
+    [[nodiscard]] double height() const { return high - low; }
+    /// Whether a point is inside, not on the edge.
+    [[nodiscard]] bool contains(double x, double y) const {
+        return x > left && x < right && y > low && y < high;
+    }
+    /// Whether the rectangles are less than `margin` apart.
+    [[nodiscard]] bool is_near(const wall_rectangle& o, double margin) const {
+        return left < o.right + margin && o.left < right + margin && low < o.high + margin &&
+               o.low < high + margin;
+    }
+};
+
+/// A patch with holes, one surface. Precondition: the holes are within the patch.
+struct wall {
+    plane_patch patch;
+    std::vector<wall_rectangle> holes;
+
+    [[nodiscard]] bounds extent() const { return patch.extent(); }
+
+    [[nodiscard]] static std::span<const std::string_view> surface_names() {
+        return plane_patch::surface_names();
+    }
+
+    /// The cells between all edges of holes that are in no hole.
+    [[nodiscard]] polyhedron triangles() const {
+        std::vector<double> xs{-0.5 * patch.length, 0.5 * patch.length};
+        std::vector<double> ys{-0.5 * patch.width, 0.5 * patch.width};
+        for (const wall_rectangle& hole : holes) {
+            xs.insert(xs.end(), {hole.left, hole.right});
+            ys.insert(ys.end(), {hole.low, hole.high});
+        }
+        for (auto* values : {&xs, &ys}) {
+            std::sort(values->begin(), values->end());
+            values->erase(std::unique(values->begin(), values->end()), values->end());
+        }
+        polyhedron result;
+        for (const double y : ys)
+            for (const double x : xs) result.vertices.push_back({x, y, 0.0});
+        const auto vertex = [&](std::size_t i, std::size_t j) {
+            return static_cast<std::uint32_t>(j * xs.size() + i);
+        };
+        for (std::size_t j = 0; j + 1 < ys.size(); ++j) {
+            for (std::size_t i = 0; i + 1 < xs.size(); ++i) {
+                if (is_in_hole(0.5 * (xs[i] + xs[i + 1]), 0.5 * (ys[j] + ys[j + 1]))) continue;
+                result.triangles.push_back({vertex(i, j), vertex(i + 1, j), vertex(i + 1, j + 1)});
+                result.triangles.push_back({vertex(i, j), vertex(i + 1, j + 1), vertex(i, j + 1)});
+            }
+        }
+        result.surface_of_triangle.assign(result.triangles.size(), 0);
+        return result;
+    }
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        const auto hit = patch.first_hit(r);
+        if (hit && is_in_hole(r.origin.x() + hit->range * r.direction.x(),
+                              r.origin.y() + hit->range * r.direction.y()))
+            return std::nullopt;
+        return hit;
+    }
+
+  private:
+    [[nodiscard]] bool is_in_hole(double x, double y) const {
+        return std::any_of(holes.begin(), holes.end(),
+                           [&](const wall_rectangle& hole) { return hole.contains(x, y); });
+    }
+};
+
+}  // namespace gnomon::simulation::detail
+
 // -------- gnomon/simulation/detail/room.hpp ------------------------------------------------------
 
 /// @file
@@ -28166,12 +28830,17 @@ inline void add_block(scene& world, std::string name, const bounds& b) {
     world.add_object(std::move(name), box{size.x(), size.y(), size.z()}, at(m.x(), m.y(), m.z()));
 }
 
-/// Adds floor, ceiling and four walls as the parts of one object, "room".
-inline void add_room(scene& world, const bounds& b) {
-    const std::int32_t room = world.add_object("room");
-    const auto add = [&](const char* name, double length, double width, const pose& place) {
-        world.add(world.add_part(room, name), plane_patch{length, width}, place);
-    };
+/// Where the patch of a wall is: a pose whose x is along the wall, y upwards.
+struct wall_place {
+    const char* name;
+    pose frame;
+    double length;    ///< [m]
+    double height;    ///< [m]
+    double outwards;  ///< 1 if z of the frame is away from the room, else -1
+};
+
+/// The four walls of a room.
+[[nodiscard]] inline std::array<wall_place, 4> walls_of(const bounds& b) {
     const double length = b.size().x();
     const double width = b.size().y();
     const double height = b.size().z();
@@ -28179,12 +28848,36 @@ inline void add_room(scene& world, const bounds& b) {
     const pose middle = at(m.x(), m.y(), m.z());
     const pose facing_y = roll(degrees(90));
     const pose facing_x = yaw(degrees(90)) * facing_y;
-    add("floor", length, width, middle * at(0.0, 0.0, -0.5 * height));
-    add("ceiling", length, width, middle * at(0.0, 0.0, 0.5 * height));
-    add("wall -y", length, height, middle * at(0.0, -0.5 * width, 0.0) * facing_y);
-    add("wall +y", length, height, middle * at(0.0, 0.5 * width, 0.0) * facing_y);
-    add("wall -x", width, height, middle * at(-0.5 * length, 0.0, 0.0) * facing_x);
-    add("wall +x", width, height, middle * at(0.5 * length, 0.0, 0.0) * facing_x);
+    return {{{"wall -y", middle * at(0.0, -0.5 * width, 0.0) * facing_y, length, height, 1.0},
+             {"wall +y", middle * at(0.0, 0.5 * width, 0.0) * facing_y, length, height, -1.0},
+             {"wall -x", middle * at(-0.5 * length, 0.0, 0.0) * facing_x, width, height, -1.0},
+             {"wall +x", middle * at(0.5 * length, 0.0, 0.0) * facing_x, width, height, 1.0}}};
+}
+
+/// The holes of the four walls, in their order.
+using wall_holes = std::array<std::vector<wall_rectangle>, 4>;
+
+/// Adds floor, ceiling and four walls as the parts of one object, "room".
+inline void add_room(scene& world, const bounds& b, const wall_holes& holes = {}) {
+    const std::int32_t room = world.add_object("room");
+    const Eigen::Vector3d size = b.size();
+    const Eigen::Vector3d m = b.middle();
+    const pose middle = at(m.x(), m.y(), m.z());
+    const auto add_level = [&](const char* name, double height) {
+        world.add(world.add_part(room, name), plane_patch{size.x(), size.y()},
+                  middle * at(0.0, 0.0, height));
+    };
+    add_level("floor", -0.5 * size.z());
+    add_level("ceiling", 0.5 * size.z());
+    const auto places = walls_of(b);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        const plane_patch patch{places[i].length, places[i].height};
+        const std::int32_t part = world.add_part(room, places[i].name);
+        if (holes[i].empty())
+            world.add(part, patch, places[i].frame);
+        else
+            world.add(part, wall{patch, holes[i]}, places[i].frame);
+    }
 }
 
 }  // namespace gnomon::simulation::detail
@@ -28939,22 +29632,202 @@ struct cone {
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/detail/openings.hpp --------------------------------------------------
+
+/// @file
+/// Doors and windows of a room, at random: holes of its walls with reveals, and the surfaces
+/// behind.
+
+namespace gnomon::simulation::detail {
+
+/// The surfaces behind a hole.
+enum class behind_hole : char { nothing, leaf, corridor, house };
+
+/// A door or a window.
+struct room_opening {
+    bool is_door = true;
+    std::size_t wall = 0;
+    wall_rectangle hole{};
+    behind_hole behind = behind_hole::nothing;
+    double distance = 0.0;  ///< of the surfaces behind it from the wall [m]
+};
+
+/// The openings of a room, from random numbers of their own. The sizes are those usual in houses.
+struct room_openings {
+    double thickness = 0.0;  ///< of all walls [m]
+    std::vector<room_opening> all;
+
+    room_openings() = default;
+
+    /// One or two doors and one to three windows, fewer if they do not fit: two in one wall are at
+    /// least 35 cm apart, and none is nearer than 25 cm to a corner or behind `piece`.
+    /// @param piece  of furniture that touches walls
+    room_openings(const bounds& room, const bounds& piece, random_stream random)
+        : thickness(random.uniform(0.12, 0.36)) {
+        const auto doors = 1 + random.bits() % 2;
+        const auto windows = 1 + random.bits() % 3;
+        const double height = room.size().z();
+        for (std::uint64_t i = 0; i < doors; ++i) add(door(height, random), room, piece, random);
+        for (std::uint64_t i = 0; i < windows; ++i)
+            add(window(height, random), room, piece, random);
+    }
+
+    [[nodiscard]] wall_holes holes() const {
+        wall_holes result;
+        for (const room_opening& o : all) result[o.wall].push_back(o.hole);
+        return result;
+    }
+
+  private:
+    [[nodiscard]] room_opening door(double room_height, random_stream& random) const {
+        room_opening o;
+        o.hole = {0.0, random.uniform(0.75, 1.05), -0.5 * room_height,
+                  random.uniform(1.95, 2.12) - 0.5 * room_height};
+        if (random.uniform() < 0.4) {
+            o.behind = behind_hole::leaf;
+            o.distance = random.uniform(0.06, thickness);
+        } else {
+            o.behind = behind_hole::corridor;
+            o.distance = thickness + random.uniform(1.1, 2.5);
+        }
+        return o;
+    }
+
+    [[nodiscard]] room_opening window(double room_height, random_stream& random) const {
+        room_opening o;
+        o.is_door = false;
+        const double sill = random.uniform(0.6, 1.0);
+        const double height = std::min(random.uniform(0.9, 1.5), room_height - 0.2 - sill);
+        o.hole = {0.0, random.uniform(0.6, 1.8), sill - 0.5 * room_height,
+                  sill + height - 0.5 * room_height};
+        if (random.uniform() < 0.5) {
+            o.behind = behind_hole::house;
+            o.distance = thickness + random.uniform(4.0, 12.0);
+        }
+        return o;
+    }
+
+    /// Puts an opening into a wall where there is room for it, if that is found.
+    void add(room_opening o, const bounds& room, const bounds& piece, random_stream& random) {
+        const auto places = walls_of(room);
+        const double width = o.hole.width();
+        for (int trial = 0; trial < 50; ++trial) {
+            o.wall = random.bits() % places.size();
+            const double most = 0.5 * places[o.wall].length - 0.25;
+            o.hole.left = random.uniform(-most, most - width);
+            o.hole.right = o.hole.left + width;
+            const bool is_free =
+                std::none_of(all.begin(), all.end(), [&](const room_opening& other) {
+                    return other.wall == o.wall && o.hole.is_near(other.hole, 0.35);
+                });
+            if (!is_free || is_behind(piece, o.hole, places[o.wall].frame)) continue;
+            all.push_back(o);
+            return;
+        }
+    }
+
+    /// Whether furniture is nearer than 5 cm.
+    [[nodiscard]] static bool is_behind(const bounds& piece, const wall_rectangle& hole,
+                                        const pose& wall) {
+        bounds around;
+        for (const double side : {-0.05, 0.05}) {
+            around.extend(wall.point_out({hole.left, hole.low, side}));
+            around.extend(wall.point_out({hole.right, hole.high, side}));
+        }
+        for (int a = 0; a < 3; ++a) {
+            if (around.low[a] > piece.high[a] || piece.low[a] > around.high[a]) return false;
+        }
+        return true;
+    }
+};
+
+/// Adds the reveals of an opening, the surfaces behind it, and its entry in the list of openings.
+inline void add_opening(scene& world, const room_opening& o, const wall_place& place,
+                        double thickness, const std::string& name) {
+    const wall_rectangle& hole = o.hole;
+    const double x = 0.5 * (hole.left + hole.right), y = 0.5 * (hole.low + hole.high);
+    const pose center = place.frame * at(x, y, 0.0);
+    world.openings.push_back(
+        {name, {center.position, center.rotation, {hole.width(), hole.height(), 0.0}}});
+
+    const pose middle = center * at(0.0, 0.0, 0.5 * place.outwards * thickness);
+    const std::int32_t object = world.add_object(name);
+    const auto add = [&](const char* part, double length, double width, const pose& where) {
+        world.add(world.add_part(object, part), plane_patch{length, width}, where);
+    };
+    const pose level = roll(degrees(90)), upright = pitch(degrees(90));
+    add("sill", hole.width(), thickness, middle * at(0.0, -0.5 * hole.height(), 0.0) * level);
+    add("lintel", hole.width(), thickness, middle * at(0.0, 0.5 * hole.height(), 0.0) * level);
+    add("left", thickness, hole.height(), middle * at(-0.5 * hole.width(), 0.0, 0.0) * upright);
+    add("right", thickness, hole.height(), middle * at(0.5 * hole.width(), 0.0, 0.0) * upright);
+    const pose behind = center * at(0.0, 0.0, place.outwards * o.distance);
+    if (o.behind == behind_hole::leaf) add("leaf", hole.width(), hole.height(), behind);
+    if (o.behind == behind_hole::house) add("house", 16.0, 9.0, behind);
+    if (o.behind != behind_hole::corridor) return;
+    constexpr double length = 6.0;  // of the corridor [m]
+    const double depth = o.distance - thickness;
+    const pose floor =
+        center * at(0.0, -0.5 * hole.height(), place.outwards * (thickness + 0.5 * depth)) * level;
+    const double up = place.height;
+    add("corridor", length, up, behind * at(0.0, 0.5 * (up - hole.height()), 0.0));
+    add("corridor floor", length, depth, floor);
+    add("corridor ceiling", length, depth,
+        center * at(0.0, up - 0.5 * hole.height(), place.outwards * (thickness + 0.5 * depth)) *
+            level);
+}
+
+/// Adds all openings, numbered by their kind.
+inline void add_openings(scene& world, const bounds& room, const room_openings& openings) {
+    int doors = 0, windows = 0;
+    const auto places = walls_of(room);
+    for (const room_opening& o : openings.all) {
+        add_opening(world, o, places[o.wall], openings.thickness,
+                    o.is_door ? numbered("door", ++doors) : numbered("window", ++windows));
+    }
+}
+
+}  // namespace gnomon::simulation::detail
+
 // -------- gnomon/simulation/furnished_room.hpp ---------------------------------------------------
 
 /// @file
 /// Random furnished rooms, one for each seed.
 
-namespace gnomon::simulation::scenes {
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// The radius of a circle about the origin that holds a piece of furniture, seen from above [m].
+[[nodiscard]] inline double radius_of(const furniture_model& model) {
+    scene alone;
+    add(alone, model);
+    double radius = 0.0;
+    for (const placed_shape& s : alone.shapes()) {
+        const auto& [low, high] = s.extent;
+        radius = std::max(radius,
+                          std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
+    }
+    return radius;
+}
+
+}  // namespace detail
+
+namespace scenes {
 
 /// Options of furnished_room().
 struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
+    bool openings = false;  ///< doors and windows in the walls; the furniture is the same
 };
 
 /// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces from furniture_models(),
 /// placed without overlap at random positions and angles. The sensor is at a wall, 1.0 to 1.6 m
 /// above the floor.
+///
+/// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
+/// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
+/// another house or nothing.
 /// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
     gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
@@ -28964,11 +29837,16 @@ struct room_options {
     const double width = random.uniform(4.0, 6.0);
     scene world;
     world.sensor = at(0.3, 0.0, random.uniform(1.0, 1.6)) * pitch(degrees(10));
-    detail::add_room(world,
-                     {{0.0, -0.5 * width, 0.0}, {length, 0.5 * width, random.uniform(2.4, 3.0)}});
+    const double height = random.uniform(2.4, 3.0);
+    const bounds room{{0.0, -0.5 * width, 0.0}, {length, 0.5 * width, height}};
     const double side = random.uniform() < 0.5 ? -0.5 * width : 0.5 * width - 0.9;
-    detail::add_block(world, "cupboard",
-                      {{length - 0.55, side, 0.0}, {length, side + 0.9, random.uniform(1.2, 2.1)}});
+    const bounds cupboard{{length - 0.55, side, 0.0},
+                          {length, side + 0.9, random.uniform(1.2, 2.1)}};
+    detail::room_openings openings;
+    if (options.openings)
+        openings = detail::room_openings(room, cupboard, random_stream(options.seed, 1));
+    detail::add_room(world, room, openings.holes());
+    detail::add_block(world, "cupboard", cupboard);
 
     // The circles about the pieces do not overlap each other, the walls, the sensor or the
     // cupboard.
@@ -28981,14 +29859,7 @@ struct room_options {
     const auto models = furniture_models();
     for (int piece = 0; piece < options.pieces; ++piece) {
         const furniture_model& model = models[random.bits() % models.size()];
-        scene alone;
-        add(alone, model);
-        double radius = 0.0;
-        for (const placed_shape& s : alone.shapes()) {
-            const auto& [low, high] = s.extent;
-            radius = std::max(
-                radius, std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
-        }
+        const double radius = detail::radius_of(model);
         for (int trial = 0; trial < 100; ++trial) {
             const circle place{random.uniform(radius, length - radius),
                                random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
@@ -29004,10 +29875,12 @@ struct room_options {
             break;
         }
     }
+    detail::add_openings(world, room, openings);
     return world;
 }
 
-}  // namespace gnomon::simulation::scenes
+}  // namespace scenes
+}  // namespace gnomon::simulation
 
 // -------- gnomon/simulation/kinematic_chain.hpp --------------------------------------------------
 

@@ -285,7 +285,7 @@ TEST(visibility, end_below_and_above_all_that_was_seen) {
     }
 }
 
-/// A lidar whose view point is stated a meter off: the lowest ring of its ground is nearer, and so
+/// A lidar whose view point is stated a meter off: the lowest line on its ground is nearer, and so
 /// lower, ahead of that than behind.
 TEST(visibility, end_below_what_was_seen_in_the_same_azimuth) {
     clouds::cloud points;

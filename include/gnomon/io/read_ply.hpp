@@ -92,6 +92,27 @@ template <class Rows, class Builder>
     return std::move(builder).finish(header.viewpoints);
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_ply(const input& file, auto text, const auto& fields) {
+    const auto header = read_ply_header(text);
+
+    std::vector<file_column> columns;
+    for (const auto& element : header.elements) {
+        if (element.name != "vertex") continue;
+        for (const auto& p : element.properties)
+            if (!p.length) columns.push_back({p.name, field_type_of(p.type)});
+        break;
+    }
+    scan_builder builder(columns, fields, text);
+
+    if (header.format == ply_format::ascii)
+        return read_ply_vertices(ascii_rows(text), header, std::move(builder));
+    const std::endian order =
+        header.format == ply_format::binary_big_endian ? std::endian::big : std::endian::little;
+    return read_ply_vertices(binary_rows({file, text.offset()}, order), header, std::move(builder));
+}
+
 }  // namespace detail
 
 /// Parses a PLY file, ascii or binary of either byte order. NaN coordinates are kept. Properties
@@ -103,26 +124,9 @@ template <class Rows, class Builder>
 /// @return the vertices [m] in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged, or if x, y, z or a field is missing
 /// Complexity: O(bytes).
-template <class = void>  // a template, so that unused readers cost no compile time
+template <class = void>  // templates, so that unused readers cost no compile time
 [[nodiscard]] scan read_ply(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const detail::ply_header header = detail::read_ply_header(text);
-
-    std::vector<detail::file_column> columns;
-    for (const detail::ply_element& element : header.elements) {
-        if (element.name != "vertex") continue;
-        for (const detail::ply_property& p : element.properties)
-            if (!p.length) columns.push_back({p.name, detail::field_type_of(p.type)});
-        break;
-    }
-    detail::scan_builder builder(columns, fields, text);
-
-    if (header.format == ply_format::ascii)
-        return read_ply_vertices(detail::ascii_rows(text), header, std::move(builder));
-    const std::endian order =
-        header.format == ply_format::binary_big_endian ? std::endian::big : std::endian::little;
-    return read_ply_vertices(detail::binary_rows({file, text.offset()}, order), header,
-                             std::move(builder));
+    return detail::read_ply(file, detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io

@@ -26,8 +26,8 @@ inline constexpr std::string_view vtk_magic = "# vtk DataFile";
 /// Reads up to and including the line "POINTS n type".
 /// @return n, as declared
 /// @throws gnomon::error  if the header is damaged, BINARY or of another kind of data set
-template <class = void>  // templates, so that unused readers cost no compile time
-[[nodiscard]] std::uint64_t read_vtk_header(text_cursor& text) {
+/// (A template, as all here, so that unused readers cost no compile time.)
+[[nodiscard]] std::uint64_t read_vtk_header(auto& text) {
     if (!text.line().value_or("").starts_with(vtk_magic)) text.fail("not a legacy VTK file");
     static_cast<void>(text.line());  // the title
 
@@ -50,6 +50,28 @@ template <class = void>  // templates, so that unused readers cost no compile ti
     return points;
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_vtk(auto text, const auto& fields) {
+    const auto points = read_vtk_header(text);
+    const std::vector<file_column> columns = {{"x"}, {"y"}, {"z"}};
+    scan_builder builder(columns, fields, text);
+    text.require_rows(points, 3);
+    builder.reserve(static_cast<std::size_t>(points));
+
+    // Line breaks can be anywhere between numbers.
+    splitter words;
+    std::vector<double> row;
+    for (std::uint64_t i = 0; i < points; ++i) {
+        for (row.clear(); row.size() < 3;) {
+            if (words.empty()) words = text.words();
+            row.push_back(text.number(words));
+        }
+        builder.add(row);
+    }
+    return std::move(builder).finish();
+}
+
 }  // namespace detail
 
 /// Parses a legacy VTK file. NaN coordinates are kept. The format has no viewpoints.
@@ -61,24 +83,7 @@ template <class = void>  // templates, so that unused readers cost no compile ti
 /// Complexity: O(bytes).
 template <class = void>
 [[nodiscard]] scan read_vtk(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    const std::uint64_t points = detail::read_vtk_header(text);
-    const std::vector<detail::file_column> columns = {{"x"}, {"y"}, {"z"}};
-    detail::scan_builder builder(columns, fields, text);
-    text.require_rows(points, 3);
-    builder.reserve(static_cast<std::size_t>(points));
-
-    // Line breaks can be anywhere between numbers.
-    detail::splitter words;
-    std::vector<double> row;
-    for (std::uint64_t i = 0; i < points; ++i) {
-        for (row.clear(); row.size() < 3;) {
-            if (words.empty()) words = text.words();
-            row.push_back(text.number(words));
-        }
-        builder.add(row);
-    }
-    return std::move(builder).finish();
+    return detail::read_vtk(detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io

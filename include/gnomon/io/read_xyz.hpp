@@ -67,6 +67,35 @@ template <class = void>  // templates, so that unused readers cost no compile ti
     return result;
 }
 
+/// The scan of a file.
+/// @param text  a text_cursor at its beginning
+[[nodiscard]] scan read_xyz(auto text, const auto& fields) {
+    text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
+    std::optional<scan_builder<decltype(text)>> builder;
+    std::vector<double> row;
+    bool has_points = false;
+    while (const auto line = text.line()) {
+        splitter words = split_values(*line);
+        if (words.empty()) continue;
+        splitter ahead = words;
+        const std::string_view first = ahead.next().value_or("");
+        if (first.starts_with('#') || first.starts_with("//")) continue;
+        if (!builder) {
+            const bool has_names = !begins_values(first);
+            const auto columns = xyz_columns(words, has_names, text);
+            builder.emplace(columns, fields, text);
+            row.resize(columns.size());
+            if (has_names) continue;
+        }
+        for (double& value : row) value = text.number(words);
+        if (!words.empty()) text.fail("more values than on the lines before");
+        builder->add(row);
+        has_points = true;
+    }
+    if (!has_points) text.fail("no points");
+    return std::move(*builder).finish();
+}
+
 }  // namespace detail
 
 /// Parses a text with x y z [m] first on each line. Blank lines and lines that begin with '#' or
@@ -80,31 +109,7 @@ template <class = void>  // templates, so that unused readers cost no compile ti
 /// Complexity: O(bytes).
 template <class = void>
 [[nodiscard]] scan read_xyz(const input& file, const std::vector<std::string>& fields = {}) {
-    detail::text_cursor text(file);
-    text.skip("\xEF\xBB\xBF");  // the byte order mark of some editors
-    std::optional<detail::scan_builder<detail::text_cursor>> builder;
-    std::vector<double> row;
-    bool has_points = false;
-    while (const auto line = text.line()) {
-        detail::splitter words = detail::split_values(*line);
-        if (words.empty()) continue;
-        detail::splitter ahead = words;
-        const std::string_view first = ahead.next().value_or("");
-        if (first.starts_with('#') || first.starts_with("//")) continue;
-        if (!builder) {
-            const bool has_names = !detail::begins_values(first);
-            const auto columns = detail::xyz_columns(words, has_names, text);
-            builder.emplace(columns, fields, text);
-            row.resize(columns.size());
-            if (has_names) continue;
-        }
-        for (double& value : row) value = text.number(words);
-        if (!words.empty()) text.fail("more values than on the lines before");
-        builder->add(row);
-        has_points = true;
-    }
-    if (!has_points) text.fail("no points");
-    return std::move(*builder).finish();
+    return detail::read_xyz(detail::text_cursor(file), fields);
 }
 
 }  // namespace gnomon::io

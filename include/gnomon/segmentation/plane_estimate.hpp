@@ -80,28 +80,29 @@ template <class Cloud>
 
 /// The normal equations of a plane about the mean of the points on it, along their principal axes.
 template <class Cloud>
-[[nodiscard]] plane_adjustment adjustment_of(const Cloud& cloud,
-                                             std::span<const point_index> members,
-                                             const region_plane& of) {
+[[nodiscard]] plane_adjustment<Cloud> adjustment_of(const Cloud& cloud,
+                                                    std::span<const point_index> members,
+                                                    const region_plane& of) {
     const auto is_on = [&](point_index i) { return cloud.is_on(i, of); };
     const gnomon::plane& p = of.plane;
-    plane_adjustment first(tangent_basis(p.normal),
-                           combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
+    plane_adjustment<Cloud> first(
+        tangent_basis(p.normal),
+        combined(1.0, of.centroid, -p.signed_distance(of.centroid), p.normal));
     first.add_all(cloud, members, true, is_on);
-    plane_adjustment principal = first.principal();
+    plane_adjustment<Cloud> principal = first.principal();
     principal.add_all(cloud, members, true, is_on);
     return principal;
 }
 
 /// The covariance of the turns about b1 and b2 and of the shift. A slope towards b2 is a turn about
 /// -b1, one towards b1 a turn about b2.
-/// @param variance  of the points, in that of their noise
-[[nodiscard]] inline Eigen::Matrix3d covariance_of_turns(const plane_adjustment& about,
-                                                         double variance) {
-    const square_array<plane_parameters> c =
-        scaled_equations<plane_parameters>(about.equations).covariance();
-    constexpr std::array<std::size_t, plane_parameters> slope{1, 0, 2};
-    constexpr std::array<double, plane_parameters> sign{-1.0, 1.0, 1.0};
+/// @param about     a plane_adjustment
+/// @param variance  of the points, in that of their noise. (A template, so that only its users
+///                  compile it.)
+[[nodiscard]] Eigen::Matrix3d covariance_of_turns(const auto& about, double variance) {
+    const auto c = about.covariance();
+    constexpr std::size_t slope[] = {1, 0, 2};
+    constexpr double sign[] = {-1.0, 1.0, 1.0};
     Eigen::Matrix3d turns;
     for (std::size_t i = 0; i < plane_parameters; ++i) {
         for (std::size_t j = 0; j <= i; ++j) {
@@ -131,7 +132,7 @@ template <class Cloud>
         members, [&](point_index i) { return cloud.is_finite(i) && cloud.is_on(i, region.fit); });
     if (on_plane != members.end() && dot(plane.normal, cloud.ray(*on_plane)) > 0.0)
         plane = {scaled(-1.0, plane.normal), -plane.offset};
-    const plane_adjustment about = adjustment_of(cloud, members, region.fit);
+    const auto about = adjustment_of(cloud, members, region.fit);
     e.centroid = combined(1.0, cloud.origin, 1.0, about.center);
     e.axes = from_columns(about.frame.b1, about.frame.b2, plane.normal);
     e.plane = {plane.normal, dot(plane.normal, e.centroid)};

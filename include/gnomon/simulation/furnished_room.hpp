@@ -13,22 +13,47 @@
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/detail/object_builder.hpp>
+#include <gnomon/simulation/detail/openings.hpp>
 #include <gnomon/simulation/detail/room.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
 
-namespace gnomon::simulation::scenes {
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// The radius of a circle about the origin that holds a piece of furniture, seen from above [m].
+[[nodiscard]] inline double radius_of(const furniture_model& model) {
+    scene alone;
+    add(alone, model);
+    double radius = 0.0;
+    for (const placed_shape& s : alone.shapes()) {
+        const auto& [low, high] = s.extent;
+        radius = std::max(radius,
+                          std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
+    }
+    return radius;
+}
+
+}  // namespace detail
+
+namespace scenes {
 
 /// Options of furnished_room().
 struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
+    bool openings = false;  ///< doors and windows in the walls; the furniture is the same
 };
 
 /// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces from furniture_models(),
 /// placed without overlap at random positions and angles. The sensor is at a wall, 1.0 to 1.6 m
 /// above the floor.
+///
+/// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
+/// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
+/// another house or nothing.
 /// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
     gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
@@ -38,11 +63,16 @@ struct room_options {
     const double width = random.uniform(4.0, 6.0);
     scene world;
     world.sensor = at(0.3, 0.0, random.uniform(1.0, 1.6)) * pitch(degrees(10));
-    detail::add_room(world,
-                     {{0.0, -0.5 * width, 0.0}, {length, 0.5 * width, random.uniform(2.4, 3.0)}});
+    const double height = random.uniform(2.4, 3.0);
+    const bounds room{{0.0, -0.5 * width, 0.0}, {length, 0.5 * width, height}};
     const double side = random.uniform() < 0.5 ? -0.5 * width : 0.5 * width - 0.9;
-    detail::add_block(world, "cupboard",
-                      {{length - 0.55, side, 0.0}, {length, side + 0.9, random.uniform(1.2, 2.1)}});
+    const bounds cupboard{{length - 0.55, side, 0.0},
+                          {length, side + 0.9, random.uniform(1.2, 2.1)}};
+    detail::room_openings openings;
+    if (options.openings)
+        openings = detail::room_openings(room, cupboard, random_stream(options.seed, 1));
+    detail::add_room(world, room, openings.holes());
+    detail::add_block(world, "cupboard", cupboard);
 
     // The circles about the pieces do not overlap each other, the walls, the sensor or the
     // cupboard.
@@ -55,14 +85,7 @@ struct room_options {
     const auto models = furniture_models();
     for (int piece = 0; piece < options.pieces; ++piece) {
         const furniture_model& model = models[random.bits() % models.size()];
-        scene alone;
-        add(alone, model);
-        double radius = 0.0;
-        for (const placed_shape& s : alone.shapes()) {
-            const auto& [low, high] = s.extent;
-            radius = std::max(
-                radius, std::hypot(std::max(-low.x(), high.x()), std::max(-low.y(), high.y())));
-        }
+        const double radius = detail::radius_of(model);
         for (int trial = 0; trial < 100; ++trial) {
             const circle place{random.uniform(radius, length - radius),
                                random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
@@ -78,7 +101,9 @@ struct room_options {
             break;
         }
     }
+    detail::add_openings(world, room, openings);
     return world;
 }
 
-}  // namespace gnomon::simulation::scenes
+}  // namespace scenes
+}  // namespace gnomon::simulation

@@ -18,6 +18,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
@@ -40,6 +41,12 @@ struct scene_surface {
 struct scene_part {
     std::string name;
     std::int32_t object;  ///< that it belongs to
+};
+
+/// A door or a window of a scene: a hole of a surface.
+struct opening {
+    std::string name;        ///< such as "door 1"
+    oriented_box rectangle;  ///< level edge first, then the upright one; without a third length
 };
 
 namespace detail {
@@ -102,6 +109,8 @@ class scene {
   public:
     /// The recommended sensor pose. By default the origin, level.
     pose sensor;
+    /// The known holes of surfaces, such as doors and windows; rays do not depend on them.
+    std::vector<opening> openings;
 
     /// A new object.
     /// @return its number

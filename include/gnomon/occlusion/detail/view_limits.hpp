@@ -68,10 +68,9 @@ struct view_limits {
     };
 
     [[nodiscard]] std::size_t sector_of(const auto& way) const {
-        const double turns =
-            0.5 + 0.5 * std::atan2(dot(axes_.y, way), dot(axes_.x, way)) / std::numbers::pi;
-        const auto count = static_cast<double>(sectors_.size());
-        return static_cast<std::size_t>(turns * count) % sectors_.size();
+        const double azimuth = std::atan2(dot(axes_.y, way), dot(axes_.x, way)) + std::numbers::pi;
+        const double width = 2.0 * std::numbers::pi / static_cast<double>(sectors_.size());
+        return static_cast<std::size_t>(azimuth / width) % sectors_.size();
     }
 
     image_axes axes_;

@@ -102,7 +102,8 @@ struct plane_sums {
     }
 
     /// A given plane, relative to the origin, as the plane of the points. Precondition: there are.
-    [[nodiscard]] region_plane about(const gnomon::plane& to) const {
+    /// (A template, so that only its users compile it.)
+    [[nodiscard]] region_plane about(const auto& to) const {
         return {to, positions.mean(), chi2_about(to), true, is_seen(to.normal)};
     }
 

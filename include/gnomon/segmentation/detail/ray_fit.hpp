@@ -33,6 +33,8 @@ inline constexpr std::size_t plane_parameters = 3;  // formula: two slopes and a
 /// The normal equations of a plane about points that are moved to it: residuals are distances from
 /// the plane in standard deviations of the noise across it, parameters the slopes of the plane
 /// towards b1 and b2 and its shift along the normal at the center [m].
+/// @tparam Cloud  a planar_cloud
+template <class Cloud>
 struct plane_adjustment {
     tangent_basis frame;
     Eigen::Vector3d center;  ///< of the plane [m]
@@ -58,7 +60,6 @@ struct plane_adjustment {
     }
 
     /// Of some points of a cloud.
-    template <class Cloud>
     void add_all(const Cloud& cloud, std::span<const point_index> members, bool moves,
                  auto&& is_of) {
         for (const point_index i : members) {
@@ -66,6 +67,11 @@ struct plane_adjustment {
             const double points = cloud.counts.empty() ? 1.0 : static_cast<double>(cloud.counts[i]);
             add(cloud.offsets[i], cloud.noise[i], points, moves && cloud.noise[i].has_ray());
         }
+    }
+
+    /// The covariance of the parameters.
+    [[nodiscard]] auto covariance() const {
+        return scaled_equations<plane_parameters>(equations).covariance();
     }
 
     /// The plane after a step of the parameters.
@@ -101,14 +107,17 @@ template <class Cloud>
         if (cloud.is_finite(i)) sum = combined(1.0, sum, 1.0, cloud.noise[i].ray);
     if (!has_length(sum)) return start;
     // The regression of the depth along the mean ray is linear, and for parallel rays the result.
-    plane_adjustment next(tangent_basis(direction_of(sum)), start.fit.centroid);
+    plane_adjustment<Cloud> next(tangent_basis(direction_of(sum)), start.fit.centroid);
     next.add_all(cloud, members, false, is_on_start);
     next = next.after(linear_solution(next.equations));
 
+    const auto plane_of = [](const auto& of) {
+        return gnomon::plane{of.frame.normal, dot(of.frame.normal, of.center)};
+    };
     planar_region region = start;
     constexpr int most_passes = 50;  // numerical: five are the rule
     for (int pass = 0; pass < most_passes; ++pass) {
-        const gnomon::plane plane{next.frame.normal, dot(next.frame.normal, next.center)};
+        const gnomon::plane plane = plane_of(next);
         if (!all_finite(plane.normal) || !std::isfinite(plane.offset)) return start;
         const region_plane fit = pass == 0 ? start.sums.about(plane) : region.sums.about(plane);
         planar_region on;
@@ -125,7 +134,7 @@ template <class Cloud>
         next = next.after(step);
         const bool rests = on.sums.count == region.sums.count;
         region = on;
-        region.fit = on.sums.about({next.frame.normal, dot(next.frame.normal, next.center)});
+        region.fit = on.sums.about(plane_of(next));
         constexpr double negligible = 1e-8;  // numerical: squared standard deviations
         if (rests && decrease <= negligible) break;
     }
