@@ -7,14 +7,16 @@ DIR/chapter4.md. Both are functions of the measurements, to the byte; --check wr
 reports whether they are up to date.
 """
 
-import argparse
-import json
 import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # in a folder of sources
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 
-from relations import STEPS, THESIS, by_both_chains, factor, factors, judged, total  # noqa: E402
+import pages  # noqa: E402
+from claims import judged  # noqa: E402
+from pages import cell, table  # noqa: E402
+from relations import STEPS, THESIS, by_both_chains, factor, factors, total  # noqa: E402
 
 # Program, title, and a comparison of the results with the thesis. The counts of a program are shown
 # table by table; a program that is not built, as a dependency is not installed, has no section.
@@ -75,38 +77,17 @@ SECTIONS = [
      "Alg. 4.2 extended by a step that is no longer there; it is yet to be measured again.** For other scans: "
      "`--scan FILE FIELD FIRST_LABEL`."),
 ]
+PROGRAMS = [program for program, _, _ in SECTIONS]
 
 
-class Results:
-    """The tables of all programs."""
+class Results(pages.Results):
+    """The tables of all programs, and their pictures."""
 
     def __init__(self, folder):
-        self.contexts, self.tables = {}, {}
-        for program, _, _ in SECTIONS:
-            path = folder / f"{program}.json"
-            if path.exists():
-                raw = json.loads(path.read_text(encoding="utf-8"))
-                self.contexts[program] = raw["context"]
-                self.tables[program] = raw["tables"]
-        if not self.tables:
-            raise ValueError(f"no measurements in {folder}")
-        self.quick = any(c["quick"] for c in self.contexts.values())
+        super().__init__(folder, PROGRAMS)
         self.pictures = {program: [p.name for pattern in (".png", "_*.png")
                                    for p in sorted(folder.glob(program + pattern))]
                          for program in self.tables}
-
-
-def cell(value):
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float) and value.is_integer():
-        value = int(value)
-    return f"{value:,}" if isinstance(value, int) else str(value)
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return ["| " + " | ".join(cell(c) for c in line) + " |" for line in lines] + [""]
 
 
 def table_4_1(tables):
@@ -147,12 +128,11 @@ def numbers(program, tables):
     for title, rows in tables.items():
         if len(tables) > 1:
             lines += [f"{title[0].upper()}{title[1:]}:", ""]
-        lines += table(list(rows[0]), [list(r.values()) for r in rows])
+        lines += pages.table_of(rows)
     return lines
 
 
 def page(results, verdicts):
-    held = sum(v["holds"] for v in verdicts)
     context = next(iter(results.contexts.values()))
     lines = ["# Chapter 4, reproduced", "",
              "<!-- Written by benchmarks/chapter4/page.py from chapter4/*.json: do not edit. -->", ""]
@@ -174,10 +154,7 @@ def page(results, verdicts):
         "over five seeds of the noise, and a claim holds only if it does for each of them. The results "
         "of each program are in [chapter4/](chapter4/), the relations in "
         "[chapter4.json](chapter4.json).", "",
-        f"## {held} of {len(verdicts)} relations hold", ""]
-    failed = [v for v in verdicts if not v["holds"]]
-    lines += ["These do not; the reasons are given with the figures:", ""] if failed else []
-    lines += [f"- {v['id']}: {v['claim']}" for v in failed] + [""] * bool(failed)
+        *pages.heading(verdicts)]
     for program, title, about in SECTIONS:
         if program not in results.tables:
             continue
@@ -185,49 +162,15 @@ def page(results, verdicts):
         for name in results.pictures[program]:
             lines += [f"![{title}](chapter4/{name})", ""]
         lines += numbers(program, results.tables[program])
-        own = [v for v in verdicts if v["program"] == program]
-        if own:
-            lines += table(("", "relation", "the thesis", "measured", ""),
-                           [(v["id"], v["claim"], v["thesis"], v["measured"],
-                             "holds" if v["holds"] else "**does not hold**") for v in own])
-        whys = [f"- {v['id']} does not hold: {v['why']}." for v in own if v["why"]]
-        lines += whys + [""] * bool(whys)
+        lines += pages.relations(verdicts, program)
     return "\n".join(lines).rstrip() + "\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, nargs="?")
-    parser.add_argument("--check", action="store_true",
-                        help="write nothing; fail if the page is not up to date")
-    parser.add_argument("--programs", action="store_true", help="name the programs, and no more")
-    options = parser.parse_args()
-    if options.programs:
-        print(*(program for program, _, _ in SECTIONS))
-        return 0
-    if options.folder is None:
-        parser.error("DIR is missing")
-    try:
-        results = Results(options.folder / "chapter4")
-    except (OSError, ValueError) as problem:
-        parser.error(str(problem))
+def make(folder):
+    results = Results(folder)
     verdicts = judged(results.tables)
-    keys = ("id", "claim", "thesis", "measured", "holds")
-    relations = {"relations": [{key: v[key] for key in keys} for v in verdicts]}
-    texts = {"chapter4.json": json.dumps(relations, indent=2, ensure_ascii=False) + "\n",
-             "chapter4.md": page(results, verdicts)}
-    if options.check:
-        stale = [name for name, text in texts.items()
-                 if (options.folder / name).read_text(encoding="utf-8") != text]
-        for name in stale:
-            print(f"{options.folder / name} is not up to date; run page.py")
-        return 1 if stale else 0
-    for name, text in texts.items():
-        (options.folder / name).write_text(text, encoding="utf-8")
-    print(f"wrote {options.folder / 'chapter4.md'}: {sum(v['holds'] for v in verdicts)} of "
-          f"{len(verdicts)} relations hold")
-    return 0
+    return pages.relations_as_json(verdicts), page(results, verdicts), pages.summary_of(verdicts)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(pages.run(__doc__, PROGRAMS, "chapter4", make))

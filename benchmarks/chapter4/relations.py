@@ -8,7 +8,7 @@ only then.
 
 import statistics
 
-RELATIONS = []
+from claims import relation
 
 # Table 4.1 of the thesis: n, n_pp, and t_pp, t_nve, t_seg, t_m in seconds, n_m, n_s.
 THESIS = {
@@ -22,28 +22,6 @@ THESIS = {
     "SAT R": (158400, 72158, .25, 3.51, .97, .39, 21, 180),
 }
 STEPS = ("t_pp", "t_nve", "t_seg", "t_m")
-
-
-def relation(program, id, claim, thesis, why=""):
-    """Registers a claim about the measurements of a program."""
-    def enter(judge):
-        RELATIONS.append({"program": program, "id": id, "claim": claim, "thesis": thesis,
-                          "why": why, "judge": judge})
-        return judge
-    return enter
-
-
-def judged(tables):
-    """The relations of the measured programs with their verdicts."""
-    verdicts = []
-    for r in RELATIONS:
-        if r["program"] not in tables:
-            continue
-        measured, holds = r["judge"](tables[r["program"]])
-        verdicts.append({**{key: r[key] for key in ("program", "id", "claim", "thesis")},
-                         "measured": measured, "holds": bool(holds),
-                         "why": "" if holds else r["why"]})
-    return verdicts
 
 
 # ---- Table 4.1 ----------------------------------------------------------------------------------

@@ -7,14 +7,15 @@ DIR/features.md and, if matplotlib is installed, DIR/features.png. The first two
 measurements, to the byte; --check writes nothing and reports whether they are up to date.
 """
 
-import argparse
-import json
 import pathlib
 import sys
 
 sys.dont_write_bytecode = True  # in a folder of sources
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 
-from relations import judged  # noqa: E402
+import pages  # noqa: E402
+import relations  # noqa: E402,F401: enters the claims
+from claims import judged  # noqa: E402
 
 # Program, title, and what its tables are.
 SECTIONS = [
@@ -66,39 +67,10 @@ SECTIONS = [
      "openings. The constants of the example were chosen on other rooms. An opening counts as found if a measured "
      "one is within half a metre of its center; edges that furniture hides are not measured."),
 ]
-
-
-class Results:
-    """The tables of all programs."""
-
-    def __init__(self, folder):
-        self.contexts, self.tables = {}, {}
-        for program, _, _ in SECTIONS:
-            path = folder / f"{program}.json"
-            if path.exists():
-                raw = json.loads(path.read_text(encoding="utf-8"))
-                self.contexts[program] = raw["context"]
-                self.tables[program] = raw["tables"]
-        if not self.tables:
-            raise ValueError(f"no measurements in {folder}")
-        self.quick = any(c["quick"] for c in self.contexts.values())
-
-
-def cell(value):
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float) and value.is_integer():
-        value = int(value)
-    return f"{value:,}" if isinstance(value, int) else str(value)
-
-
-def table(head, rows):
-    lines = [head, ["---"] * len(head), *rows]
-    return ["| " + " | ".join(cell(c) for c in line) + " |" for line in lines] + [""]
+PROGRAMS = [program for program, _, _ in SECTIONS]
 
 
 def page(results, verdicts):
-    held = sum(v["holds"] for v in verdicts)
     context = next(iter(results.contexts.values()))
     lines = ["# Features and descriptors", "",
              "<!-- Written by benchmarks/features/page.py from features/*.json: do not edit. -->", ""]
@@ -118,23 +90,14 @@ def page(results, verdicts):
         "processor, medians of seven runs. The results of each program are in [features/](features/), the "
         "relations in [features.json](features.json).", "",
         "![Repeatability of features by noise](features.png)", "",
-        f"## {held} of {len(verdicts)} relations hold", ""]
-    failed = [v for v in verdicts if not v["holds"]]
-    lines += ["These do not; the reasons are given with the figures:", ""] if failed else []
-    lines += [f"- {v['id']}: {v['claim']}" for v in failed] + [""] * bool(failed)
+        *pages.heading(verdicts)]
     for program, title, about in SECTIONS:
         if program not in results.tables:
             continue
         lines += [f"## {title}", "", f"{about} `{program} --out DIR`", ""]
         for name, rows in results.tables[program].items():
-            lines += [f"{name[0].upper()}{name[1:]}:", "",
-                      *table(list(rows[0]), [list(r.values()) for r in rows])]
-        own = [v for v in verdicts if v["program"] == program]
-        lines += table(("", "relation", "the thesis", "measured", ""),
-                       [(v["id"], v["claim"], v["thesis"], v["measured"],
-                         "holds" if v["holds"] else "**does not hold**") for v in own])
-        whys = [f"- {v['id']} does not hold: {v['why']}." for v in own if v["why"]]
-        lines += whys + [""] * bool(whys)
+            lines += [f"{name[0].upper()}{name[1:]}:", "", *pages.table_of(rows)]
+        lines += pages.relations(verdicts, program)
     return "\n".join(lines).rstrip() + "\n"
 
 
@@ -169,40 +132,16 @@ def draw(results, path):
     plt.close(figure)
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, nargs="?")
-    parser.add_argument("--check", action="store_true",
-                        help="write nothing; fail if the page is not up to date")
-    parser.add_argument("--programs", action="store_true", help="name the programs, and no more")
-    options = parser.parse_args()
-    if options.programs:
-        print(*(program for program, _, _ in SECTIONS))
-        return 0
-    if options.folder is None:
-        parser.error("DIR is missing")
-    try:
-        results = Results(options.folder / "features")
-    except (OSError, ValueError) as problem:
-        parser.error(str(problem))
+def read(folder):
+    return pages.Results(folder, PROGRAMS)
+
+
+def make(folder):
+    results = read(folder)
     verdicts = judged(results.tables)
-    keys = ("id", "claim", "thesis", "measured", "holds")
-    relations = {"relations": [{key: v[key] for key in keys} for v in verdicts]}
-    texts = {"features.json": json.dumps(relations, indent=2, ensure_ascii=False) + "\n",
-             "features.md": page(results, verdicts)}
-    if options.check:
-        stale = [name for name, text in texts.items()
-                 if (options.folder / name).read_text(encoding="utf-8") != text]
-        for name in stale:
-            print(f"{options.folder / name} is not up to date; run page.py")
-        return 1 if stale else 0
-    for name, text in texts.items():
-        (options.folder / name).write_text(text, encoding="utf-8")
-    draw(results, options.folder / "features.png")
-    print(f"wrote {options.folder / 'features.md'}: {sum(v['holds'] for v in verdicts)} of "
-          f"{len(verdicts)} relations hold")
-    return 0
+    return pages.relations_as_json(verdicts), page(results, verdicts), pages.summary_of(verdicts)
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(pages.run(__doc__, PROGRAMS, "features", make,
+                       lambda folder, out: draw(read(folder), out / "features.png")))

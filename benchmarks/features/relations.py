@@ -5,29 +5,7 @@ Each claim is a function of the tables of its program, {table: rows}, that retur
 values as text, whether the claim holds).
 """
 
-RELATIONS = []
-
-
-def relation(program, id, claim, thesis, why=""):
-    """Registers a claim about the measurements of a program; `why` explains one that does not hold."""
-    def enter(judge):
-        RELATIONS.append({"program": program, "id": id, "claim": claim, "thesis": thesis,
-                          "why": why, "judge": judge})
-        return judge
-    return enter
-
-
-def judged(tables):
-    """The relations of the measured programs with their verdicts."""
-    verdicts = []
-    for r in RELATIONS:
-        if r["program"] not in tables:
-            continue
-        measured, holds = r["judge"](tables[r["program"]])
-        verdicts.append({**{key: r[key] for key in ("program", "id", "claim", "thesis")},
-                         "measured": measured, "holds": bool(holds),
-                         "why": "" if holds else r["why"]})
-    return verdicts
+from claims import relation
 
 
 def ranks(values):

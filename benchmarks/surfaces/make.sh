@@ -4,24 +4,4 @@
 #     make.sh PROGRAMS OUT [--quick]
 # A comparison with an older version of the library needs OUT/surfaces/rooms_before.json, by a
 # program that older_library.hpp describes.
-set -eu
-usage() {
-    echo "usage: make.sh PROGRAMS OUT [--quick]" >&2
-    exit 2
-}
-[ $# -ge 2 ] || usage
-here=$(cd "$(dirname "$0")" && pwd)
-programs=$1 out=$2
-shift 2
-case "$*" in '' | --quick) ;; *) usage ;; esac
-[ -d "$programs" ] || usage
-. "$here/../../tools/setup.sh"
-python=$(python_with json)
-
-mkdir -p "$out/surfaces"
-out=$(cd "$out" && pwd)
-for program in $("$python" "$here/page.py" --programs); do
-    echo "$program ..."
-    "$programs/$program" "$@" --out "$out/surfaces"
-done
-exec "$python" "$here/page.py" "$out"
+exec sh "$(dirname "$0")/../make_page.sh" surfaces "$@"

@@ -7,11 +7,15 @@ functions of the measurements, to the byte; --check writes nothing and reports w
 date.
 """
 
-import argparse
 import json
 import math
 import pathlib
 import sys
+
+sys.dont_write_bytecode = True  # in a folder of sources
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+
+import pages  # noqa: E402
 
 # Program, title, and what its tables are.
 SECTIONS = [
@@ -78,23 +82,15 @@ SECTIONS = [
      "which the chain would not find, as its segments have 30 points at least. And a part of a wall that has "
      "one point 100 m away: it should be merged with the other part all the same."),
 ]
+PROGRAMS = [program for program, _, _ in SECTIONS]
 PAGE_WITHOUT = (("rooms", "rooms"), ("uncertainty", "settings"))  # long tables are in the files
 
 
-class Results:
-    """The tables of all programs."""
+class Results(pages.Results):
+    """The tables of all programs, and a comparison with an older version."""
 
     def __init__(self, folder):
-        self.contexts, self.tables = {}, {}
-        for program, _, _ in SECTIONS:
-            path = folder / f"{program}.json"
-            if path.exists():
-                raw = json.loads(path.read_text(encoding="utf-8"))
-                self.contexts[program] = raw["context"]
-                self.tables[program] = raw["tables"]
-        if not self.tables:
-            raise ValueError(f"no measurements in {folder}")
-        self.quick = any(c["quick"] for c in self.contexts.values())
+        super().__init__(folder, PROGRAMS)
         before = folder / "rooms_before.json"
         if before.exists() and "rooms" in self.tables:
             raw = json.loads(before.read_text(encoding="utf-8"))
@@ -141,19 +137,6 @@ def comparison(before, after):
     return rows
 
 
-def cell(value):
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    if isinstance(value, float) and value.is_integer():
-        value = int(value)
-    return f"{value:,}" if isinstance(value, int) else str(value)
-
-
-def table(rows):
-    lines = [list(rows[0]), ["---"] * len(rows[0]), *(list(r.values()) for r in rows)]
-    return ["| " + " | ".join(cell(c) for c in line) + " |" for line in lines] + [""]
-
-
 def shown(program, tables):
     return {title: rows for title, rows in tables.items()
             if rows and not ((program, title) in PAGE_WITHOUT)}
@@ -176,43 +159,18 @@ def page(results):
             continue
         lines += [f"## {title}", "", f"{about} `{program} --out DIR`", ""]
         for name, rows in shown(program, results.tables[program]).items():
-            lines += [f"{name[0].upper()}{name[1:]}:", "", *table(rows)]
+            lines += [f"{name[0].upper()}{name[1:]}:", "", *pages.table_of(rows)]
             if name == "compared with an older version":
                 lines += ["The same scans by an older version, which has the true noise as a parameter; differences with "
                           "their standard errors over rooms.", ""]
     return "\n".join(lines).rstrip() + "\n"
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("folder", metavar="DIR", type=pathlib.Path, nargs="?")
-    parser.add_argument("--check", action="store_true",
-                        help="write nothing; fail if the page is not up to date")
-    parser.add_argument("--programs", action="store_true", help="name the programs, and no more")
-    options = parser.parse_args()
-    if options.programs:
-        print(*(program for program, _, _ in SECTIONS))
-        return 0
-    if options.folder is None:
-        parser.error("DIR is missing")
-    try:
-        results = Results(options.folder / "surfaces")
-    except (OSError, ValueError) as problem:
-        parser.error(str(problem))
+def make(folder):
+    results = Results(folder)
     tables = {program: shown(program, of) for program, of in results.tables.items()}
-    texts = {"surfaces.json": json.dumps(tables, indent=2, ensure_ascii=False) + "\n",
-             "surfaces.md": page(results)}
-    if options.check:
-        stale = [name for name, text in texts.items()
-                 if (options.folder / name).read_text(encoding="utf-8") != text]
-        for name in stale:
-            print(f"{options.folder / name} is not up to date; run page.py")
-        return 1 if stale else 0
-    for name, text in texts.items():
-        (options.folder / name).write_text(text, encoding="utf-8")
-    print(f"wrote {options.folder / 'surfaces.md'}")
-    return 0
+    return pages.as_json(tables), page(results), ""
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(pages.run(__doc__, PROGRAMS, "surfaces", make))
