@@ -5,16 +5,8 @@
 set -eu
 name=$1
 shift
-usage() {
-    echo "usage: make.sh PROGRAMS OUT [--quick]" >&2
-    exit 2
-}
-[ $# -ge 2 ] || usage
 here=$(cd "$(dirname "$0")" && pwd)
-programs=$1 out=$2
-shift 2
-case "$*" in '' | --quick) ;; *) usage ;; esac
-[ -d "$programs" ] || usage
+. "$here/make_arguments.sh"
 . "$here/../tools/setup.sh"
 python=$(python_with matplotlib)
 

@@ -6,12 +6,6 @@ set -eu
 make=$1 programs=$2
 . "$(dirname "$0")/../refused.sh"
 
-refused sh "$make"
-refused sh "$make" "$programs"
-refused sh "$make" "$programs" "$programs/chapter3_out" --slow
-refused sh "$make" "$programs/nowhere" "$programs/chapter3_out"
-refused sh "$make" "$programs" "$programs/chapter3_out" --quick more
+refused_by_make "$make" "$programs" "$programs/chapter3_out" report.py
 refused "$programs/fig_3_5" --slow
 refused "$programs/fig_3_9" more
-refused python3 "$(dirname "$make")/report.py"
-refused python3 "$(dirname "$make")/report.py" "$programs/nowhere"

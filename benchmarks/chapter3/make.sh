@@ -3,16 +3,8 @@
 # Called by benchmarks/reproduce.sh: measures, and makes the page.
 #     make.sh PROGRAMS OUT [--quick]
 set -eu
-usage() {
-    echo "usage: make.sh PROGRAMS OUT [--quick]" >&2
-    exit 2
-}
-[ $# -ge 2 ] || usage
 here=$(cd "$(dirname "$0")" && pwd)
-programs=$1 out=$2
-shift 2
-case "$*" in '' | --quick) ;; *) usage ;; esac
-[ -d "$programs" ] || usage
+. "$here/../make_arguments.sh"
 
 mkdir -p "$out/chapter3"
 out=$(cd "$out" && pwd)

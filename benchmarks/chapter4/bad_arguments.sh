@@ -6,13 +6,7 @@ set -eu
 make=$1 programs=$2
 . "$(dirname "$0")/../refused.sh"
 
-refused sh "$make"
-refused sh "$make" "$programs"
-refused sh "$make" "$programs" "$programs/chapter4_out" --slow
-refused sh "$make" "$programs/nowhere" "$programs/chapter4_out"
-refused sh "$make" "$programs" "$programs/chapter4_out" --quick more
+refused_by_make "$make" "$programs" "$programs/chapter4_out" page.py
 refused "$programs/fig_4_9"
 refused "$programs/fig_4_9" --out
 refused "$programs/table_4_1" --out "$programs/chapter4_out" --slow
-refused python3 "$(dirname "$make")/page.py"
-refused python3 "$(dirname "$make")/page.py" "$programs/nowhere"

@@ -6,11 +6,6 @@ set -eu
 make=$1 programs=$2
 . "$(dirname "$0")/../refused.sh"
 
-refused sh "$make"
-refused sh "$make" "$programs"
-refused sh "$make" "$programs" "$programs/features_out" --slow
-refused sh "$make" "$programs/nowhere" "$programs/features_out"
+refused_by_make "$make" "$programs" "$programs/features_out" page.py
 refused "$programs/points"
 refused "$programs/segments" --out "$programs/features_out" --slow
-refused python3 "$(dirname "$make")/page.py"
-refused python3 "$(dirname "$make")/page.py" "$programs/nowhere"

@@ -6,15 +6,10 @@ set -eu
 make=$1 programs=$2
 . "$(dirname "$0")/../refused.sh"
 
-refused sh "$make"
-refused sh "$make" "$programs"
-refused sh "$make" "$programs" "$programs/surfaces_out" --slow
-refused sh "$make" "$programs/nowhere" "$programs/surfaces_out"
+refused_by_make "$make" "$programs" "$programs/surfaces_out" page.py
 refused "$programs/rooms"
 refused "$programs/rooms" --out "$programs/surfaces_out" --density thrice
 refused "$programs/rooms" --out "$programs/surfaces_out" --seeds 1 0
 refused "$programs/floors" --out "$programs/surfaces_out" --slow
 refused "$programs/scans"
 refused "$programs/limits" --out "$programs/surfaces_out" --slow
-refused python3 "$(dirname "$make")/page.py"
-refused python3 "$(dirname "$make")/page.py" "$programs/nowhere"
