@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <functional>
 #include <span>
@@ -16,7 +15,6 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
-#include <gnomon/core/detail/square_array.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
