@@ -26,7 +26,7 @@ struct cluster_statistics {
     /// Adds the samples of another cluster. The weights of the means are those of the counts before
     /// the union, and the scatter grows by the term of the parallel axes,
     /// n m / (n + m) (a - b) (a - b)^T. O(D^2).
-    void add(const cluster_statistics& other) {
+    void merge(const cluster_statistics& other) {
         if (other.count == 0) return;
         const auto n = static_cast<double>(count), m = static_cast<double>(other.count);
         count += other.count;
@@ -34,7 +34,7 @@ struct cluster_statistics {
         for (std::size_t i = 0; i < D; ++i) d[i] = other.mean[i] - mean[i];
         const double part = m / (n + m), axes = n * part;
         for (std::size_t i = 0; i < D; ++i) {
-            // Of an empty cluster nothing is left, not even the rounding of the difference.
+            // The mean of the first sample is the sample, without the rounding of a difference.
             mean[i] = n == 0.0 ? other.mean[i] : mean[i] + part * d[i];
             for (std::size_t j = 0; j < D; ++j)
                 scatter[i][j] += other.scatter[i][j] + axes * (d[i] * d[j]);
@@ -42,7 +42,7 @@ struct cluster_statistics {
     }
 
     /// Adds one sample. O(D^2).
-    void add(const std::array<double, D>& x) { add(cluster_statistics{1, x, {}}); }
+    void add(const std::array<double, D>& x) { merge(cluster_statistics{1, x, {}}); }
 
     /// scatter / count, the covariance of Alg. 5.1, line 11; zero of an empty cluster.
     [[nodiscard]] gnomon::detail::square_array<D> covariance() const {
