@@ -32,6 +32,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
+#include <gnomon/recognition/calibration.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
 #include <gnomon/recognition/part_feature.hpp>
 #include <gnomon/recognition/part_features.hpp>
@@ -325,21 +326,7 @@ class object_recognizer {
                                              learned_.options.trees.trees);
             }
         }
-        // On a grid of ratios of 5 %, from 1/4 to 4.
-        constexpr int steps = 28;
-        double best = std::numeric_limits<double>::infinity();
-        for (int k = -steps; k <= steps; ++k) {
-            const double temperature = std::exp(0.05 * k);
-            double loss = 0.0;
-            for (std::size_t i = 0; i < left_out.size(); ++i) {
-                if (left_out[i].empty()) continue;
-                loss -= std::log(softmax(left_out[i], temperature)[learned_.samples.classes[i]]);
-            }
-            if (loss < best) {
-                best = loss;
-                learned_.temperature = temperature;
-            }
-        }
+        learned_.temperature = fit_temperature(left_out, learned_.samples.classes);
     }
 
     descriptor_type descriptor_;
