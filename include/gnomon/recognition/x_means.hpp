@@ -69,16 +69,23 @@ template <std::size_t D>
     return {cluster, gain, children.centers()};
 }
 
-/// The centers of a model after the splits that gain most; `most` centers at most.
+/// The centers of a model after the splits that gain most, each the best of several random
+/// directions; `most` centers at most.
 template <std::size_t D>
 [[nodiscard]] std::vector<std::array<double, D>> split_centers(sample_span<D> samples,
                                                                const k_means_result<D>& model,
                                                                std::size_t most,
                                                                random_stream& random) {
+    // Chosen: with one, as in the paper, k-means often ends in a split that the criterion rejects.
+    constexpr int directions = 4;
     std::vector<cluster_split<D>> splits;
     for (std::size_t c = 0; c < model.clusters.size(); ++c) {
-        cluster_split<D> split = split_of(samples, model, c, random);
-        if (split.gain > 0.0) splits.push_back(std::move(split));
+        cluster_split<D> best{c, 0.0, {}};
+        for (int i = 0; i < directions; ++i) {
+            cluster_split<D> split = split_of(samples, model, c, random);
+            if (split.gain > best.gain) best = std::move(split);
+        }
+        if (best.gain > 0.0) splits.push_back(std::move(best));
     }
     std::ranges::stable_sort(splits, [](const auto& a, const auto& b) { return a.gain > b.gain; });
     std::vector<std::array<double, D>> centers = model.centers();
