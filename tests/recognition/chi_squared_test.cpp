@@ -32,9 +32,9 @@ TEST(chi_squared, quantiles_are_those_of_r) {
 /// Values of pchisq(lower.tail = FALSE) of R 4.2.2.
 TEST(chi_squared, tails_are_those_of_r) {
     constexpr chi_squared_value expected[] = {
-        {15.086272469388989, 5, 0.01},    {100, 5, 5.28514836094324e-20},
-        {0.001, 1, 0.97477287936996038},  {700, 35, 1.1542797511507915e-124},
-        {3, 2, 0.22313016014842982},      {400, 400, 0.49059658199276368},
+        {15.086272469388989, 5, 0.01},        {100, 5, 5.28514836094324e-20},
+        {0.001, 1, 0.97477287936996038},      {700, 35, 1.1542797511507915e-124},
+        {3, 2, 0.22313016014842982},          {400, 400, 0.49059658199276368},
         {2000, 1540, 1.5449233372916366e-14}, {1e-8, 3, 0.99999999999973399}};
     for (const auto& [x, degrees, value] : expected)
         EXPECT_NEAR(chi_squared_tail(x, degrees) / value, 1.0, 1e-11) << x << ' ' << degrees;
@@ -45,7 +45,8 @@ TEST(chi_squared, tails_are_those_of_r) {
 TEST(chi_squared, tail_inverts_the_quantile) {
     for (const std::size_t degrees : {1u, 2u, 3u, 5u, 12u, 101u}) {
         for (const double p : {1e-300, 1e-9, 0.05, 0.3, 0.5, 0.7, 0.95, 0.9999})
-            EXPECT_NEAR(1.0 - chi_squared_tail(chi_squared_quantile(p, degrees), degrees), p, 1e-13);
+            EXPECT_NEAR(1.0 - chi_squared_tail(chi_squared_quantile(p, degrees), degrees), p,
+                        1e-13);
     }
 }
 

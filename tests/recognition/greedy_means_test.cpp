@@ -84,7 +84,8 @@ TEST(greedy_means, merges_within_the_distance_of_the_mean) {
         expect_merges_within(p, greedy_means(p, options), options);
         streaming_greedy_means<5> stream(options);
         clustering<5> streamed;
-        for (const auto& x : p) streamed.labels.push_back(static_cast<std::ptrdiff_t>(stream.add(x)));
+        for (const auto& x : p)
+            streamed.labels.push_back(static_cast<std::ptrdiff_t>(stream.add(x)));
         streamed.clusters = stream.clusters();
         expect_merges_within(p, streamed, options);
     }
