@@ -141,9 +141,8 @@ template <std::size_t D>
     return pooled;
 }
 
-/// The inverse of a covariance. Where one feature varies more than the added variance by so many
-/// orders of magnitude that the matrix is singular up to rounding, the diagonal is enlarged until
-/// it is not.
+/// The inverse of a covariance. Where the variance of a feature exceeds the added one by more than
+/// the digits of a double, and the matrix is singular up to rounding, the diagonal is enlarged.
 template <std::size_t D>
 [[nodiscard]] square_array<D> regular_inverse(square_array<D> covariance) {
     constexpr double ridge = 1e-9;  // numerical: above the rounding of a scatter
