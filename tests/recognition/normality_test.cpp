@@ -231,6 +231,9 @@ TEST(normality_test, names_degenerate_samples) {
     for (auto& x : p) x[1] = 3.0 * x[0] + 0.1;
     expect_outcome(p, test_outcome::degenerate);
     expect_outcome(samples::rows<2>(30, {4.8e6, 0.1}), test_outcome::degenerate);
+    std::vector<double> rounded(20, 0.1);  // constant up to the last bit
+    for (std::size_t i = 0; i < 10; ++i) rounded[i] = std::nextafter(0.1, 1.0);
+    EXPECT_EQ(anderson_darling(rounded).outcome, test_outcome::degenerate);
     EXPECT_EQ(anderson_darling(std::vector<double>{}).outcome, test_outcome::too_few_samples);
     EXPECT_EQ(anderson_darling(std::vector<double>(7, 1.0)).outcome, test_outcome::too_few_samples);
     EXPECT_EQ(anderson_darling(std::vector<double>(8, 0.1)).outcome, test_outcome::degenerate);
