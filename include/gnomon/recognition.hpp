@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Umbrella of the recognition floor: clusters of part features, the vocabulary of part words, tests
-/// of normality. Included by name.
+/// Umbrella of the recognition floor: clusters of part features, the vocabulary of part words,
+/// tests of normality. Included by name.
 #pragma once
 
 #include <gnomon/recognition/cluster.hpp>

@@ -16,16 +16,17 @@ using gnomon::recognition::greedy_means;
 using gnomon::recognition::greedy_means_options;
 using gnomon::recognition::streaming_greedy_means;
 
-using rows = samples::rows<5>;
+using part_rows = samples::rows<5>;
 
 greedy_means_options<5> thesis_options(double rho) {
     return {.max_distance = rho, .min_members = 4, .distance = {{.30, .30, .13, .13, .13}}};
 }
 
 /// Alg. 5.1, line by line, on lists of members: the oracle of labels.
-std::vector<std::ptrdiff_t> printed_algorithm(const rows& p, const greedy_means_options<5>& o) {
+std::vector<std::ptrdiff_t> printed_algorithm(const part_rows& p,
+                                              const greedy_means_options<5>& o) {
     std::vector<std::vector<std::size_t>> c(p.size());
-    rows m = p;
+    part_rows m = p;
     for (std::size_t i = 0; i < p.size(); ++i) c[i] = {i};
     for (std::size_t i = 0; i < c.size(); ++i) {
         for (std::size_t j = i + 1; j < c.size(); ++j) {
@@ -63,7 +64,7 @@ TEST(greedy_means, is_the_printed_algorithm) {
 }
 
 /// Members in their order lead to the statistics, and each was within rho_max of the mean then.
-void expect_merges_within(const rows& p, const clustering<5>& found,
+void expect_merges_within(const part_rows& p, const clustering<5>& found,
                           const greedy_means_options<5>& o) {
     for (std::size_t c = 0; c < found.clusters.size(); ++c) {
         cluster_statistics<5> grown;
@@ -84,7 +85,8 @@ TEST(greedy_means, merges_within_the_distance_of_the_mean) {
         expect_merges_within(p, greedy_means(p, options), options);
         streaming_greedy_means<5> stream(options);
         clustering<5> streamed;
-        for (const auto& x : p) streamed.labels.push_back(static_cast<std::ptrdiff_t>(stream.add(x)));
+        for (const auto& x : p)
+            streamed.labels.push_back(static_cast<std::ptrdiff_t>(stream.add(x)));
         streamed.clusters = stream.clusters();
         expect_merges_within(p, streamed, options);
     }
@@ -151,7 +153,7 @@ TEST(greedy_means, depends_little_on_the_order_of_separate_clusters) {
         const auto first = greedy_means(p, options).labels;
         for (std::uint64_t seed = 0; seed < 10; ++seed) {
             const auto order = samples::permutation(p.size(), seed);
-            rows permuted;
+            part_rows permuted;
             for (const std::size_t i : order) permuted.push_back(p[i]);
             const auto found = greedy_means(permuted, options).labels;
             streaming_greedy_means<5> stream(options);
@@ -172,21 +174,21 @@ TEST(greedy_means, depends_little_on_the_order_of_separate_clusters) {
 }
 
 TEST(greedy_means, of_degenerate_samples) {
-    EXPECT_TRUE(greedy_means(rows{}).clusters.empty());
-    EXPECT_TRUE(greedy_means(rows{}).labels.empty());
-    const rows constant(10, {1, 2, 3, 4, 5});
+    EXPECT_TRUE(greedy_means(part_rows{}).clusters.empty());
+    EXPECT_TRUE(greedy_means(part_rows{}).labels.empty());
+    const part_rows constant(10, {1, 2, 3, 4, 5});
     const auto found = greedy_means(constant, {.max_distance = 0.0});
     ASSERT_EQ(found.clusters.size(), 1u);
     EXPECT_EQ(found.clusters[0].mean, constant[0]);
     EXPECT_EQ(found.clusters[0].covariance()[2][3], 0.0);
-    EXPECT_EQ(greedy_means(rows{constant[0]}, {.min_members = 1}).labels[0], 0);
+    EXPECT_EQ(greedy_means(part_rows{constant[0]}, {.min_members = 1}).labels[0], 0);
     EXPECT_EQ(greedy_means(std::span(constant)).labels, found.labels);
 }
 
 TEST(greedy_means, refuses_bad_input) {
-    const rows one{{1, 2, 3, 4, 5}};
+    const part_rows one{{1, 2, 3, 4, 5}};
     for (const double bad : {samples::nan, samples::infinity, -samples::infinity, 1e101}) {
-        rows p = one;
+        part_rows p = one;
         p[0][3] = bad;
         EXPECT_THROW((void)greedy_means(p), std::invalid_argument);
         streaming_greedy_means<5> stream;

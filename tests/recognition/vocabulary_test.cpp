@@ -43,7 +43,8 @@ TEST(vocabulary, detects_the_given_part_of_normal_samples) {
             std::vector<cluster_statistics<5>> clusters;
             std::vector<samples::rows<5>> fresh;
             for (int c = 0; c < 4; ++c) {
-                const auto all = samples::correlated<5>(16'000, 2.0, {10.0 * c, 0, 0, 0, 0}, random);
+                const auto all =
+                    samples::correlated<5>(16'000, 2.0, {10.0 * c, 0, 0, 0, 0}, random);
                 clusters.push_back(cluster_of(samples::rows<5>(all.begin(), all.begin() + 8000)));
                 fresh.emplace_back(all.begin() + 8000, all.end());
             }
@@ -102,10 +103,10 @@ TEST(vocabulary, covariances_are_those_of_the_formulas) {
         (as_matrix(clusters[0].scatter) + as_matrix(clusters[1].scatter)) / 44.0 +
         1e-6 * Eigen::Matrix3d::Identity();
     const auto shrunk = make_vocabulary(clusters, {.pooled_members = 3.0});
-    const auto thesis = make_vocabulary(
-        clusters, {.repair = covariance_repair::diagonal, .max_distance = 0.06});
-    const auto least = make_vocabulary(
-        clusters, {.repair = covariance_repair::diagonal, .max_distance = 0.0});
+    const auto thesis =
+        make_vocabulary(clusters, {.repair = covariance_repair::diagonal, .max_distance = 0.06});
+    const auto least =
+        make_vocabulary(clusters, {.repair = covariance_repair::diagonal, .max_distance = 0.0});
     for (std::size_t w = 0; w < 2; ++w) {
         const auto n = static_cast<double>(clusters[w].count);
         const Eigen::Matrix3d s = as_matrix(clusters[w].scatter);
@@ -178,7 +179,8 @@ TEST(vocabulary, pools_the_covariance_of_small_words) {
         }
         rates[mode] = static_cast<double>(inliers) / static_cast<double>(count);
     }
-    std::printf("inliers of words of four members: pooled %.3f, diagonal %.3f\n", rates[0], rates[1]);
+    std::printf("inliers of words of four members: pooled %.3f, diagonal %.3f\n", rates[0],
+                rates[1]);
     EXPECT_GT(rates[0], 0.9);
     EXPECT_GT(rates[0], rates[1]);
 }
@@ -194,11 +196,16 @@ TEST(vocabulary, refuses_bad_input) {
     const auto words = make_vocabulary(c);
     EXPECT_THROW((void)words.detections({samples::nan, 0.0}), std::invalid_argument);
     EXPECT_THROW((void)words.nearest({0.0, samples::infinity}), std::invalid_argument);
-    for (const vocabulary_options& bad :
-         {vocabulary_options{.min_members = 0}, {.pooled_members = 0.0},
-          {.pooled_members = samples::nan}, {.min_deviation = 0.0}, {.min_deviation = -1.0},
-          {.max_distance = -1.0}, {.max_distance = samples::nan}, {.inlier_probability = 1.0},
-          {.inlier_probability = 0.0}, {.inlier_probability = samples::nan}})
+    for (const vocabulary_options& bad : {vocabulary_options{.min_members = 0},
+                                          {.pooled_members = 0.0},
+                                          {.pooled_members = samples::nan},
+                                          {.min_deviation = 0.0},
+                                          {.min_deviation = -1.0},
+                                          {.max_distance = -1.0},
+                                          {.max_distance = samples::nan},
+                                          {.inlier_probability = 1.0},
+                                          {.inlier_probability = 0.0},
+                                          {.inlier_probability = samples::nan}})
         EXPECT_THROW((void)make_vocabulary(c, bad), std::invalid_argument);
     c[0].scatter[0][0] = samples::nan;
     EXPECT_THROW((void)make_vocabulary(c), std::invalid_argument);

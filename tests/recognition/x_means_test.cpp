@@ -64,6 +64,18 @@ TEST(x_means, keeps_to_its_range_of_clusters) {
     EXPECT_EQ(x_means(p, {.min_clusters = 1, .max_clusters = 1}).clusters.size(), 1u);
 }
 
+/// With room for one split, that of the clusters that are farther apart is made.
+TEST(x_means, splits_where_most_is_gained) {
+    gnomon::random_stream random(1);
+    samples::rows<1> p;
+    for (const double center : {0.0, 0.5, 100.0, 104.0})
+        for (int i = 0; i < 50; ++i) p.push_back({center + 0.01 * random.gaussian()});
+    const auto found = x_means(p, {.max_clusters = 3});
+    ASSERT_EQ(found.clusters.size(), 3u);
+    EXPECT_EQ(found.labels[0], found.labels[50]);
+    EXPECT_NE(found.labels[100], found.labels[150]);
+}
+
 /// The criterion against its definition as a sum of log densities of the mixture's components.
 TEST(x_means, information_criterion_is_that_of_the_likelihood) {
     gnomon::random_stream random(6);

@@ -26,9 +26,9 @@ namespace gnomon::recognition {
 /// Options of greedy means clustering. Klasing 2010, Secs. 5.2.3 and 5.6.
 template <std::size_t D>
 struct greedy_means_options {
-    double max_distance = 0.10;      ///< rho_max, from the mean at the time of merging
-    std::size_t min_members = 4;     ///< n_min: clusters of fewer samples are pruned
-    weighted_distance<D> distance{}; ///< rho, Eq. (5.2)
+    double max_distance = 0.10;       ///< rho_max, from the mean at the time of merging
+    std::size_t min_members = 4;      ///< n_min: clusters of fewer samples are pruned
+    weighted_distance<D> distance{};  ///< rho, Eq. (5.2)
 };
 
 namespace detail {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The vocabulary of part words: clusters of feature vectors, with covariances that can be inverted,
-/// and their detection in new samples by the Mahalanobis distance. Klasing 2010, Sec. 5.3.1.
+/// The vocabulary of part words: clusters of feature vectors, with covariances that can be
+/// inverted, and their detection in new samples by the Mahalanobis distance. Klasing 2010,
+/// Sec. 5.3.1.
 ///
 ///     const auto words = gnomon::recognition::make_vocabulary<5>(found.clusters);
 ///     for (const auto& d : words.detections(sample)) use(d.word, d.distance);
@@ -41,9 +42,9 @@ struct vocabulary_options {
     /// Weight of the pooled covariance, in members of a cluster; positive. Chosen: about the number
     /// of features.
     double pooled_members = 5.0;
-    double min_deviation = 1e-3;        ///< standard deviation added to the pooled one; chosen
-    double max_distance = 0.10;         ///< rho_max of the clustering, for covariance_repair::diagonal
-    double inlier_probability = 0.99;   ///< of Gaussian samples of a word, in (0, 1); Sec. 5.6.2
+    double min_deviation = 1e-3;  ///< standard deviation added to the pooled one; chosen
+    double max_distance = 0.10;   ///< rho_max of the clustering, for covariance_repair::diagonal
+    double inlier_probability = 0.99;  ///< of Gaussian samples of a word, in (0, 1); Sec. 5.6.2
 };
 
 /// A word: the statistics of a cluster, and the metric of its Mahalanobis distance.
@@ -51,7 +52,8 @@ template <std::size_t D>
 struct word {
     std::size_t cluster = 0;           ///< its number among the clusters it was made from
     cluster_statistics<D> statistics;  ///< count, mean and scatter
-    gnomon::detail::square_array<D> inverse_covariance{};  ///< of the repaired covariance, positive definite
+    gnomon::detail::square_array<D>
+        inverse_covariance{};  ///< of the repaired covariance, positive definite
 };
 
 /// A word that a sample may be an example of.
@@ -98,7 +100,8 @@ struct vocabulary {
             double squared = 0.0;
             for (std::size_t i = 0; i < D; ++i) {
                 for (std::size_t j = 0; j < D; ++j)
-                    squared += (x[i] - mean[i]) * words[w].inverse_covariance[i][j] * (x[j] - mean[j]);
+                    squared +=
+                        (x[i] - mean[i]) * words[w].inverse_covariance[i][j] * (x[j] - mean[j]);
             }
             use(detection{w, std::sqrt(std::max(squared, 0.0))});
         }
@@ -138,8 +141,8 @@ template <std::size_t D>
     return pooled;
 }
 
-/// The inverse of a covariance. Where one feature varies so much more than the added variance that
-/// the matrix is singular up to rounding, the diagonal is enlarged until it is not.
+/// The inverse of a covariance. Where the variance of a feature exceeds the added one by more than
+/// the digits of a double, and the matrix is singular up to rounding, the diagonal is enlarged.
 template <std::size_t D>
 [[nodiscard]] square_array<D> regular_inverse(square_array<D> covariance) {
     constexpr double ridge = 1e-9;  // numerical: above the rounding of a scatter
@@ -156,9 +159,9 @@ template <std::size_t D>
 /// Makes words of clusters, those of greedy means (batch or streaming) or of x-means.
 ///
 /// With covariance_repair::pooled, the covariance of a word is
-/// (scatter + v P) / (count - 1 + v), where v is `pooled_members` and P the scatter within all words
-/// by its degrees of freedom. With covariance_repair::diagonal it is scatter / count + eps^2 I. The
-/// threshold is the square root of the chi^2 quantile of D degrees of freedom at
+/// (scatter + v P) / (count - 1 + v), where v is `pooled_members` and P the scatter within all
+/// words by its degrees of freedom. With covariance_repair::diagonal it is scatter / count + eps^2
+/// I. The threshold is the square root of the chi^2 quantile of D degrees of freedom at
 /// `inlier_probability`.
 ///
 /// @param clusters  with finite mean and scatter
@@ -167,11 +170,10 @@ template <std::size_t D>
 /// @throws std::invalid_argument  if an option is out of its range, or a cluster is not finite
 /// Complexity: O(D^3) for each cluster. Source: Klasing 2010, Sec. 5.3.1.
 template <std::size_t D>
-[[nodiscard]] vocabulary<D> make_vocabulary(
-    const std::vector<cluster_statistics<D>>& clusters,
-    const vocabulary_options& options = {}) {
+[[nodiscard]] vocabulary<D> make_vocabulary(const std::vector<cluster_statistics<D>>& clusters,
+                                            const vocabulary_options& options = {}) {
     detail::require_options(options);
-    constexpr double least_eps = 0.01;  // A24 of docs/thesis-notes.md, in scaled features
+    constexpr double least_eps = 0.01;  // chosen: docs/thesis-notes.md, in scaled features
     constexpr double eps_per_rho = 1.0 / 3.0;
     vocabulary<D> made;
     made.max_distance = std::sqrt(detail::chi_squared_quantile(options.inlier_probability, D));

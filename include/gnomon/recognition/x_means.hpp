@@ -26,8 +26,8 @@ namespace gnomon::recognition {
 
 /// Options of x-means.
 struct x_means_options {
-    std::size_t min_clusters = 2;    ///< to start with, at least 1; A51 of docs/thesis-notes.md
-    std::size_t max_clusters = 200;  ///< not below min_clusters; A51 of docs/thesis-notes.md
+    std::size_t min_clusters = 2;    ///< to start with, at least 1; chosen, docs/thesis-notes.md
+    std::size_t max_clusters = 200;  ///< not below min_clusters; chosen
     std::uint64_t seed = 1;          ///< of the first centers and of the directions of splits
 };
 
@@ -60,8 +60,7 @@ template <std::size_t D>
         two[0][i] += step * direction[i];
         two[1][i] -= step * direction[i];
     }
-    const k_means_result<D> children =
-        k_means<D>(samples, model.members[cluster], std::move(two));
+    const k_means_result<D> children = k_means<D>(samples, model.members[cluster], std::move(two));
     const double before = information_criterion<D>({parent});
     const double after = information_criterion(children.clusters);
     // Of a parent without variance nothing can be gained.
@@ -69,16 +68,23 @@ template <std::size_t D>
     return {cluster, gain, children.centers()};
 }
 
-/// The centers of a model after the splits that gain most; `most` centers at most.
+/// The centers of a model after the splits that gain most, each the best of several random
+/// directions; `most` centers at most.
 template <std::size_t D>
 [[nodiscard]] std::vector<std::array<double, D>> split_centers(sample_span<D> samples,
                                                                const k_means_result<D>& model,
                                                                std::size_t most,
                                                                random_stream& random) {
+    // Chosen: with one, as in the paper, k-means often ends in a split that the criterion rejects.
+    constexpr int directions = 4;
     std::vector<cluster_split<D>> splits;
     for (std::size_t c = 0; c < model.clusters.size(); ++c) {
-        cluster_split<D> split = split_of(samples, model, c, random);
-        if (split.gain > 0.0) splits.push_back(std::move(split));
+        cluster_split<D> best{c, 0.0, {}};
+        for (int i = 0; i < directions; ++i) {
+            cluster_split<D> split = split_of(samples, model, c, random);
+            if (split.gain > best.gain) best = std::move(split);
+        }
+        if (best.gain > 0.0) splits.push_back(std::move(best));
     }
     std::ranges::stable_sort(splits, [](const auto& a, const auto& b) { return a.gain > b.gain; });
     std::vector<std::array<double, D>> centers = model.centers();
@@ -108,9 +114,10 @@ template <std::size_t D>
 
 }  // namespace detail
 
-/// Clusters samples by x-means. From k-means with `min_clusters`, each cluster is split in two where
-/// that raises the criterion within it, then k-means is repeated with all centers, until no cluster
-/// is split or there are `max_clusters`. The result is that of largest criterion over all samples.
+/// Clusters samples by x-means. From k-means with `min_clusters`, each cluster is split in two
+/// where that raises the criterion within it, then k-means is repeated with all centers, until no
+/// cluster is split or there are `max_clusters`. The result is that of largest criterion over all
+/// samples.
 ///
 /// @param samples  a contiguous range of n samples, `std::array<double, D>`, in scaled features
 /// @param options  range of the number of clusters, seed
@@ -133,7 +140,8 @@ template <detail::sample_range R>
     std::vector<std::size_t> all(p.size());
     for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
     random_stream random(options.seed);
-    auto model = detail::k_means<D>(p, all, detail::spread_centers<D>(p, options.min_clusters, random));
+    auto model =
+        detail::k_means<D>(p, all, detail::spread_centers<D>(p, options.min_clusters, random));
     auto best = model;
     double largest = detail::information_criterion(model.clusters);
     // Rounds are limited as well: k-means may drop centers that a split has added.

@@ -34,8 +34,8 @@ struct incomplete_gamma {
     if (x == 0.0) return {0.0, 1.0};
     if (std::isinf(x)) return {1.0, 0.0};
     constexpr double eps = std::numeric_limits<double>::epsilon();
-    constexpr double tiny = 1e-300;       // numerical: for a denominator of 0
-    constexpr int most = 100'000;         // never reached: the number of terms grows as sqrt(a)
+    constexpr double tiny = 1e-300;  // numerical: for a denominator of 0
+    constexpr int most = 100'000;    // never reached: the number of terms grows as sqrt(a)
     const double a = 0.5 * static_cast<double>(degrees);
     const double factor = std::exp(a * std::log(x) - x - log_gamma_of_half(degrees));
     if (x < a + 1.0) {
@@ -92,8 +92,7 @@ struct incomplete_gamma {
         const double density = std::exp((a - 1.0) * std::log(x) - x - log_gamma);
         double next = x - over / density;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
-        const bool is_done =
-            std::abs(next - x) <= 4.0 * std::numeric_limits<double>::epsilon() * x;
+        const bool is_done = std::abs(next - x) <= 4.0 * std::numeric_limits<double>::epsilon() * x;
         x = next;
         if (is_done) break;
     }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// k-means clustering (Lloyd 1982) of some of the samples, and the Bayesian information criterion of
-/// its result.
+/// k-means clustering (Lloyd 1982) of some of the samples, and the Bayesian information criterion
+/// of its result.
 #pragma once
 
 #include <algorithm>
@@ -64,8 +64,7 @@ struct k_means_result {
 /// @param chosen   the samples that take part, not empty
 /// @param centers  to start with, not empty
 template <std::size_t D>
-[[nodiscard]] k_means_result<D> k_means(sample_span<D> samples,
-                                        std::span<const std::size_t> chosen,
+[[nodiscard]] k_means_result<D> k_means(sample_span<D> samples, std::span<const std::size_t> chosen,
                                         std::vector<std::array<double, D>> centers) {
     constexpr int most = 100;  // performance only: later steps move few samples
     k_means_result<D> result;
@@ -143,8 +142,8 @@ template <std::size_t D>
         mixture += m * std::log(m / n);
     }
     const double variance = squares / (d * (n - k));
-    return mixture - 0.5 * n * d * std::log(2.0 * std::numbers::pi * variance) -
-           0.5 * d * (n - k) - 0.5 * (k - 1.0 + d * k + 1.0) * std::log(n);
+    return mixture - 0.5 * n * d * std::log(2.0 * std::numbers::pi * variance) - 0.5 * d * (n - k) -
+           0.5 * (k - 1.0 + d * k + 1.0) * std::log(n);
 }
 
 }  // namespace gnomon::recognition::detail

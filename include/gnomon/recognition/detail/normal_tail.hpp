@@ -17,8 +17,8 @@ namespace gnomon::recognition::detail {
     const double half = 0.5 * std::erfc(std::abs(z) / std::numbers::sqrt2);
     if (z < 0.0) return std::log1p(-half);
     if (z < far) return std::log(half);
-    // The asymptotic series of Abramowitz and Stegun 1964, 26.2.12: its first term left out is below
-    // 1e-12.
+    // The asymptotic series of Abramowitz and Stegun 1964, 26.2.12: its first term left out is
+    // below 1e-12.
     const double s = 1.0 / (z * z);
     const double series = 1.0 - s * (1.0 - 3.0 * s * (1.0 - 5.0 * s * (1.0 - 7.0 * s)));
     return -0.5 * z * z - std::log(z) - 0.5 * std::log(2.0 * std::numbers::pi) + std::log(series);
