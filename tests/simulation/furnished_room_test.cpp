@@ -66,6 +66,9 @@ TEST(furnished_room, takes_other_furniture) {
     ASSERT_EQ(world.objects().size(), 5u);
     for (std::size_t i = 2; i < 5; ++i)
         EXPECT_EQ(world.objects()[i], "lamp " + std::to_string(i - 1));
+    sim::scene hall;  // larger than any room
+    hall.add_object("hall", sim::box{7, 7, 2}, sim::at(0, 0, 1));
+    EXPECT_EQ(furnished_room({.models = {{"hall", hall}}}).objects().size(), 2u);
 }
 
 /// The hash (FNV-1a) of the points and surfaces of a scan.
