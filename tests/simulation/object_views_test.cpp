@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstring>
+#include <numbers>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -112,7 +113,7 @@ double chi_squared(const std::vector<double>& uniform) {
 
 TEST(object_views, are_uniform_on_the_floor) {
     auto options = poses_only();
-    std::vector<double> x, y, yaw, squared_distance;
+    std::vector<double> x, y, yaw;
     std::size_t near_ones = 0;
     for (std::uint64_t i = 0; i < 4'000; ++i) {
         const auto view = sim::simulate_object_view(pieces[3], i, options);
@@ -176,6 +177,53 @@ TEST(object_views, have_noise_of_their_own) {
     }
     EXPECT_NEAR(std::sqrt(sum / count), 0.01, 0.0005);
     EXPECT_EQ(product, 0.0);
+}
+
+/// Only lines that can meet the object are simulated: without noise, the points are those of the
+/// whole scan.
+TEST(object_views, miss_no_point_of_the_whole_scan) {
+    for (std::uint64_t i = 0; i < 30; ++i) {
+        SCOPED_TRACE(i);
+        auto options = coarse();
+        options.beam.sigma = 0.0;
+        const auto view = sim::simulate_object_view(pieces[i % 12], i, options);
+        sim::scene world;
+        sim::add(world, pieces[i % 12], view.pose);
+        const sim::vertical scan{.mount = options.sensor, .duration = options.duration};
+        const auto whole = sim::simulate(world, scan, options.scanner);
+        EXPECT_TRUE(equal_bytes(view.truth.scan.points, whole.scan.points));
+    }
+}
+
+/// As many points as a whole scan by wide beams, but for their random rotations.
+TEST(object_views, miss_no_skimmed_point) {
+    auto options = coarse();
+    options.beam.footprint = {.waist = 0.002,
+                              .divergence = gnomon::radians(0.020),
+                              .sub_rays = 9,
+                              .rule = sim::echo_rule::averaged};
+    double points = 0.0, expected = 0.0;
+    for (std::uint64_t i = 0; i < 12; ++i) {
+        const auto view = sim::simulate_object_view(pieces[i], i, options);
+        sim::scene world;
+        sim::add(world, pieces[i], view.pose);
+        const sim::vertical scan{.mount = options.sensor, .duration = options.duration};
+        points += static_cast<double>(view.truth.scan.size());
+        expected += static_cast<double>(
+            sim::simulate(world, scan, options.scanner, options.beam).scan.size());
+    }
+    EXPECT_NEAR(points, expected, 0.005 * expected);
+}
+
+/// Clutter and failed readings are points as well: all rays give one.
+TEST(object_views, keep_failed_readings_of_all_lines) {
+    auto options = coarse();
+    options.beam.keep_failed = true;
+    const auto view = sim::simulate_object_view(pieces[0], 1, options);
+    EXPECT_EQ(view.truth.scan.size(), 160u * 360u);
+    EXPECT_LT(view.points_of_model().size(), 2'000u);
+    options.beam = {.clutter = 0.5};
+    EXPECT_GT(sim::simulate_object_view(pieces[0], 1, options).truth.scan.size(), 20'000u);
 }
 
 /// Without noise, the points of the model that remain are those of the unoccluded view, less the

@@ -80,7 +80,7 @@ TEST(scene, rejects_invalid_input) {
     EXPECT_TRUE(world.surfaces().empty());
 }
 
-/// Furniture of all types of shape in a pose of its own, and a door.
+/// Furniture of all types of shape in a pose of its own, and an opening.
 sim::scene desk_corner() {
     sim::scene model;
     const auto pieces = sim::furniture_models();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Furniture models for recognition: twelve built-in ones, six chairs and six tables, modelled after
-/// Klasing 2010, Fig. 5.3, and any scene, such as one from a mesh file
+/// Furniture models for recognition: twelve built-in ones, six chairs and six tables, modelled
+/// after Klasing 2010, Fig. 5.3, and any scene, such as one from a mesh file
 /// (gnomon/adapters/furniture_file.hpp).
 #pragma once
 

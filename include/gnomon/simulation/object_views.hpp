@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Simulates views of single objects, from which recognition learns and on which it is tested
+/// Simulates views of single objects, to train and to test recognition with
 /// (Klasing 2010, Sec. 5.6, Fig. 5.3). A model stands alone, without a floor, at a random place and
 /// heading in front of a range finder, which scans it from a fixed position. Optionally a thin
 /// board between both occludes a share of the model. A view depends on the seed, its number and the
@@ -38,6 +38,7 @@
 #include <gnomon/simulation/beam.hpp>
 #include <gnomon/simulation/bounds.hpp>
 #include <gnomon/simulation/detail/occluding_board.hpp>
+#include <gnomon/simulation/detail/sweep_past.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scanner.hpp>
@@ -144,11 +145,13 @@ namespace detail {
     const vertical scan{
         .mount = options.sensor, .duration = options.duration, .sweep = options.sweep};
     if (options.occluded_share > 0.0) {
-        const true_scan unoccluded = simulate(world, scan, options.scanner);
+        const auto past = detail::sweep_past(world.extent(), scan, options.scanner, {});
+        const true_scan unoccluded = simulate(world, past, options.scanner);
         detail::add_board(world, options.sensor.position, unoccluded.scan.points, side,
                           options.occluded_share);
     }
-    result.truth = simulate(world, scan, options.scanner, b);
+    const auto past = detail::sweep_past(world.extent(), scan, options.scanner, b);
+    result.truth = simulate(world, past, options.scanner, b);
     return result;
 }
 

@@ -70,8 +70,8 @@ struct projected_points {
 };
 
 /// Adds an object "board" that hides about this share of the points of a scan of the scene on one
-/// side; nothing if that is less than half a point. Points beside or behind the sensor, as of an
-/// object all around it, are neither hidden nor counted.
+/// side; nothing if that is less than half a point. Points behind the sensor, those of an object
+/// around it, are neither hidden nor counted.
 inline void add_board(scene& world, const Eigen::Vector3d& sensor,
                       const std::vector<Eigen::Vector3d>& points, occluded_side side,
                       double share) {
