@@ -344,6 +344,20 @@ TEST(object_views, have_as_many_points_as_the_protocol) {
     EXPECT_LT(points, 2'500.0);
 }
 
+/// The call of the documentation.
+TEST(object_views, are_simulated_for_training_and_test) {
+    // [object_views]
+    const auto models = sim::furniture_models();
+    const auto training = sim::simulate_object_views(models, 2, {.seed = 1}, gnomon::threads{});
+
+    const sim::object_view_options occluded{.occluded_share = 0.5, .seed = 2};
+    const sim::object_view test = sim::simulate_object_view(models[3], 7, occluded);
+    const std::vector<gnomon::point_index> visible = test.points_of_model();
+    // [object_views]
+    EXPECT_EQ(training.size(), 24u);
+    EXPECT_LT(visible.size(), test.truth.scan.size());
+}
+
 TEST(object_views, refuse_invalid_options) {
     std::vector<sim::object_view_options> bad(10);
     bad[0].occluded_share = -0.1;
