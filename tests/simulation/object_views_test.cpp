@@ -24,7 +24,7 @@ namespace sim = gnomon::simulation;
 
 namespace {
 
-const std::vector<sim::furniture_model> pieces = sim::furniture_models();
+const std::vector<sim::furniture_model> catalogue = sim::furniture_models();
 
 /// Options whose scans cost nothing, where only poses matter.
 sim::object_view_options poses_only(std::uint64_t seed = 1) {
@@ -60,13 +60,13 @@ double yaw_of(const sim::object_view& view) {
 }
 
 TEST(object_views, do_not_depend_on_order_or_threads) {
-    const std::vector<sim::furniture_model> models{pieces[0], pieces[8]};
+    const std::vector<sim::furniture_model> models{catalogue[0], catalogue[8]};
     for (const double share : {0.0, 0.4}) {
         const auto options = coarse(share);
         const auto views = sim::simulate_object_views(models, 3, options);
         ASSERT_EQ(views.size(), 6u);
         const auto parallel = sim::simulate_object_views(models, 3, options, gnomon::threads{3});
-        const auto more = sim::simulate_object_views(pieces, 1, options, gnomon::threads{2});
+        const auto more = sim::simulate_object_views(catalogue, 1, options, gnomon::threads{2});
         for (std::size_t i = 6; i-- > 0;) {
             EXPECT_TRUE(equal_views(views[i], parallel[i]));
             EXPECT_EQ(views[i].model, i / 3);
@@ -88,11 +88,11 @@ TEST(object_views, do_not_depend_on_order_or_threads) {
 
 /// The pose depends on neither noise nor occlusion: views differ in nothing else.
 TEST(object_views, of_one_number_have_one_pose) {
-    const auto plain = sim::simulate_object_view(pieces[0], 3, coarse());
+    const auto plain = sim::simulate_object_view(catalogue[0], 3, coarse());
     auto changed = coarse(0.5);
     changed.beam.sigma = 0.1;
     changed.duration = 2.0;
-    const auto other = sim::simulate_object_view(pieces[6], 3, changed);
+    const auto other = sim::simulate_object_view(catalogue[6], 3, changed);
     EXPECT_EQ(plain.pose.position, other.pose.position);
     EXPECT_EQ(plain.pose.rotation, other.pose.rotation);
 }
@@ -116,7 +116,7 @@ TEST(object_views, are_uniform_on_the_floor) {
     std::vector<double> x, y, yaw;
     std::size_t near_ones = 0;
     for (std::uint64_t i = 0; i < 4'000; ++i) {
-        const auto view = sim::simulate_object_view(pieces[3], i, options);
+        const auto view = sim::simulate_object_view(catalogue[3], i, options);
         const auto& p = view.pose.position;
         EXPECT_TRUE(p.x() >= 0.5 && p.x() <= 5.5 && std::abs(p.y()) <= 2.5);
         EXPECT_EQ(p.z(), 0.0);
@@ -138,8 +138,8 @@ TEST(object_views, are_uniform_on_the_floor) {
 
 TEST(object_views, have_the_parts_of_the_model) {
     sim::scene alone;
-    sim::add(alone, pieces[4]);
-    const auto view = sim::simulate_object_view(pieces[4], 2, coarse());
+    sim::add(alone, catalogue[4]);
+    const auto view = sim::simulate_object_view(catalogue[4], 2, coarse());
     ASSERT_GT(view.truth.scan.size(), 50u);
     EXPECT_EQ(view.points_of_model().size(), view.truth.scan.size());
     std::set<std::string> seen;
@@ -163,14 +163,14 @@ TEST(object_views, have_noise_of_their_own) {
     options.beam.sigma = 0.01;
     double sum = 0.0, count = 0.0, product = 0.0;
     for (std::uint64_t i = 0; i < 20; ++i) {
-        const auto& truth = sim::simulate_object_view(pieces[5], i, options).truth;
+        const auto& truth = sim::simulate_object_view(catalogue[5], i, options).truth;
         for (std::size_t j = 0; j < truth.scan.size(); ++j) {
             const double range =
                 (truth.scan.points[j] - Eigen::Vector3d(0, 0, 1.2)).dot(truth.directions[j]);
             sum += (range - truth.ranges[j]) * (range - truth.ranges[j]);
             count += 1.0;
         }
-        const auto again = sim::simulate_object_view(pieces[5], i + 1, options).truth;
+        const auto again = sim::simulate_object_view(catalogue[5], i + 1, options).truth;
         const std::size_t n = std::min(truth.scan.size(), again.scan.size());
         for (std::size_t j = 0; j < n; ++j)
             product += truth.scan.points[j].x() == again.scan.points[j].x();
@@ -186,9 +186,9 @@ TEST(object_views, miss_no_point_of_the_whole_scan) {
         SCOPED_TRACE(i);
         auto options = coarse();
         options.beam.sigma = 0.0;
-        const auto view = sim::simulate_object_view(pieces[i % 12], i, options);
+        const auto view = sim::simulate_object_view(catalogue[i % 12], i, options);
         sim::scene world;
-        sim::add(world, pieces[i % 12], view.pose);
+        sim::add(world, catalogue[i % 12], view.pose);
         const sim::vertical scan{.mount = options.sensor, .duration = options.duration};
         const auto whole = sim::simulate(world, scan, options.scanner);
         EXPECT_TRUE(equal_bytes(view.truth.scan.points, whole.scan.points));
@@ -199,31 +199,31 @@ TEST(object_views, miss_no_point_of_the_whole_scan) {
 TEST(object_views, miss_no_skimmed_point) {
     auto options = coarse();
     options.beam.footprint = {.waist = 0.002,
-                              .divergence = gnomon::radians(0.020),
+                              .divergence = gnomon::radians(0.150),
                               .sub_rays = 9,
                               .rule = sim::echo_rule::averaged};
     double points = 0.0, expected = 0.0;
     for (std::uint64_t i = 0; i < 12; ++i) {
-        const auto view = sim::simulate_object_view(pieces[i], i, options);
+        const auto view = sim::simulate_object_view(catalogue[i], i, options);
         sim::scene world;
-        sim::add(world, pieces[i], view.pose);
+        sim::add(world, catalogue[i], view.pose);
         const sim::vertical scan{.mount = options.sensor, .duration = options.duration};
         points += static_cast<double>(view.truth.scan.size());
         expected += static_cast<double>(
             sim::simulate(world, scan, options.scanner, options.beam).scan.size());
     }
-    EXPECT_NEAR(points, expected, 0.005 * expected);
+    EXPECT_NEAR(points, expected, 0.003 * expected);
 }
 
 /// Clutter and failed readings are points as well: all rays give one.
 TEST(object_views, keep_failed_readings_of_all_lines) {
     auto options = coarse();
     options.beam.keep_failed = true;
-    const auto view = sim::simulate_object_view(pieces[0], 1, options);
+    const auto view = sim::simulate_object_view(catalogue[0], 1, options);
     EXPECT_EQ(view.truth.scan.size(), 160u * 360u);
     EXPECT_LT(view.points_of_model().size(), 2'000u);
     options.beam = {.clutter = 0.5};
-    EXPECT_GT(sim::simulate_object_view(pieces[0], 1, options).truth.scan.size(), 20'000u);
+    EXPECT_GT(sim::simulate_object_view(catalogue[0], 1, options).truth.scan.size(), 20'000u);
 }
 
 /// Without noise, the points of the model that remain are those of the unoccluded view, less the
@@ -234,7 +234,7 @@ TEST(object_views, are_occluded_by_the_given_share) {
         double hidden = 0.0, all = 0.0;
         for (std::uint64_t i = 0; i < 24; ++i) {
             SCOPED_TRACE(testing::Message() << share << ", view " << i);
-            const auto& model = pieces[i % pieces.size()];
+            const auto& model = catalogue[i % catalogue.size()];
             auto options = coarse(share);
             options.beam.sigma = 0.0;
             const auto occluded = sim::simulate_object_view(model, i, options);
@@ -282,7 +282,7 @@ TEST(object_views, are_occluded_by_the_given_share) {
 
 TEST(object_views, may_be_hidden_as_a_whole) {
     for (std::uint64_t i = 0; i < 6; ++i) {
-        const auto view = sim::simulate_object_view(pieces[i], i, coarse(1.0));
+        const auto view = sim::simulate_object_view(catalogue[i], i, coarse(1.0));
         EXPECT_GT(view.truth.scan.size(), 0u);
         EXPECT_TRUE(view.points_of_model().empty());
     }
@@ -300,12 +300,12 @@ TEST(object_views, may_have_no_points) {
         EXPECT_TRUE(view.truth.scan.points.empty());
         EXPECT_TRUE(view.points_of_model().empty());
         EXPECT_GE(view.pose.position.x(), 25.0);
-        const auto few = sim::simulate_object_view(pieces[3], 1, options);
+        const auto few = sim::simulate_object_view(catalogue[3], 1, options);
         EXPECT_LT(few.truth.scan.size(), 20u);
         EXPECT_TRUE(sim::simulate_object_view({"empty", sim::scene{}}, 1, options)
                         .truth.scan.points.empty());
     }
-    EXPECT_TRUE(sim::simulate_object_views(pieces, 0, options).empty());
+    EXPECT_TRUE(sim::simulate_object_views(catalogue, 0, options).empty());
     EXPECT_TRUE(sim::simulate_object_views({}, 5, options).empty());
 }
 
@@ -327,7 +327,7 @@ TEST(object_views, have_skimmed_points_if_beams_are_wide) {
     auto options = coarse();
     options.beam.footprint = {
         .divergence = gnomon::radians(0.010), .sub_rays = 9, .rule = sim::echo_rule::averaged};
-    const auto view = sim::simulate_object_view(pieces[1], 3, options);
+    const auto view = sim::simulate_object_view(catalogue[1], 3, options);
     const auto mixed =
         std::count(view.truth.echoes.begin(), view.truth.echoes.end(), sim::echo::mixed);
     EXPECT_GT(mixed, 10);
@@ -335,7 +335,7 @@ TEST(object_views, have_skimmed_points_if_beams_are_wide) {
 
 /// About 1,940 points per view at 8 s: the figure of the protocol.
 TEST(object_views, have_as_many_points_as_the_protocol) {
-    const auto views = sim::simulate_object_views(pieces, 5, {.seed = 3}, gnomon::threads{2});
+    const auto views = sim::simulate_object_views(catalogue, 5, {.seed = 3}, gnomon::threads{2});
     double points = 0.0;
     for (const auto& view : views) points += static_cast<double>(view.truth.scan.size());
     points /= static_cast<double>(views.size());
@@ -372,8 +372,9 @@ TEST(object_views, refuse_invalid_options) {
     bad[9].duration = clouds::nan;
     for (std::size_t i = 0; i < bad.size(); ++i) {
         SCOPED_TRACE(i);
-        EXPECT_THROW((void)sim::simulate_object_view(pieces[0], 0, bad[i]), std::invalid_argument);
-        EXPECT_THROW((void)sim::simulate_object_views(pieces, 1, bad[i], gnomon::threads{2}),
+        EXPECT_THROW((void)sim::simulate_object_view(catalogue[0], 0, bad[i]),
+                     std::invalid_argument);
+        EXPECT_THROW((void)sim::simulate_object_views(catalogue, 1, bad[i], gnomon::threads{2}),
                      std::invalid_argument);
     }
 }

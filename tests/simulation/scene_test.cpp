@@ -93,7 +93,7 @@ sim::scene desk_corner() {
     return model;
 }
 
-sim::pose any_pose(gnomon::random_stream& random) {
+sim::pose random_placement(gnomon::random_stream& random) {
     const auto turn = [&] { return gnomon::degrees(random.uniform(-180, 180)); };
     return sim::at(random.uniform(-3, 3), random.uniform(-3, 3), random.uniform(-3, 3)) *
            sim::yaw(turn()) * sim::pitch(turn()) * sim::roll(turn());
@@ -110,7 +110,7 @@ TEST(scene, holds_models_that_are_seen_as_they_are) {
     for (int trial = 0; trial < 20; ++trial) {
         sim::scene world;
         world.add_object("stone", sim::box{0.1, 0.1, 0.1}, sim::at(0, 0, -50));
-        const sim::pose place = any_pose(random);
+        const sim::pose place = random_placement(random);
         ASSERT_EQ(sim::add(world, model, place), 1);
         const sim::pose sensor = sim::at(-2.5, 0, 0.8);
         const auto expected = seen_from(model, sensor);
