@@ -19,9 +19,9 @@ namespace gnomon::recognition {
 struct height_profile {
     /// The points of a level.
     struct level {
-        double points = 0.0;                   ///< their number
-        double u = 0.0, v = 0.0;               ///< sums of the horizontal coordinates [m]
-        double uu = 0.0, uv = 0.0, vv = 0.0;   ///< sums of their products [m^2]
+        double points = 0.0;                  ///< their number
+        double u = 0.0, v = 0.0;              ///< sums of the horizontal coordinates [m]
+        double uu = 0.0, uv = 0.0, vv = 0.0;  ///< sums of their products [m^2]
 
         level& operator+=(const level& o) {
             points += o.points;

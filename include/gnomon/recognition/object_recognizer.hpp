@@ -86,7 +86,8 @@ class object_recognizer {
 
     /// Learns versions of one view of an object: the view itself, and others of the same scan of
     /// which a part is hidden. Words grow; fit() is to follow.
-    /// @throws std::invalid_argument  if the name is empty, or a feature needs the ground and a view
+    /// @throws std::invalid_argument  if the name is empty, or a feature needs the ground and a
+    /// view
     ///                                has none; nothing is learned then
     void learn(std::span<const view> versions, std::string_view name) {
         gnomon::detail::require(!name.empty(), "object_recognizer: a class needs a name");
@@ -183,7 +184,8 @@ class object_recognizer {
         for (std::size_t i = 0; i < n; ++i) {
             for (std::size_t j = i + 1; j <= n; ++j) {
                 auto both = value(i, {i, j});
-                auto interaction = difference(difference(both, alone[i]), difference(alone[j], before));
+                auto interaction =
+                    difference(difference(both, alone[i]), difference(alone[j], before));
                 terms.push_back({.kind = term_kind::pair,
                                  .first = i,
                                  .second = j < n ? j : term::none,
@@ -322,8 +324,8 @@ class object_recognizer {
             const random_trees trees(others, classes(), learned_.options.trees, run);
             for (std::size_t i = 0; i < left_out.size(); ++i) {
                 if (learned_.sources[i] % folds == fold)
-                    left_out[i] = logarithms(trees, learned_.samples.row(i),
-                                             learned_.options.trees.trees);
+                    left_out[i] =
+                        logarithms(trees, learned_.samples.row(i), learned_.options.trees.trees);
             }
         }
         learned_.temperature = fit_temperature(left_out, learned_.samples.classes);

@@ -148,14 +148,15 @@ class part_kernels {
     [[nodiscard]] std::vector<term> terms_of(const view& v, std::size_t left_out) const {
         const measured m = measure(v);
         std::vector<term> terms;
-        const auto add = [&](term t, auto&& log_likelihood) {
+        const auto add = [&](term_kind kind, std::size_t i, std::size_t j, auto&& log_likelihood) {
+            term t{kind, i, j, term::none, {}};
             for (std::size_t c = 0; c < classes(); ++c)
                 t.log_likelihood.push_back(log_likelihood(c));
             terms.push_back(std::move(t));
         };
         const auto n = static_cast<double>(m.parts.size());
         for (std::size_t i = 0; i < m.parts.size(); ++i) {
-            add({.kind = term_kind::part, .first = i},
+            add(term_kind::part, i, term::none,
                 [&](std::size_t c) { return log_density(parts_[c], m.parts[i], left_out); });
         }
         std::size_t pair = 0;
@@ -163,13 +164,13 @@ class part_kernels {
             for (std::size_t i = 0; i < j; ++i, ++pair) {
                 // Pairs are not independent: each part is in n - 1 of them.
                 const double weight = options_.pair_weight * 2.0 / n;
-                add({.kind = term_kind::pair, .first = i, .second = j}, [&](std::size_t c) {
+                add(term_kind::pair, i, j, [&](std::size_t c) {
                     return weight * log_density(pairs_[c], m.pairs[pair], left_out);
                 });
             }
         }
         if (options_.counts_parts && !m.parts.empty()) {
-            add({.kind = term_kind::part_count},
+            add(term_kind::part_count, term::none, term::none,
                 [&](std::size_t c) { return counts_[c].log_probability(n); });
         }
         return terms;
@@ -178,9 +179,9 @@ class part_kernels {
     part_kernel_options options_;
     Features features_;
     Relations relations_;
-    std::vector<std::vector<kernel<D>>> parts_;           ///< of each class
-    std::vector<std::vector<kernel<2 * D + R>>> pairs_;   ///< of each class
-    std::vector<part_count> counts_;                      ///< of each class
+    std::vector<std::vector<kernel<D>>> parts_;          ///< of each class
+    std::vector<std::vector<kernel<2 * D + R>>> pairs_;  ///< of each class
+    std::vector<part_count> counts_;                     ///< of each class
     double temperature_ = 1.0;
 };
 

@@ -74,8 +74,8 @@ struct height_difference {
     }
 };
 
-/// The distance [m] of the centroid of the larger part from the plane of the smaller one through its
-/// centroid: how far a back stands from the middle of its seat.
+/// The distance [m] of the centroid of the larger part from the plane of the smaller one through
+/// its centroid: how far a back stands from the middle of its seat.
 struct plane_offset {
     static constexpr std::string_view name = "distance from the plane";
     double bin = 0.05;
@@ -86,8 +86,8 @@ struct plane_offset {
         const part& larger = extent(a) < extent(b) ? b : a;
         const part& smaller = extent(a) < extent(b) ? a : b;
         return std::abs(gnomon::detail::dot(
-            smaller.shape.normal, gnomon::detail::difference(larger.shape.frame.centroid,
-                                                             smaller.shape.frame.centroid)));
+            smaller.shape.normal,
+            gnomon::detail::difference(larger.shape.frame.centroid, smaller.shape.frame.centroid)));
     }
 };
 
@@ -96,9 +96,8 @@ inline constexpr auto thesis_relations =
     boost::hana::make_tuple(normal_angle{}, centroid_distance{});
 
 /// The same, for boards that are seen from either side, and where one part is beside the other.
-inline constexpr auto default_relations =
-    boost::hana::make_tuple(normal_angle{.is_folded = true}, centroid_distance{},
-                            height_difference{}, plane_offset{});
+inline constexpr auto default_relations = boost::hana::make_tuple(
+    normal_angle{.is_folded = true}, centroid_distance{}, height_difference{}, plane_offset{});
 
 /// No relations.
 inline constexpr auto no_relations = boost::hana::make_tuple();

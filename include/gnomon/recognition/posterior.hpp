@@ -4,7 +4,8 @@
 /// pair of parts, or the number of parts, each with its log-likelihood under every class. The
 /// posterior is the softmax of their sum; the decision is the class of largest probability, if that
 /// is at least P_d; and the evidence is what each term contributes to the logarithm of the ratio of
-/// the best class to the second, so that its sum is the decision. Klasing 2010, Secs. 5.4 and 5.5.2.
+/// the best class to the second, so that its sum is the decision. Klasing 2010, Secs. 5.4
+/// and 5.5.2.
 ///
 ///     const auto found = gnomon::recognition::decide(likelihood, view, {.min_probability = 0.90});
 ///     if (!found.is_background()) use(names[found.best], found.probability[found.best]);
@@ -70,12 +71,12 @@ struct evidence {
 
 /// What a view shows.
 struct decision {
-    std::vector<double> probability;       ///< of each class; their sum is 1
-    std::size_t best = term::none;         ///< the class of largest probability
-    std::size_t second = term::none;       ///< that of the next; `term::none` of a single class
-    bool is_certain = false;               ///< whether the best one reaches P_d
-    bool is_of_background_class = false;   ///< whether the best one is that of other things
-    double log_ratio = 0.0;                ///< log of the ratio of best to second
+    std::vector<double> probability;      ///< of each class; their sum is 1
+    std::size_t best = term::none;        ///< the class of largest probability
+    std::size_t second = term::none;      ///< that of the next; `term::none` of a single class
+    bool is_certain = false;              ///< whether the best one reaches P_d
+    bool is_of_background_class = false;  ///< whether the best one is that of other things
+    double log_ratio = 0.0;               ///< log of the ratio of best to second
     std::vector<recognition::evidence> evidence;  ///< its sum is log_ratio, up to rounding
 
     /// Whether no object was recognized: nothing was certain, there were no parts, or the view

@@ -23,9 +23,9 @@ namespace gnomon::recognition {
 
 /// Options of extremely randomized trees.
 struct random_trees_options {
-    std::size_t trees = 200;     ///< more are better, and take longer
-    std::uint64_t seed = 1;      ///< the same one gives the same trees
-    std::size_t min_split = 2;   ///< nodes of fewer samples are leaves
+    std::size_t trees = 200;    ///< more are better, and take longer
+    std::uint64_t seed = 1;     ///< the same one gives the same trees
+    std::size_t min_split = 2;  ///< nodes of fewer samples are leaves
 };
 
 /// Samples in rows of equal length, with their classes.

@@ -57,8 +57,8 @@ template <class R, class Proj = std::identity>
     }
     if (!d::has_length(axis)) return {};
     axis = d::direction_of(axis);
-    const Eigen::Vector3d other = std::abs(axis[2]) < 0.9 ? Eigen::Vector3d(0.0, 0.0, 1.0)
-                                                          : Eigen::Vector3d(1.0, 0.0, 0.0);
+    const Eigen::Vector3d other =
+        std::abs(axis[2]) < 0.9 ? Eigen::Vector3d(0.0, 0.0, 1.0) : Eigen::Vector3d(1.0, 0.0, 0.0);
     const Eigen::Vector3d left = d::direction_of(d::cross(other, axis)), up = d::cross(axis, left);
     const Eigen::Vector3d edge = d::combined(std::cos(turn), left, std::sin(turn), up);
     for (auto& [place, i] : across)

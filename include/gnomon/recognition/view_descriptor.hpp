@@ -110,8 +110,8 @@ struct view_descriptor {
         }
     }
 
-    /// Least, largest and mean value of each relation, weighted by the points of both parts, and its
-    /// values of the heaviest pair, and of the heaviest one of parts that are not parallel.
+    /// Least, largest and mean value of each relation, weighted by the points of both parts, and
+    /// its values of the heaviest pair, and of the heaviest one of parts that are not parallel.
     static void pool_pairs(const view& v, const measured& m, std::span<const std::size_t> chosen,
                            std::vector<double>& d) {
         std::array<double, relations_per_pair> low, high, mean{}, heaviest, corner;
@@ -143,8 +143,8 @@ struct view_descriptor {
             }
         }
         for (std::size_t r = 0; r < relations_per_pair; ++r)
-            d.insert(d.end(), {low[r], high[r], total > 0.0 ? mean[r] / total : absent,
-                               heaviest[r], corner[r]});
+            d.insert(d.end(), {low[r], high[r], total > 0.0 ? mean[r] / total : absent, heaviest[r],
+                               corner[r]});
     }
 
     /// Shares of the points at each height, heights of quantiles, and horizontal extents of bands

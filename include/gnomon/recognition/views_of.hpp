@@ -86,17 +86,15 @@ class ground_frame {
 
 /// The groups of segments whose nearest points are at most `gap` apart, as the smallest segment of
 /// the group of each.
-[[nodiscard]] inline gnomon::detail::union_find linked_segments(const auto& labeled, const segments& parts,
-                                                std::span<const point_index> indices, double gap,
-                                                const auto& run) {
+[[nodiscard]] inline gnomon::detail::union_find linked_segments(
+    const auto& labeled, const segments& parts, std::span<const point_index> indices, double gap,
+    const auto& run) {
     gnomon::detail::union_find groups(parts.size());
     if (!(gap < infinite_gap)) {
-        for (std::size_t s = 1; s < parts.size(); ++s)
-            groups.unite(0, static_cast<point_index>(s));
+        for (std::size_t s = 1; s < parts.size(); ++s) groups.unite(0, static_cast<point_index>(s));
         return groups;
     }
-    const segments clusters =
-        euclidean_clusters(labeled, {.radius = gap, .min_points = 1}, run);
+    const segments clusters = euclidean_clusters(labeled, {.radius = gap, .min_points = 1}, run);
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const auto label = [&](point_index i) {
             return static_cast<point_index>(parts.labels()[indices[i]]);

@@ -142,8 +142,8 @@ class word_histograms {
             for (const part_count& count : counts_)
                 log_likelihood.push_back(
                     count.log_probability(static_cast<double>(found.parts.size())));
-            terms.push_back({.kind = term_kind::part_count,
-                             .log_likelihood = std::move(log_likelihood)});
+            terms.push_back(
+                {.kind = term_kind::part_count, .log_likelihood = std::move(log_likelihood)});
         }
         return terms;
     }
@@ -262,10 +262,9 @@ class word_histograms {
         related_ = std::move(related);
         for (std::size_t q = 0; q < m; ++q) {
             for (std::size_t c = 0; c < classes; ++c) {
-                related_[q][c] = together[q][c] > 0.0
-                                     ? std::clamp(related_[q][c] / together[q][c], least_related,
-                                                  most_related)
-                                     : unknown;
+                related_[q][c] = together[q][c] > 0.0 ? std::clamp(related_[q][c] / together[q][c],
+                                                                   least_related, most_related)
+                                                      : unknown;
             }
         }
     }
