@@ -32,8 +32,10 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
-#include <gnomon/recognition/calibration.hpp>
+#include <gnomon/recognition/detail/cross_validation.hpp>
+#include <gnomon/recognition/detail/interaction_terms.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
+#include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/part_feature.hpp>
 #include <gnomon/recognition/part_features.hpp>
 #include <gnomon/recognition/part_relation.hpp>
@@ -44,18 +46,6 @@
 
 namespace gnomon::recognition {
 
-/// The name of the class of other things than objects, if such views are learned.
-inline constexpr std::string_view background_name = "background";
-
-/// Options of an object_recognizer.
-struct object_recognizer_options {
-    random_trees_options trees{};
-    /// Distance of the feature vectors of a part from the mean of its word, in units of the scales
-    /// of the features; words only name the parts in the evidence.
-    double max_word_distance = 1.0;
-    double min_probability = 0.90;  ///< P_d of the decisions
-};
-
 /// Learns classes of objects from views, and recognizes them. Models `view_likelihood`.
 template <class Features = std::remove_cv_t<decltype(default_features)>,
           class Relations = std::remove_cv_t<decltype(default_relations)>>
@@ -65,16 +55,7 @@ class object_recognizer {
     static constexpr std::size_t features_per_part = feature_count<Features>;
     using descriptor_type = view_descriptor<Features, Relations>;
 
-    /// All that is known: what was learned, and what follows from it.
-    struct content {
-        options_type options{};
-        std::vector<std::string> names;  ///< of the classes
-        /// Of the parts of all views.
-        std::vector<cluster_statistics<features_per_part>> words;
-        labeled_samples samples;             ///< descriptions of all views
-        std::vector<std::uint32_t> sources;  ///< of each sample: the number of its call of learn()
-        double temperature = 1.0;            ///< found by fit()
-    };
+    using content = learned_views<features_per_part>;
 
     /// @param relations  `no_relations` for parts alone
     /// @param uses_profile  whether the height profile of a view counts, which needs the ground
@@ -86,9 +67,8 @@ class object_recognizer {
 
     /// Learns versions of one view of an object: the view itself, and others of the same scan of
     /// which a part is hidden. Words grow; fit() is to follow.
-    /// @throws std::invalid_argument  if the name is empty, or a feature needs the ground and a
-    /// view
-    ///                                has none; nothing is learned then
+    /// @throws std::invalid_argument  if the name is empty, or a view has no ground where one is
+    ///                                needed; nothing is learned then
     void learn(std::span<const view> versions, std::string_view name) {
         gnomon::detail::require(!name.empty(), "object_recognizer: a class needs a name");
         std::vector<std::vector<double>> described;
@@ -100,7 +80,7 @@ class object_recognizer {
         streaming_greedy_means<features_per_part> words(word_options(), learned_.words);
         for (const auto& m : measured)
             for (const auto& sample : m.parts) static_cast<void>(words.add(sample));
-        const std::uint32_t number = class_number(name);
+        const std::uint32_t number = learned_.class_number(name);
         const std::uint32_t source = learned_.sources.empty() ? 0 : learned_.sources.back() + 1;
         for (const auto& d : described) {
             learned_.samples.add(d, number);
@@ -109,7 +89,6 @@ class object_recognizer {
         learned_.words = words.clusters();
         trees_ = {};
     }
-    /// Learns one view.
     void learn(const view& v, std::string_view name) { learn({&v, 1}, name); }
 
     /// Grows the trees on all views so far, and calibrates their probabilities: the temperature is
@@ -121,7 +100,8 @@ class object_recognizer {
         gnomon::detail::require(learned_.names.size() > 1,
                                 "object_recognizer: two classes must be learned first");
         const auto& team = gnomon::detail::staying(run);
-        calibrate(team);
+        learned_.temperature = detail::cross_validated_temperature(
+            learned_.samples, learned_.sources, classes(), learned_.options.trees, team);
         trees_ = random_trees(learned_.samples, classes(), learned_.options.trees, team);
     }
 
@@ -144,7 +124,10 @@ class object_recognizer {
     /// @throws std::invalid_argument  if it is not consistent; nothing is changed then
     template <execution X = sequential>
     void restore(content learned, const X& run = {}) {
-        require_consistent(learned);
+        learned.require_consistent();
+        gnomon::detail::require(
+            learned.samples.columns == descriptor_.describe(view{}, {}, {}, false).size(),
+            "object_recognizer: the samples are of other features");
         random_trees grown(learned.samples, learned.names.size(), learned.options.trees, run);
         learned_ = std::move(learned);
         trees_ = std::move(grown);
@@ -158,41 +141,24 @@ class object_recognizer {
         require_fitted();
         const auto m = descriptor_.measure(v);
         const std::size_t n = std::min(v.parts.size(), most_players);
-        const auto value = [&](std::size_t prefix, std::initializer_list<std::size_t> players) {
+        // f of the first parts and some more; the last player is all that remains of the view.
+        const auto f = [&](std::size_t first, std::initializer_list<std::size_t> players) {
             std::vector<std::size_t> chosen;
             bool has_rest = false;
-            for (std::size_t i = 0; i < prefix; ++i) chosen.push_back(i);
+            for (std::size_t i = 0; i < first; ++i) chosen.push_back(i);
             for (const std::size_t i : players) {
                 if (i < n) chosen.push_back(i);
                 has_rest = has_rest || i == n;
             }
-            if (has_rest)
-                for (std::size_t i = n; i < v.parts.size(); ++i) chosen.push_back(i);
+            for (std::size_t i = n; has_rest && i < v.parts.size(); ++i) chosen.push_back(i);
             return log_likelihood_of(descriptor_.describe(v, m, chosen, has_rest));
         };
-        // The players are the parts, and in the end all that remains of the view.
-        std::vector<term> terms{{.log_likelihood = log_prior()}};
-        std::vector<std::vector<double>> alone(n + 1);  // f({0, ..., i - 1, j}) for the current i
-        std::vector<double> before = terms[0].log_likelihood;
-        for (std::size_t j = 0; j <= n; ++j) {
-            alone[j] = value(0, {j});
-            terms.push_back({.kind = j < n ? term_kind::part : term_kind::rest,
-                             .first = j < n ? j : term::none,
-                             .word = j < n ? nearest_word(m.parts[j]) : term::none,
-                             .log_likelihood = difference(alone[j], before)});
-        }
-        for (std::size_t i = 0; i < n; ++i) {
-            for (std::size_t j = i + 1; j <= n; ++j) {
-                auto both = value(i, {i, j});
-                auto interaction =
-                    difference(difference(both, alone[i]), difference(alone[j], before));
-                terms.push_back({.kind = term_kind::pair,
-                                 .first = i,
-                                 .second = j < n ? j : term::none,
-                                 .log_likelihood = std::move(interaction)});
-                alone[j] = std::move(both);
-            }
-            before = std::exchange(alone[i], {});
+        std::vector<term> terms = detail::interaction_terms(n + 1, log_prior(), f);
+        for (term& t : terms) {
+            if (t.kind == term_kind::part && t.first < n) t.word = nearest_word(m.parts[t.first]);
+            if (t.kind == term_kind::part && t.first == n) t.kind = term_kind::rest;
+            if (t.first == n) t.first = term::none;
+            if (t.second == n) t.second = term::none;
         }
         return terms;
     }
@@ -241,38 +207,14 @@ class object_recognizer {
 
     /// In single precision, which halves a model file.
     [[nodiscard]] static std::vector<double> rounded(std::vector<double> d) {
-        for (double& x : d) x = static_cast<double>(static_cast<float>(x));
+        constexpr double largest = 1e30;  // numerical: finite in single precision
+        for (double& x : d)
+            x = static_cast<double>(static_cast<float>(std::clamp(x, -largest, largest)));
         return d;
-    }
-
-    [[nodiscard]] static std::vector<double> difference(std::vector<double> a,
-                                                        const std::vector<double>& b) {
-        for (std::size_t c = 0; c < a.size(); ++c) a[c] -= b[c];
-        return a;
     }
 
     void require_fitted() const {
         gnomon::detail::require(trees_.classes() > 0, "object_recognizer: fit() it first");
-    }
-
-    static void require_consistent(const content& c) {
-        using gnomon::detail::require;
-        const std::size_t n = c.samples.rows();
-        require(c.names.size() > 1 && n > 0 && c.sources.size() == n &&
-                    c.samples.values.size() == n * c.samples.columns,
-                "object_recognizer: samples, classes and sources do not fit together");
-        for (const double x : c.samples.values)
-            require(std::isfinite(x), "object_recognizer: a sample is not finite");
-        require(c.temperature > 0.0 && std::isfinite(c.temperature),
-                "object_recognizer: the temperature must be finite and positive");
-    }
-
-    [[nodiscard]] std::uint32_t class_number(std::string_view name) {
-        auto& names = learned_.names;
-        const auto at = std::find(names.begin(), names.end(), name);
-        const auto number = static_cast<std::uint32_t>(at - names.begin());
-        if (at == names.end()) names.emplace_back(name);
-        return number;
     }
 
     /// That of equally frequent classes.
@@ -281,19 +223,8 @@ class object_recognizer {
         return std::vector<double>(classes(), -std::log(n));
     }
 
-    /// The logarithms of the probabilities of a description. A class that no tree found has half of
-    /// the share of one tree.
-    [[nodiscard]] static std::vector<double> logarithms(const random_trees& trees,
-                                                        std::span<const double> sample,
-                                                        std::size_t number_of_trees) {
-        std::vector<double> p(trees.classes(), 0.0);
-        trees.add_probability(sample, p);
-        const double least = 0.5 / static_cast<double>(number_of_trees);
-        for (double& x : p) x = std::log(x + least);
-        return p;
-    }
     [[nodiscard]] std::vector<double> log_likelihood_of(std::vector<double> sample) const {
-        return logarithms(trees_, rounded(std::move(sample)), learned_.options.trees.trees);
+        return trees_.log_probability(rounded(std::move(sample)));
     }
 
     [[nodiscard]] std::size_t nearest_word(
@@ -309,26 +240,6 @@ class object_recognizer {
             }
         }
         return nearest;
-    }
-
-    void calibrate(const auto& run) {
-        constexpr std::uint32_t folds = 4;
-        std::vector<std::vector<double>> left_out(learned_.samples.rows());
-        for (std::uint32_t fold = 0; fold < folds; ++fold) {
-            labeled_samples others;
-            for (std::size_t i = 0; i < left_out.size(); ++i) {
-                if (learned_.sources[i] % folds != fold)
-                    others.add(learned_.samples.row(i), learned_.samples.classes[i]);
-            }
-            if (others.rows() == 0) continue;
-            const random_trees trees(others, classes(), learned_.options.trees, run);
-            for (std::size_t i = 0; i < left_out.size(); ++i) {
-                if (learned_.sources[i] % folds == fold)
-                    left_out[i] =
-                        logarithms(trees, learned_.samples.row(i), learned_.options.trees.trees);
-            }
-        }
-        learned_.temperature = fit_temperature(left_out, learned_.samples.classes);
     }
 
     descriptor_type descriptor_;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The features of parts: the five of Klasing 2010, Sec. 5.2.2, others that tell more, and those
+/// The features of parts: the five of Klasing 2010, Sec. 5.2.2, others that separate objects better, and those
 /// that do not depend on the ground.
 #pragma once
 

@@ -23,7 +23,7 @@
 
 namespace gnomon::recognition {
 
-/// r(a, b) is a number that does not depend on the order of the parts. Its histogram has bins of
+/// r(a, b) is a value that does not depend on the order of the parts. Its histogram has bins of
 /// r.bin [its unit]; pairs of words are related if the fullest bin holds more than the share r.mass
 /// of their values, and the deviation of a related pair is at least r.min_deviation.
 template <class R>
@@ -95,7 +95,7 @@ struct plane_offset {
 inline constexpr auto thesis_relations =
     boost::hana::make_tuple(normal_angle{}, centroid_distance{});
 
-/// The same, for boards that are seen from either side, and where one part is beside the other.
+/// The same, for boards that are seen from either side, and where one part is, seen from the other.
 inline constexpr auto default_relations = boost::hana::make_tuple(
     normal_angle{.is_folded = true}, centroid_distance{}, height_difference{}, plane_offset{});
 

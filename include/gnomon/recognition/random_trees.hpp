@@ -90,6 +90,15 @@ class random_trees {
         }
     }
 
+    /// The logarithms of the probabilities of a sample. A class that no tree found has half of the
+    /// share of one tree. Complexity: O(trees * depth).
+    [[nodiscard]] std::vector<double> log_probability(std::span<const double> sample) const {
+        std::vector<double> p(classes_, 0.5 / static_cast<double>(trees_.size()));
+        add_probability(sample, p);
+        for (double& x : p) x = std::log(x);
+        return p;
+    }
+
   private:
     static constexpr std::uint32_t leaf_mark = 0xffffffff;
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Partly hidden views for training: points of a scan are removed as if a straight edge in front of
-/// the object hid them. What remains is perceived anew, so that parts are cut as behind a real
+/// the object hid them. What remains is perceived again, so that parts are cut as behind a real
 /// occluder.
 #pragma once
 

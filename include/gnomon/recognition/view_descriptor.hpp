@@ -87,7 +87,7 @@ struct view_descriptor {
 
   private:
     static constexpr std::size_t largest_parts = 4;
-    /// In place of a value of what is not there; scaled values are around 0 to 20.
+    /// The value of a feature where there is no part or pair; scaled values are around 0 to 20.
     static constexpr double absent = -10.0;
 
     /// Least, largest and mean value of each feature, and its values of the largest parts.

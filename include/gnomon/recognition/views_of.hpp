@@ -14,6 +14,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -27,8 +28,10 @@
 #include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/subset_view.hpp>
 #include <gnomon/features/segment_shape.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/recognition/detail/view_builder.hpp>
 #include <gnomon/recognition/view.hpp>
 #include <gnomon/segmentation/euclidean_clusters.hpp>
 #include <gnomon/segmentation/segments.hpp>
@@ -46,43 +49,6 @@ struct views_of_options {
 };
 
 namespace detail {
-
-/// Coordinates above the ground: height, and horizontal position about an origin.
-class ground_frame {
-  public:
-    ground_frame(const plane& ground, const Eigen::Vector3d& origin)
-        : ground_(ground), origin_(origin) {
-        const Eigen::Vector3d& n = ground.normal;
-        const Eigen::Vector3d other =
-            std::abs(n[0]) < 0.5 ? Eigen::Vector3d(1.0, 0.0, 0.0) : Eigen::Vector3d(0.0, 1.0, 0.0);
-        u_ = gnomon::detail::direction_of(gnomon::detail::cross(n, other));
-        v_ = gnomon::detail::cross(n, u_);
-    }
-
-    void add_to(height_profile& profile, const Eigen::Vector3d& x) const {
-        const Eigen::Vector3d d = gnomon::detail::difference(x, origin_);
-        profile.add(ground_.signed_distance(x), gnomon::detail::dot(u_, d),
-                    gnomon::detail::dot(v_, d));
-    }
-
-    /// Heights and profile of the points of a part.
-    void describe(part& p, const auto& points, std::span<const point_index> members) const {
-        p.lowest = std::numeric_limits<double>::infinity();
-        p.highest = -p.lowest;
-        for (const point_index i : members) {
-            const Eigen::Vector3d x = points[i];
-            if (!is_finite(x)) continue;
-            const double height = ground_.signed_distance(x);
-            p.lowest = std::min(p.lowest, height);
-            p.highest = std::max(p.highest, height);
-            add_to(p.profile, x);
-        }
-    }
-
-  private:
-    plane ground_;
-    Eigen::Vector3d origin_, u_, v_;
-};
 
 /// The groups of segments whose nearest points are at most `gap` apart, as the smallest segment of
 /// the group of each.
@@ -136,59 +102,26 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
     if (options.ground) gnomon::detail::require_hesse(*options.ground);
     const auto& team = gnomon::detail::staying(run);
     const auto shapes = segment_shapes(points, surface, parts, team, projection);
-
-    std::vector<point_index> labeled, others;
     const position_view<R, Proj> position(points, projection);
-    for (std::size_t i = 0; i < position.size(); ++i) {
-        if (!is_finite(position[i])) continue;
-        const std::int32_t label = parts.labels()[i];
-        const bool has_part = label >= 0 && shapes[static_cast<std::size_t>(label)].is_surface();
-        (has_part ? labeled : others).push_back(static_cast<point_index>(i));
-    }
-    if (labeled.empty()) return {};
+    const detail::labeled_points labeled(position, parts, shapes);
+    if (labeled.indices.empty()) return {};
+    const spatial_index index(subset_view<R, Proj>(points, labeled.indices, projection), team);
+    auto groups = detail::linked_segments(index, parts, labeled.indices, options.gap, team);
 
-    const spatial_index index(subset_view<R, Proj>(points, labeled, projection), team);
-    auto groups = detail::linked_segments(index, parts, labeled, options.gap, team);
-
-    std::vector<view> views;
-    std::vector<std::optional<detail::ground_frame>> frames;
-    std::vector<std::size_t> view_of_group(parts.size(), 0);
+    detail::view_builder builder(position, parts, options.ground);
     for (std::size_t s = 0; s < parts.size(); ++s) {
-        if (!shapes[s].is_surface()) continue;
-        const point_index group = groups.find(static_cast<point_index>(s));
-        std::size_t& number = view_of_group[group];
-        if (number == 0) {
-            views.push_back({.parts = {}, .ground = options.ground, .rest = {}});
-            frames.emplace_back();
-            if (options.ground) frames.back().emplace(*options.ground, shapes[s].frame.centroid);
-            number = views.size();
-        }
-        part p;
-        p.segment = static_cast<std::int32_t>(s);
-        p.shape = shapes[s];
-        if (const auto& frame = frames[number - 1]) frame->describe(p, position, parts[s]);
-        views[number - 1].parts.push_back(std::move(p));
+        if (shapes[s].is_surface())
+            builder.add(groups.find(static_cast<point_index>(s)), s, shapes[s]);
     }
-
-    if (options.ground) {
-        for (const point_index i : others) {
-            const auto nearest = options.gap < infinite_gap
-                                     ? index.nearest_within(position[i], 1, options.gap)
-                                     : index.nearest(position[i], 1);
-            if (nearest.empty()) continue;
-            const auto label = parts.labels()[labeled[nearest.front().index]];
-            const point_index group = groups.find(static_cast<point_index>(label));
-            const std::size_t number = view_of_group[group] - 1;
-            frames[number]->add_to(views[number].rest, position[i]);
-        }
+    for (const point_index i : options.ground ? labeled.others : std::vector<point_index>{}) {
+        const auto nearest = options.gap < infinite_gap
+                                 ? index.nearest_within(position[i], 1, options.gap)
+                                 : index.nearest(position[i], 1);
+        if (nearest.empty()) continue;
+        const auto label = parts.labels()[labeled.indices[nearest.front().index]];
+        builder.add_rest(groups.find(static_cast<point_index>(label)), i);
     }
-    for (view& v : views) {
-        std::stable_sort(v.parts.begin(), v.parts.end(), [](const part& a, const part& b) {
-            return a.shape.points > b.shape.points;
-        });
-    }
-    std::erase_if(views, [&](const view& v) { return v.parts.size() < options.min_parts; });
-    return views;
+    return std::move(builder).views(options.min_parts);
 }
 
 }  // namespace gnomon::recognition

@@ -2,7 +2,8 @@
 /// @file
 /// Recognition as the thesis has it: views are bags of part words and relation words, and a class
 /// is a histogram of part words, and the share of pairs of words that are related. Klasing 2010,
-/// Secs. 5.2 to 5.4. It is here for comparison: `object_recognizer` is better by far.
+/// Secs. 5.2 to 5.4. For comparison: `object_recognizer` recognizes more
+/// objects with fewer errors, see docs/results/chapter5.md.
 ///
 ///     using namespace gnomon::recognition;
 ///     const auto features = scaled_by_largest(thesis_features, views);
@@ -16,8 +17,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <map>
-#include <set>
 #include <span>
 #include <utility>
 #include <vector>
@@ -26,6 +25,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/recognition/detail/word_detector.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
 #include <gnomon/recognition/part_count.hpp>
 #include <gnomon/recognition/part_feature.hpp>
@@ -72,7 +72,7 @@ class word_histograms {
     static constexpr std::size_t D = feature_count<Features>;
     static constexpr std::size_t R = relation_count<Relations>;
 
-    /// Learns views.
+    /// Counts the words of training views.
     /// @param views      of all classes
     /// @param of_view    the class of each view, below `classes`
     /// @throws std::invalid_argument  if views and classes differ in number, a class is too large,
@@ -94,26 +94,33 @@ class word_histograms {
     word_histograms(std::span<const view> views, std::span<const std::uint32_t> of_view,
                     std::size_t classes, Features features, Relations relations,
                     const clustering<D>& clusters, const word_histogram_options& options)
-        : options_(options), features_(std::move(features)), relations_(std::move(relations)) {
+        : options_(options), detect_{std::move(features),
+                                     std::move(relations),
+                                     options.one_word_per_part,
+                                     {},
+                                     {},
+                                     {},
+                                     {}} {
         using gnomon::detail::require;
         require(views.size() == of_view.size(),
                 "word_histograms: views and classes differ in number");
         for (const std::uint32_t c : of_view)
             require(c < classes, "word_histograms: a class is too large");
-        words_ = make_vocabulary<D>(clusters.clusters,
-                                    {.min_members = 1,
-                                     .repair = options.repair,
-                                     .max_distance = options.max_distance,
-                                     .inlier_probability = options.inlier_probability});
-        delta_r_ = std::sqrt(detail::chi_squared_quantile(options.inlier_probability, 1));
+        detect_.words = make_vocabulary<D>(clusters.clusters,
+                                           {.min_members = 1,
+                                            .repair = options.repair,
+                                            .max_distance = options.max_distance,
+                                            .inlier_probability = options.inlier_probability});
+        detect_.max_deviations =
+            std::sqrt(detail::chi_squared_quantile(options.inlier_probability, 1));
         learn_relations(views, clusters);
         learn_histograms(views, of_view, classes);
     }
 
     [[nodiscard]] std::size_t classes() const { return counts_.size(); }
-    [[nodiscard]] const vocabulary<D>& words() const { return words_; }
+    [[nodiscard]] const vocabulary<D>& words() const { return detect_.words; }
     [[nodiscard]] const std::vector<recognition::relation_word>& relation_words() const {
-        return relation_words_;
+        return detect_.relation_words;
     }
     /// The share of pairs of parts of the two words that have the relation, of each class; 1 where
     /// the words were never seen together.
@@ -124,7 +131,7 @@ class word_histograms {
     /// The terms of a view; none if no word is detected.
     /// @throws std::invalid_argument  as the constructor, for a feature
     [[nodiscard]] std::vector<term> operator()(const view& v) const {
-        const detections found = detect(v);
+        const detail::detected_words found = detect_(v);
         std::vector<term> terms;
         for (const auto& [i, word] : found.parts)
             terms.push_back({term_kind::part, i, term::none, word, log_share_[word]});
@@ -149,15 +156,6 @@ class word_histograms {
     }
 
   private:
-    struct detected_pair {
-        std::size_t first, second, word;
-        bool is_related;
-    };
-    struct detections {
-        std::vector<std::pair<std::size_t, std::size_t>> parts;  ///< part and word
-        std::vector<detected_pair> pairs;
-    };
-
     [[nodiscard]] static std::vector<std::array<double, D>> samples_of(
         const Features& features, std::span<const view> views) {
         std::vector<std::array<double, D>> samples;
@@ -169,48 +167,6 @@ class word_histograms {
     /// The probability that a relation is missing; not 0 where all had it.
     [[nodiscard]] static double absent(double share) { return 1.0 - std::min(share, most_related); }
 
-    [[nodiscard]] std::vector<std::size_t> words_of(const part& p, const view& v) const {
-        const auto sample = feature_vector(features_, p, v);
-        std::vector<std::size_t> found;
-        if (options_.one_word_per_part) {
-            const auto nearest = words_.nearest(sample);
-            if (nearest && nearest->distance <= words_.max_distance) found = {nearest->word};
-        } else {
-            for (const detection& d : words_.detections(sample)) found.push_back(d.word);
-        }
-        return found;
-    }
-
-    /// All words of all parts, and all relation words whose two words are detected. Two parts that
-    /// are both examples of both words of a pair are counted once.
-    [[nodiscard]] detections detect(const view& v) const {
-        detections found;
-        std::vector<std::vector<std::size_t>> words;
-        for (std::size_t i = 0; i < v.parts.size(); ++i) {
-            words.push_back(words_of(v.parts[i], v));
-            for (const std::size_t w : words[i]) found.parts.emplace_back(i, w);
-        }
-        for (std::size_t j = 0; j < v.parts.size(); ++j) {
-            for (std::size_t i = 0; i < j; ++i) {
-                if (words[i].empty() || words[j].empty()) continue;
-                const auto values = relation_vector(relations_, v.parts[i], v.parts[j]);
-                std::set<std::pair<std::size_t, std::size_t>> seen;
-                for (const std::size_t a : words[i])
-                    for (const std::size_t b : words[j]) seen.insert(std::minmax(a, b));
-                for (const auto& pair : seen) {
-                    const auto at = words_of_pair_.find(pair);
-                    if (at == words_of_pair_.end()) continue;
-                    for (const std::size_t q : at->second) {
-                        const auto& word = relation_words_[q];
-                        found.pairs.push_back(
-                            {i, j, q, word.detects(values[word.relation], delta_r_)});
-                    }
-                }
-            }
-        }
-        return found;
-    }
-
     /// Relation words of the clusters that the parts of the training views are in.
     void learn_relations(std::span<const view> views, const clustering<D>& clusters) {
         relation_statistics<R> statistics;
@@ -221,25 +177,27 @@ class word_histograms {
                     const auto a = clusters.labels[first + i], b = clusters.labels[first + j];
                     if (a < 0 || b < 0) continue;
                     statistics.add(static_cast<std::size_t>(a), static_cast<std::size_t>(b),
-                                   relation_vector(relations_, v.parts[i], v.parts[j]));
+                                   relation_vector(detect_.relations, v.parts[i], v.parts[j]));
                 }
             }
             first += v.parts.size();
         }
-        relation_words_ = statistics.words(relations_, options_.min_members);
-        for (std::size_t q = 0; q < relation_words_.size(); ++q)
-            words_of_pair_[{relation_words_[q].first, relation_words_[q].second}].push_back(q);
+        detect_.relation_words = statistics.words(detect_.relations, options_.min_members);
+        for (std::size_t q = 0; q < detect_.relation_words.size(); ++q)
+            detect_
+                .words_of_pair[{detect_.relation_words[q].first, detect_.relation_words[q].second}]
+                .push_back(q);
     }
 
     void learn_histograms(std::span<const view> views, std::span<const std::uint32_t> of_view,
                           std::size_t classes) {
-        const std::size_t n = words_.words.size(), m = relation_words_.size();
+        const std::size_t n = detect_.words.words.size(), m = detect_.relation_words.size();
         std::vector<std::vector<double>> histogram(classes, std::vector<double>(n, 0.0));
         std::vector<std::vector<double>> together(m, std::vector<double>(classes, 0.0));
         auto related = together;
         std::vector<std::vector<double>> numbers(classes);
         for (std::size_t i = 0; i < views.size(); ++i) {
-            const detections found = detect(views[i]);
+            const detail::detected_words found = detect_(views[i]);
             const std::uint32_t c = of_view[i];
             for (const auto& [part, word] : found.parts) histogram[c][word] += 1.0;
             for (const auto& pair : found.pairs) {
@@ -257,7 +215,7 @@ class word_histograms {
                 log_share_[w][c] = std::log((histogram[c][w] + extra) / total);
             counts_.push_back(part_count::of(numbers[c]));
         }
-        // Where the words were never seen together, a relation tells nothing.
+        // Where the words were never seen together, a relation is no evidence.
         const double unknown = options_.counts_absence ? 0.5 : 1.0;
         related_ = std::move(related);
         for (std::size_t q = 0; q < m; ++q) {
@@ -273,12 +231,7 @@ class word_histograms {
     static constexpr double least_related = 0.05, most_related = 0.975;
 
     word_histogram_options options_;
-    Features features_;
-    Relations relations_;
-    vocabulary<D> words_;
-    double delta_r_ = 0.0;
-    std::vector<recognition::relation_word> relation_words_;
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> words_of_pair_;
+    detail::word_detector<Features, Relations> detect_;
     std::vector<std::vector<double>> log_share_;  ///< of each word: log of Eq. (5.7), by class
     std::vector<std::vector<double>> related_;    ///< of each relation word, by class
     std::vector<part_count> counts_;              ///< of each class

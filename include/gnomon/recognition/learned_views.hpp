@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// What an object_recognizer has learned, as plain values for a file.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/recognition/cluster.hpp>
+#include <gnomon/recognition/random_trees.hpp>
+
+namespace gnomon::recognition {
+
+/// The name of the class of other things than objects, if views of such are learned.
+inline constexpr std::string_view background_name = "background";
+
+/// Options of an object_recognizer.
+struct object_recognizer_options {
+    random_trees_options trees{};
+    /// Distance of the feature vectors of a part from the mean of its word, in units of the scales
+    /// of the features; words only name the parts in the evidence.
+    double max_word_distance = 1.0;
+    double min_probability = 0.90;  ///< P_d of the decisions
+};
+
+/// Descriptions of views with their classes, the words of their parts, and the calibration.
+template <std::size_t D>
+struct learned_views {
+    object_recognizer_options options{};
+    std::vector<std::string> names;            ///< of the classes
+    std::vector<cluster_statistics<D>> words;  ///< of the parts of all views
+    labeled_samples samples;                   ///< descriptions of all views
+    std::vector<std::uint32_t> sources;        ///< of each sample: the scan that it is of
+    double temperature = 1.0;                  ///< of calibrated probabilities
+
+    /// @throws std::invalid_argument  if numbers do not fit together, or are not finite
+    void require_consistent() const {
+        using gnomon::detail::require;
+        const std::size_t n = samples.rows();
+        require(names.size() > 1 && n > 0 && sources.size() == n &&
+                    samples.values.size() == n * samples.columns,
+                "object_recognizer: samples, classes and sources do not fit together");
+        require(options.min_probability >= 0.0 && options.min_probability <= 1.0,
+                "object_recognizer: min_probability must be in [0, 1]");
+        for (const std::uint32_t c : samples.classes)
+            require(c < names.size(), "object_recognizer: a sample has no class");
+        for (const double x : samples.values)
+            require(std::isfinite(x), "object_recognizer: a sample is not finite");
+        require(temperature > 0.0 && std::isfinite(temperature),
+                "object_recognizer: the temperature must be finite and positive");
+        for (const auto& w : words)
+            require(w.count > 0 && detail::is_finite_cluster(w),
+                    "object_recognizer: a word is not finite");
+    }
+
+    /// The number of a class, which is new if none has this name.
+    [[nodiscard]] std::uint32_t class_number(std::string_view name) {
+        const auto at = std::find(names.begin(), names.end(), name);
+        const auto number = static_cast<std::uint32_t>(at - names.begin());
+        if (at == names.end()) names.emplace_back(name);
+        return number;
+    }
+};
+
+}  // namespace gnomon::recognition
