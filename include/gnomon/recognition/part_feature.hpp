@@ -27,8 +27,8 @@
 
 namespace gnomon::recognition {
 
-/// f(part, view) is the value of the feature; f.scale is the difference [its unit] that counts as 1, and f.weight
-/// its share in the distance of parts, Eq. (5.2).
+/// f(part, view) is the value of the feature; f.scale is the difference [its unit] that counts as
+/// 1, and f.weight its share in the distance of parts, Eq. (5.2).
 template <class F>
 concept part_feature = requires(const F& f, const part& p, const view& v) {
     { f(p, v) } -> std::convertible_to<double>;

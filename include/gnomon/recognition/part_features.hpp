@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The features of parts: the five of Klasing 2010, Sec. 5.2.2, others that separate objects better, and those
-/// that do not depend on the ground.
+/// The features of parts: the five of Klasing 2010, Sec. 5.2.2, others that separate objects
+/// better, and those that do not depend on the ground.
 #pragma once
 
 #include <algorithm>

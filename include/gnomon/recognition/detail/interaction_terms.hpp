@@ -21,8 +21,9 @@ namespace gnomon::recognition::detail {
     return a;
 }
 
-/// The terms of n players: the prior, which is f of the empty set; of each player i, what f({i}) adds to
-/// that; of each pair i < j, what both together add to each alone, after the players before i.
+/// The terms of n players: the prior, which is f of the empty set; of each player i, what f({i})
+/// adds to that; of each pair i < j, what both together add to each alone, after the players before
+/// i.
 /// @param prior  f({})
 /// @param f      f(m, {i, ...}) is the value of the players 0 to m - 1, i, ...
 /// Calls f n + n (n - 1) / 2 times.
