@@ -45,37 +45,58 @@ class part_kernels {
     static constexpr std::size_t D = feature_count<Features>;
     static constexpr std::size_t R = relation_count<Relations>;
 
-    /// Learns views; the temperature is that of the training views, each without itself.
+    /// Without views: learn() and calibrate() are to follow.
+    /// @throws std::invalid_argument  if bandwidth or least share are not positive
+    part_kernels(std::size_t classes, Features features, Relations relations,
+                 const part_kernel_options& options = {})
+        : options_(options),
+          features_(std::move(features)),
+          relations_(std::move(relations)),
+          parts_(classes),
+          pairs_(classes),
+          numbers_(classes),
+          counts_(classes) {
+        gnomon::detail::require(options.bandwidth > 0.0 && options.least_share > 0.0,
+                                "part_kernels: bandwidth and least share must be positive");
+    }
+
+    /// Learns all views, and calibrates.
     /// @param of_view  the class of each view, below `classes`
-    /// @throws std::invalid_argument  if views and classes differ in number, a class is too large,
-    ///                                or a feature is not finite or needs a ground that is unknown
+    /// @throws std::invalid_argument  if views and classes differ in number, or as learn()
     /// Complexity: O(p^2) for p pairs of parts of all views.
     part_kernels(std::span<const view> views, std::span<const std::uint32_t> of_view,
                  std::size_t classes, Features features, Relations relations,
                  const part_kernel_options& options = {})
-        : options_(options), features_(std::move(features)), relations_(std::move(relations)) {
-        using gnomon::detail::require;
-        require(views.size() == of_view.size(), "part_kernels: views and classes differ in number");
-        require(options.bandwidth > 0.0 && options.least_share > 0.0,
-                "part_kernels: bandwidth and least share must be positive");
-        parts_.resize(classes);
-        pairs_.resize(classes);
-        std::vector<std::vector<double>> numbers(classes);
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            const std::uint32_t c = of_view[i];
-            require(c < classes, "part_kernels: a class is too large");
-            const auto m = measure(views[i]);
-            for (const auto& x : m.parts) parts_[c].push_back({x, i});
-            for (const auto& x : m.pairs) pairs_[c].push_back({x, i});
-            numbers[c].push_back(static_cast<double>(m.parts.size()));
-        }
-        for (const auto& n : numbers) counts_.push_back(part_count::of(n));
+        : part_kernels(classes, std::move(features), std::move(relations), options) {
+        gnomon::detail::require(views.size() == of_view.size(),
+                                "part_kernels: views and classes differ in number");
+        for (std::size_t i = 0; i < views.size(); ++i) learn(views[i], of_view[i]);
+        calibrate();
+    }
+
+    /// Learns one view more.
+    /// @throws std::invalid_argument  if the class is too large, or a feature is not finite or
+    /// needs
+    ///                                a ground that is unknown; nothing is learned then
+    void learn(const view& v, std::uint32_t its_class) {
+        gnomon::detail::require(its_class < classes(), "part_kernels: a class is too large");
+        learned_.push_back(measure(v));
+        of_view_.push_back(its_class);
+        const std::size_t i = learned_.size() - 1;
+        for (const auto& x : learned_[i].parts) parts_[its_class].push_back({x, i});
+        for (const auto& x : learned_[i].pairs) pairs_[its_class].push_back({x, i});
+        numbers_[its_class].push_back(static_cast<double>(learned_[i].parts.size()));
+        counts_[its_class] = part_count::of(numbers_[its_class]);
+    }
+
+    /// Finds the temperature of the views so far, each without its own kernels.
+    void calibrate() {
         std::vector<std::vector<double>> left_out;
-        for (std::size_t i = 0; i < views.size(); ++i) {
-            const auto terms = terms_of(views[i], i);
-            left_out.push_back(terms.empty() ? std::vector<double>{} : sum_of(terms, classes));
+        for (std::size_t i = 0; i < learned_.size(); ++i) {
+            const auto terms = terms_of(learned_[i], i);
+            left_out.push_back(terms.empty() ? std::vector<double>{} : sum_of(terms, classes()));
         }
-        temperature_ = fit_temperature(left_out, of_view);
+        temperature_ = fit_temperature(left_out, of_view_);
     }
 
     [[nodiscard]] std::size_t classes() const { return parts_.size(); }
@@ -83,10 +104,12 @@ class part_kernels {
     [[nodiscard]] double temperature() const { return temperature_; }
 
     /// The terms of a view; none without parts. O(kernels * parts^2).
-    [[nodiscard]] std::vector<term> operator()(const view& v) const { return terms_of(v, nobody); }
+    [[nodiscard]] std::vector<term> operator()(const view& v) const {
+        return terms_of(measure(v), none);
+    }
 
   private:
-    static constexpr std::size_t nobody = term::none;
+    static constexpr std::size_t none = term::none;
 
     template <std::size_t N>
     struct kernel {
@@ -145,8 +168,7 @@ class part_kernels {
         return std::log(options_.least_share + sum / std::max(1.0, n));
     }
 
-    [[nodiscard]] std::vector<term> terms_of(const view& v, std::size_t left_out) const {
-        const measured m = measure(v);
+    [[nodiscard]] std::vector<term> terms_of(const measured& m, std::size_t left_out) const {
         std::vector<term> terms;
         const auto add = [&](term_kind kind, std::size_t i, std::size_t j, auto&& log_likelihood) {
             term t{kind, i, j, term::none, {}};
@@ -156,7 +178,7 @@ class part_kernels {
         };
         const auto n = static_cast<double>(m.parts.size());
         for (std::size_t i = 0; i < m.parts.size(); ++i) {
-            add(term_kind::part, i, term::none,
+            add(term_kind::part, i, none,
                 [&](std::size_t c) { return log_density(parts_[c], m.parts[i], left_out); });
         }
         std::size_t pair = 0;
@@ -170,7 +192,7 @@ class part_kernels {
             }
         }
         if (options_.counts_parts && !m.parts.empty()) {
-            add(term_kind::part_count, term::none, term::none,
+            add(term_kind::part_count, none, none,
                 [&](std::size_t c) { return counts_[c].log_probability(n); });
         }
         return terms;
@@ -181,6 +203,9 @@ class part_kernels {
     Relations relations_;
     std::vector<std::vector<kernel<D>>> parts_;          ///< of each class
     std::vector<std::vector<kernel<2 * D + R>>> pairs_;  ///< of each class
+    std::vector<measured> learned_;                      ///< views
+    std::vector<std::uint32_t> of_view_;                 ///< class of each
+    std::vector<std::vector<double>> numbers_;           ///< of parts, of the views of each class
     std::vector<part_count> counts_;                     ///< of each class
     double temperature_ = 1.0;
 };
