@@ -23,8 +23,8 @@ rec::view view_in(const gnomon::scan& scan, const gnomon::plane& floor) {
     const gnomon::spatial_index index(scan);
     const auto surface = gnomon::estimate_normals(index, gnomon::knn{.k = 20}, gnomon::plane_pca{});
     const auto parts = gnomon::segment_surfaces(index, surface, {.min_points = 15});
-    const auto views = rec::views_of(
-        scan, surface, parts, {.gap = rec::infinite_gap, .min_parts = 1, .ground = floor});
+    const auto views = rec::views_of(scan, surface, parts,
+                                     {.gap = rec::infinite_gap, .min_parts = 1, .ground = floor});
     return views.empty() ? rec::view{.parts = {}, .ground = floor, .rest = {}} : views.front();
 }
 // [view_in]
@@ -70,10 +70,14 @@ int main() {
         const char* name = model.names()[found.best].c_str();
         std::printf("%s%s, %.0f %%, log ratio %.1f\n", found.is_background() ? "perhaps " : "",
                     name, 100.0 * found.probability[found.best], found.log_ratio);
-        for (const rec::evidence& reason : found.evidence)
-            if (reason.kind == rec::term_kind::part)
-                std::printf("  part %zu, word %zu: %+.2f\n", reason.first, reason.word,
-                            reason.log_ratio);
+        std::vector<double> worth(view.parts.size(), 0.0);
+        for (const rec::evidence& reason : found.evidence) {
+            const bool is_pair = reason.kind == rec::term_kind::pair;
+            for (const std::size_t part : {reason.first, reason.second})
+                if (part < worth.size()) worth[part] += (is_pair ? 0.5 : 1.0) * reason.log_ratio;
+        }
+        for (std::size_t i = 0; i < worth.size(); ++i)
+            std::printf("  part %zu at %.2f m: %+.1f\n", i, view.parts[i].highest, worth[i]);
         // [decide]
     }
 

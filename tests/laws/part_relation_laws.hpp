@@ -33,8 +33,7 @@ void relation_is_symmetric(const R& r, const gnomon::recognition::view& v) {
 /// Neither the heading of an object nor its place on the ground matters, up to rounding.
 template <gnomon::recognition::part_relation R>
 void relation_does_not_depend_on_heading(const R& r, const gnomon::recognition::view& v,
-                                         const gnomon::recognition::view& moved,
-                                         double tolerance) {
+                                         const gnomon::recognition::view& moved, double tolerance) {
     ASSERT_EQ(v.parts.size(), moved.parts.size());
     for (std::size_t j = 0; j < v.parts.size(); ++j) {
         for (std::size_t i = 0; i < j; ++i) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Laws of likelihoods of views. `view_likelihood_laws(likelihood, view)` runs them all on one view.
+/// Laws of likelihoods of views. `view_likelihood_laws(likelihood, view)` runs them all on one
+/// view.
 #pragma once
 
 #include <cmath>

@@ -38,8 +38,7 @@ TEST(height_profile, has_the_moments_of_each_level) {
     const height_profile profile = profile_of(points);
     for (std::size_t l = 0; l < height_profile::count; ++l) {
         const double low = static_cast<double>(l) * height_profile::thickness;
-        const double high =
-            l + 1 == height_profile::count ? 1e9 : low + height_profile::thickness;
+        const double high = l + 1 == height_profile::count ? 1e9 : low + height_profile::thickness;
         height_profile::level sum;
         for (const auto& x : points)
             if (l > 0 && x.z() >= low && x.z() < high)

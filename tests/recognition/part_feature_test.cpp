@@ -9,10 +9,9 @@
 #include <boost/hana/tuple.hpp>
 #include <gtest/gtest.h>
 
+#include "recognition/some_views.hpp"
 #include <gnomon/recognition/part_feature.hpp>
 #include <gnomon/recognition/part_features.hpp>
-
-#include "recognition/some_views.hpp"
 
 namespace rec = gnomon::recognition;
 namespace hana = boost::hana;
@@ -75,8 +74,8 @@ TEST(feature_vector, names_the_feature_that_needs_the_ground) {
     auto v = some_views::training().views.front();
     v.ground.reset();
     try {
-        (void)rec::feature_vector(hana::make_tuple(point_number{}, rec::mean_height{}),
-                                  v.parts[0], v);
+        (void)rec::feature_vector(hana::make_tuple(point_number{}, rec::mean_height{}), v.parts[0],
+                                  v);
         FAIL();
     } catch (const std::invalid_argument& e) {
         EXPECT_NE(std::string(e.what()).find("mean height"), std::string::npos) << e.what();
@@ -94,9 +93,9 @@ TEST(feature_vector, names_the_feature_that_is_not_finite) {
     } catch (const std::invalid_argument& e) {
         EXPECT_NE(std::string(e.what()).find("feature of NaN"), std::string::npos) << e.what();
     }
-    EXPECT_THROW((void)rec::feature_vector(hana::make_tuple(point_number{.scale = 0.0}),
-                                           v.parts[0], v),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)rec::feature_vector(hana::make_tuple(point_number{.scale = 0.0}), v.parts[0], v),
+        std::invalid_argument);
 }
 
 }  // namespace

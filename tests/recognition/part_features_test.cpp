@@ -11,11 +11,10 @@
 #include <boost/hana/tuple.hpp>
 #include <gtest/gtest.h>
 
-#include <gnomon/core/random.hpp>
-#include <gnomon/recognition/part_features.hpp>
-
 #include "laws/part_feature_laws.hpp"
 #include "recognition/some_views.hpp"
+#include <gnomon/core/random.hpp>
+#include <gnomon/recognition/part_features.hpp>
 
 namespace rec = gnomon::recognition;
 
@@ -96,8 +95,8 @@ TEST(part_features, invariant_ones_do_not_depend_on_any_pose_and_need_no_ground)
 }
 
 TEST(part_features, obey_the_laws) {
-    const auto with_own = boost::hana::append(boost::hana::concat(all_features, rec::invariant_features),
-                                              some_views::share_of_points{});
+    const auto with_own = boost::hana::append(
+        boost::hana::concat(all_features, rec::invariant_features), some_views::share_of_points{});
     for (std::uint64_t seed = 1; seed <= 6; ++seed) {
         auto c = featured_cloud(seed);
         const auto v = some_views::view_of(c);

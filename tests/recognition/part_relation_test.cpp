@@ -1,22 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 #include <array>
-#include <vector>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <numbers>
 #include <string_view>
+#include <vector>
 
 #include <boost/hana/append.hpp>
 #include <boost/hana/concat.hpp>
 #include <boost/hana/for_each.hpp>
 #include <gtest/gtest.h>
 
-#include <gnomon/core/random.hpp>
-#include <gnomon/recognition/part_relation.hpp>
-
 #include "laws/part_relation_laws.hpp"
 #include "recognition/some_views.hpp"
+#include <gnomon/core/random.hpp>
+#include <gnomon/recognition/part_relation.hpp>
 
 namespace rec = gnomon::recognition;
 

@@ -52,9 +52,8 @@ struct likelihood_of_numbers {
     std::vector<rec::term> operator()(const rec::view& v) const {
         std::vector<rec::term> terms;
         for (std::size_t i = 0; i < v.parts.size(); ++i)
-            terms.push_back({.kind = rec::term_kind::part,
-                             .first = i,
-                             .log_likelihood = {0.0, -1.0, -2.0}});
+            terms.push_back(
+                {.kind = rec::term_kind::part, .first = i, .log_likelihood = {0.0, -1.0, -2.0}});
         return terms;
     }
 };
@@ -221,9 +220,9 @@ TEST(posterior, excludes_classes) {
 TEST(posterior, refuses_terms_that_are_not_numbers) {
     const double nan = std::nan("");
     EXPECT_THROW((void)rec::decide(posterior_terms({{0.0, nan}}), 2, true), std::invalid_argument);
-    EXPECT_THROW((void)rec::decide(
-                     posterior_terms({{minus_infinity, 0.0}, {0.0, minus_infinity}}), 2, true),
-                 std::invalid_argument);
+    EXPECT_THROW(
+        (void)rec::decide(posterior_terms({{minus_infinity, 0.0}, {0.0, minus_infinity}}), 2, true),
+        std::invalid_argument);
 }
 
 TEST(posterior, refuses_options_out_of_range) {

@@ -17,7 +17,6 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-
 #include <boost/hana/tuple.hpp>
 
 #include <gnomon/core/plane.hpp>
@@ -163,6 +162,9 @@ inline rec::view strange_view() {
     c.add_board({4.0, 0.0, 20.0}, {9.0, 0.0, 0.0}, {0.0, 7.0, 3.0}, 50, random);
     return view_of(c);
 }
+
+/// A view without parts, above the floor.
+inline rec::view empty_view() { return {.parts = {}, .ground = floor_plane, .rest = {}}; }
 
 /// The first n parts of a view.
 inline rec::view with_parts(rec::view v, std::size_t n) {

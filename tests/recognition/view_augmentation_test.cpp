@@ -106,7 +106,8 @@ void expect_straight_edges(double wide) {
     const auto points = points_to_hide(60, wide, 4);
     for (std::uint64_t seed = 1; seed <= 40; ++seed) {
         gnomon::random_stream random(seed);
-        const auto visible = rec::hide_part(points, hiding_eye, random, {.least = 0.3, .most = 0.6});
+        const auto visible =
+            rec::hide_part(points, hiding_eye, random, {.least = 0.3, .most = 0.6});
         std::vector<Eigen::Vector2d> seen, hidden;
         for (std::size_t i = 0; i < points.size(); ++i) {
             const Eigen::Vector3d d = points[i] - hiding_eye;

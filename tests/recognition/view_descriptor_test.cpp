@@ -11,11 +11,10 @@
 #include <boost/hana/tuple.hpp>
 #include <gtest/gtest.h>
 
+#include "recognition/some_views.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/recognition/part_features.hpp>
 #include <gnomon/recognition/view_descriptor.hpp>
-
-#include "recognition/some_views.hpp"
 
 namespace rec = gnomon::recognition;
 
@@ -41,7 +40,8 @@ TEST(view_descriptor, has_a_fixed_length_and_finite_values) {
     }
 }
 
-/// The heading of an object and its place on the floor change nothing: the view point turns with it.
+/// The heading of an object and its place on the floor change nothing: the view point turns with
+/// it.
 TEST(view_descriptor, does_not_depend_on_yaw_and_place) {
     const Eigen::Vector3d eye(5.0, 0.5, 1.2);
     for (std::uint32_t kind = 0; kind < 3; ++kind) {

@@ -4,9 +4,8 @@
 
 #include <gtest/gtest.h>
 
-#include <gnomon/recognition/view.hpp>
-
 #include "recognition/some_views.hpp"
+#include <gnomon/recognition/view.hpp>
 
 namespace rec = gnomon::recognition;
 

@@ -10,14 +10,13 @@
 
 #include <gtest/gtest.h>
 
+#include "recognition/some_views.hpp"
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/recognition/views_of.hpp>
 #include <gnomon/segmentation/segments.hpp>
-
-#include "recognition/some_views.hpp"
 
 namespace rec = gnomon::recognition;
 
@@ -29,9 +28,9 @@ some_views::cloud scattered_boards(std::size_t boards, double room, std::uint64_
     gnomon::random_stream random(seed);
     some_views::cloud c;
     for (std::size_t i = 0; i < boards; ++i)
-        c.add_board({random.uniform(0.0, room), random.uniform(0.0, room), random.uniform(0.2, 1.0)},
-                    {0.1, 0.0, 0.0}, {0.0, 0.1, 0.05}, 20 + static_cast<int>(random.bits() % 20),
-                    random);
+        c.add_board(
+            {random.uniform(0.0, room), random.uniform(0.0, room), random.uniform(0.2, 1.0)},
+            {0.1, 0.0, 0.0}, {0.0, 0.1, 0.05}, 20 + static_cast<int>(random.bits() % 20), random);
     for (std::size_t i = 0; i < 3 * boards; ++i)
         c.add({random.uniform(0.0, room), random.uniform(0.0, room), random.uniform(0.0, 1.0)},
               {0.0, 0.0, 0.0}, gnomon::unlabeled);
@@ -105,7 +104,8 @@ TEST(views_of, are_the_same_at_utm_coordinates) {
     }
 }
 
-/// A segment whose own points are far apart is one part, and joins the segments near either of its ends.
+/// A segment whose own points are far apart is one part, and joins the segments near either of its
+/// ends.
 TEST(views_of, keep_segments_with_gaps_whole) {
     some_views::cloud c;
     gnomon::random_stream random(3);
@@ -115,8 +115,7 @@ TEST(views_of, keep_segments_with_gaps_whole) {
     for (auto& label : c.labels) label = label == 2 ? 1 : label == 3 ? 2 : label;
     c.points[20] = {0.06, 0.0, 0.5};  // of the second segment, near the first
     c.points[40] = {6.0, 0.0, 0.5};   // near the last
-    EXPECT_EQ(segments_of_views(views_in(c, {})),
-              (std::set<std::set<std::int32_t>>{{0, 1, 2}}));
+    EXPECT_EQ(segments_of_views(views_in(c, {})), (std::set<std::set<std::int32_t>>{{0, 1, 2}}));
 }
 
 TEST(views_of, do_not_depend_on_threads_and_take_an_index) {
@@ -240,7 +239,7 @@ TEST(views_of, take_lines_as_points_without_a_part) {
     c.add_board({0.0, 0.0, 0.5}, {0.2, 0.0, 0.0}, {0.0, 0.2, 0.0}, 60, random);
     for (int i = 0; i < 10; ++i) c.add({0.25, 0.0, 0.5 + 0.01 * i}, {1.0, 0.0, 0.0}, 1);
     for (int i = 0; i < 3; ++i) c.add({some_views::nan, 0.0, 0.5}, {1.0, 0.0, 0.0}, 2);
-    const auto views = views_in(c, {.min_parts = 1, .ground = some_views::floor_plane});
+    const auto views = views_in(c, {.gap = 0.5, .min_parts = 1, .ground = some_views::floor_plane});
     ASSERT_EQ(views.size(), 1u);
     EXPECT_EQ(views[0].parts.size(), 1u);
     EXPECT_EQ(views[0].rest.band(0, rec::height_profile::count).points, 10.0);
