@@ -11,7 +11,6 @@
 #include <gnomon/gnomon.hpp>
 #include <gnomon/recognition.hpp>
 #include <gnomon/simulation.hpp>
-#include <gnomon/simulation/object_views.hpp>
 
 namespace sim = gnomon::simulation;
 

@@ -17,7 +17,8 @@ add_custom_target(make_single_header DEPENDS ${single_header})
 # The tests name the headers that they are about.
 foreach(header IN LISTS headers)
     cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
-    if(header STREQUAL "gnomon/normals/registry.hpp")  # outside: it needs Boost
+    if(header STREQUAL "gnomon/normals/registry.hpp" OR header MATCHES "^gnomon/recognition")
+        # outside: they need Boost
         configure_file(${PROJECT_SOURCE_DIR}/include/${header} ${single_dir}/${header} COPYONLY)
     elseif(NOT header STREQUAL "gnomon/gnomon.hpp")
         file(CONFIGURE OUTPUT ${single_dir}/${header}

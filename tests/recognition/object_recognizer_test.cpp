@@ -144,6 +144,8 @@ TEST(object_recognizer, has_evidence_that_sums_to_the_decision) {
     for (std::size_t n = 0; n <= 6; ++n)
         views.push_back(some_views::with_parts(some_views::fresh().views[0], n));
     views.push_back(some_views::strange_view());
+    views.push_back(some_views::fresh().views[1]);
+    for (int i = 0; i < 300; ++i) views.back().rest.add(1.0 + 0.004 * i, 0.01 * i, 0.3);
     for (const auto& v : views) {
         const auto slow = model.explain(v), fast = model.decide(v);
         EXPECT_NEAR(some_views::sum_of_evidence(slow), slow.log_ratio, 1e-9);
@@ -240,6 +242,25 @@ TEST(object_recognizer, knows_versions_of_a_view) {
     model.learn(v, "chair");
     EXPECT_EQ(model.learned().sources, (std::vector<std::uint32_t>{0, 0, 1}));
     EXPECT_EQ(model.learned().samples.rows(), 3u);
+}
+
+/// Calibration leaves out views with all their versions: of labels without meaning, nothing is
+/// certain. If it judged the samples that the trees were grown on, all would be.
+TEST(object_recognizer, is_calibrated_on_views_that_are_left_out) {
+    for (const bool has_versions : {false, true}) {
+        rec::object_recognizer model(few_trees);
+        gnomon::random_stream random(12);
+        for (const auto& v : some_views::training().views) {
+            const auto name = some_views::names[random.bits() % 2];
+            if (has_versions) {
+                model.learn(std::vector<rec::view>{v, v}, name);
+            } else {
+                model.learn(v, name);
+            }
+        }
+        model.fit();
+        EXPECT_GT(model.learned().temperature, 2.0);
+    }
 }
 
 TEST(object_recognizer, knows_the_class_of_other_things) {
