@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: BSL-1.0
 """Checks that every public concept has its page, and that docs/terms.md has every public type.
 
-A public concept is one of namespace gnomon, or of gnomon::simulation or gnomon::io, in a header
+A public concept is one of namespace gnomon, gnomon::recognition, gnomon::simulation or gnomon::io, in a header
 outside detail/. A page docs/concepts/*.md may hold several concepts; each begins with a heading
 
     # `name`        or        ## `name`
@@ -26,7 +26,7 @@ import sys
 
 from cpp_source import ROOT, TYPES, concepts, public_names, require_ctags
 
-SPACES = ("gnomon", "gnomon::simulation", "gnomon::io")
+SPACES = ("gnomon", "gnomon::recognition", "gnomon::simulation", "gnomon::io")
 SECTIONS = ["Intuition", "Minimal complete definition", "Laws", "Models", "What the compiler says"]
 HEADING = re.compile(r"^(?P<rank>#{1,2}) `(?P<name>\w+)`[ \t]*$", re.M)
 SECTION = re.compile(rf"^(?:#{{2,5}} (?P<heading>{'|'.join(SECTIONS)})[ \t]*$"
