@@ -17,6 +17,7 @@
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/kinematic_chain.hpp>
+#include <gnomon/simulation/object_views.hpp>
 #include <gnomon/simulation/plane_patch.hpp>
 #include <gnomon/simulation/polyhedron.hpp>
 #include <gnomon/simulation/pose.hpp>

@@ -6,11 +6,13 @@
 #include <cstdint>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include <gtest/gtest.h>
 
 #include <gnomon/core/random.hpp>
+#include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/simulate.hpp>
@@ -54,6 +56,19 @@ TEST(furnished_room, can_be_empty_or_full) {
     EXPECT_EQ(furnished_room({.pieces = 0}).objects().size(), 2u);
     EXPECT_LT(furnished_room({.pieces = 1000}).objects().size(), 100u);
     EXPECT_THROW((void)furnished_room({.pieces = -1}), std::invalid_argument);
+}
+
+/// Furniture of the user's own stands in the room by its name, in place of the built-in models.
+TEST(furnished_room, takes_other_furniture) {
+    sim::scene lamp;
+    lamp.add_object("foot and shade", sim::box{0.3, 0.2, 1.5}, sim::at(0, 0, 0.75));
+    const auto world = furnished_room({.pieces = 3, .models = {{"lamp", lamp}}});
+    ASSERT_EQ(world.objects().size(), 5u);
+    for (std::size_t i = 2; i < 5; ++i)
+        EXPECT_EQ(world.objects()[i], "lamp " + std::to_string(i - 1));
+    sim::scene hall;  // larger than any room
+    hall.add_object("hall", sim::box{7, 7, 2}, sim::at(0, 0, 1));
+    EXPECT_EQ(furnished_room({.models = {{"hall", hall}}}).objects().size(), 2u);
 }
 
 /// The hash (FNV-1a) of the points and surfaces of a scan.

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/simulate.hpp>
@@ -61,6 +62,22 @@ TEST(furniture, stands_on_the_floor_and_shows_its_parts) {
         }
         EXPECT_EQ(seen.size(), world.parts().size());
     }
+}
+
+/// A scene becomes one object of the model's name, of however many objects it consists.
+TEST(furniture, may_be_any_scene) {
+    sim::scene lamp;
+    lamp.add_object("foot", sim::box{0.2, 0.2, 0.1}, sim::at(0, 0, 0.05));
+    lamp.add_object("shade", sim::box{0.3, 0.3, 0.3}, sim::at(0, 0, 1.5));
+    const sim::furniture_model model{"lamp", lamp};
+    sim::scene world;
+    sim::add(world, sim::furniture_models().front());
+    EXPECT_EQ(sim::add(world, model, sim::at(2, 0, 0)), 1);
+    EXPECT_EQ(world.objects().back(), "lamp");
+    EXPECT_EQ(world.parts().back().object, 1);
+    const auto hit = sim::bvh_caster(world)({{2, 0, 3}, {0, 0, -1}});
+    ASSERT_TRUE(hit);
+    EXPECT_NEAR(hit->range, 1.35, 1e-12);
 }
 
 }  // namespace

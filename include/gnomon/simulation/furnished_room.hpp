@@ -45,11 +45,11 @@ struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
     bool openings = false;  ///< doors and windows in the walls; the furniture is the same
+    std::vector<furniture_model> models = {};  ///< to choose from; furniture_models() if empty
 };
 
-/// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces from furniture_models(),
-/// placed without overlap at random positions and angles. The sensor is at a wall, 1.0 to 1.6 m
-/// above the floor.
+/// A room of 4 to 6 by 4 to 6 by 2.4 to 3 m with a cupboard and pieces of furniture, placed without
+/// overlap at random positions and angles. The sensor is at a wall, 1.0 to 1.6 m above the floor.
 ///
 /// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
 /// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
@@ -82,10 +82,11 @@ struct room_options {
         double radius;
     };
     std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
-    const auto models = furniture_models();
+    const auto models = options.models.empty() ? furniture_models() : options.models;
     for (int piece = 0; piece < options.pieces; ++piece) {
         const furniture_model& model = models[random.bits() % models.size()];
         const double radius = detail::radius_of(model);
+        if (2.0 * radius > std::min(length, width)) continue;
         for (int trial = 0; trial < 100; ++trial) {
             const circle place{random.uniform(radius, length - radius),
                                random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Twelve furniture models for recognition: six chairs and six tables, modelled after Klasing 2010,
-/// Fig. 5.3.
+/// Furniture models for recognition: twelve built-in ones, six chairs and six tables, modelled
+/// after Klasing 2010, Fig. 5.3, and any scene, such as one from a mesh file
+/// (gnomon/adapters/furniture_file.hpp).
 #pragma once
 
 #include <cstdint>
@@ -16,13 +17,14 @@
 
 namespace gnomon::simulation {
 
-/// A furniture model and its name.
+/// A furniture model and its name. The frame of a scene, as that of the built-in pieces, lies on
+/// the floor below the middle of the piece; z points up.
 struct furniture_model {
     std::string name;
-    std::variant<chair, table> piece;
+    std::variant<chair, table, scene> piece;
 };
 
-/// Adds a model as an object with the model's name.
+/// Adds a model as one object with the model's name.
 /// @return the number of the object
 inline std::int32_t add(scene& world, const furniture_model& model, const pose& at = {}) {
     return std::visit([&](const auto& piece) { return add(world, model.name, piece, at); },

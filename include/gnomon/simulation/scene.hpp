@@ -7,6 +7,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -21,7 +22,7 @@
 #include <gnomon/core/oriented_box.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/simulation/bounds.hpp>
-#include <gnomon/simulation/polyhedron.hpp>
+#include <gnomon/simulation/detail/any_shape.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/shape.hpp>
@@ -48,42 +49,6 @@ struct opening {
     std::string name;        ///< such as "door 1"
     oriented_box rectangle;  ///< level edge first, then the upright one; without a third length
 };
-
-namespace detail {
-
-/// A type-erased shape.
-class any_shape {
-  public:
-    any_shape() = default;
-    any_shape(const any_shape&) = delete;
-    any_shape& operator=(const any_shape&) = delete;
-    virtual ~any_shape() = default;
-
-    [[nodiscard]] virtual std::optional<ray_hit> first_hit(const ray& r) const = 0;
-    /// The triangles of the shape, if its faces are planar.
-    [[nodiscard]] virtual std::optional<polyhedron> triangles() const = 0;
-};
-
-template <shape S>
-class any_shape_of final : public any_shape {
-  public:
-    explicit any_shape_of(S shape) : shape_(std::move(shape)) {}
-
-    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const override {
-        return shape_.first_hit(r);
-    }
-    [[nodiscard]] std::optional<polyhedron> triangles() const override {
-        if constexpr (detail::flat_shape<S>)
-            return shape_.triangles();
-        else
-            return std::nullopt;
-    }
-
-  private:
-    S shape_;
-};
-
-}  // namespace detail
 
 /// A shape and its pose in a scene.
 struct placed_shape {
@@ -155,6 +120,9 @@ class scene {
         return first;
     }
 
+    friend std::int32_t add(scene& world, const scene& model, const pose& at);
+    friend std::int32_t add(scene& world, std::string name, const scene& model, const pose& at);
+
     [[nodiscard]] const std::vector<std::string>& objects() const { return objects_; }
     [[nodiscard]] const std::vector<scene_part>& parts() const { return parts_; }
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
@@ -185,6 +153,44 @@ class scene {
     }
 
   private:
+    /// Adds the contents of a model. Its object i becomes names[i], or all its objects the only
+    /// name. All numbers are computed before anything is added, as the model may be this scene.
+    /// @return the number of the first of these objects; `nothing` without names
+    std::int32_t append(const scene& model, std::vector<std::string> names, bool as_one,
+                        const pose& at) {
+        gnomon::detail::require(is_rigid(at), "scene: a pose must be a rigid motion");
+        const auto first_object = static_cast<std::int32_t>(objects_.size());
+        const auto first_part = static_cast<std::int32_t>(parts_.size());
+        const auto first_surface = static_cast<std::int32_t>(surfaces_.size());
+        scene moved;
+        moved.objects_ = std::move(names);
+        moved.parts_ = model.parts_;
+        moved.surfaces_ = model.surfaces_;
+        moved.openings = model.openings;
+        for (scene_part& p : moved.parts_) p.object = first_object + (as_one ? 0 : p.object);
+        for (scene_surface& s : moved.surfaces_) s.part += first_part;
+        for (const placed_shape& s : model.shapes_) {
+            const pose outer = at * s.pose;
+            moved.shapes_.push_back({s.shape, outer, placed(s.shape->extent(), outer),
+                                     first_surface + s.first_surface});
+        }
+        for (opening& o : moved.openings) {
+            o.rectangle.center = at.point_out(o.rectangle.center);
+            o.rectangle.axes = (at * pose{o.rectangle.axes, {0.0, 0.0, 0.0}}).rotation;
+        }
+        const auto take = [](auto& all, auto& more) {
+            all.insert(all.end(), std::make_move_iterator(more.begin()),
+                       std::make_move_iterator(more.end()));
+        };
+        const bool is_empty = moved.objects_.empty();
+        take(objects_, moved.objects_);
+        take(parts_, moved.parts_);
+        take(surfaces_, moved.surfaces_);
+        take(shapes_, moved.shapes_);
+        take(openings, moved.openings);
+        return is_empty ? nothing : first_object;
+    }
+
     /// The axis-aligned bounds of transformed bounds.
     static bounds placed(const bounds& own, const pose& at) {
         using gnomon::detail::require;
@@ -213,5 +219,23 @@ class scene {
     std::vector<scene_surface> surfaces_;
     std::vector<placed_shape> shapes_;
 };
+
+/// Adds a copy of a model, which shares its shapes: its objects with their parts and surfaces under
+/// their names, with the next free numbers, and its openings. The model may be the scene itself.
+/// O(model).
+/// @param at  the pose of the model's frame in the scene
+/// @return the number of the first added object, the others follow; `nothing` for a model without
+///         objects
+/// @throws std::invalid_argument  if the pose is no rigid motion, or moves a shape out of the range
+///                                of finite numbers; the scene stays as it is
+inline std::int32_t add(scene& world, const scene& model, const pose& at = {}) {
+    return world.append(model, model.objects_, false, at);
+}
+
+/// Adds a copy of a model, as above, as a single object with the parts of all objects of the model.
+/// @return the number of the object
+inline std::int32_t add(scene& world, std::string name, const scene& model, const pose& at = {}) {
+    return world.append(model, {std::move(name)}, true, at);
+}
 
 }  // namespace gnomon::simulation
