@@ -13,11 +13,12 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/output_directory.hpp"
 #include "common/program.hpp"
 #include "common/progress.hpp"
+#include "common/seen_scan.hpp"
 #include "picture/of_perception.hpp"
 #include "segment_scan/mesh.hpp"
 #include "segment_scan/options.hpp"
@@ -29,7 +30,6 @@
 
 namespace {
 
-using json = nlohmann::ordered_json;
 using surfel = gnomon::surfel<gnomon::plane_fit>;
 using result = gnomon::perception_result<gnomon::plane_fit>;
 
@@ -43,15 +43,9 @@ gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
 
 /// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
-    gnomon::scan scan =
-        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"});
-    if (std::ranges::none_of(scan, gnomon::is_finite))
-        throw gnomon::error(o.scan, "", "has no finite point");
-    if (o.viewpoint)
-        scan.viewpoints = *o.viewpoint;
-    else if (scan.viewpoints.empty())
-        scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
-    return scan;
+    return seen_scan(
+        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"}), o.scan,
+        o.viewpoint);
 }
 
 /// The median distance of a finite point from its nearest neighbor [m]; 0 for a single point.
@@ -133,14 +127,6 @@ void report_floor(const result& r) {
                 picture::counted(r.kept.size(), "point").c_str());
 }
 
-json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
-
-/// The columns of a matrix, one after the other.
-json columns_of(const Eigen::Matrix3d& m) {
-    return json::array({array_of(Eigen::Vector3d(m.col(0))), array_of(Eigen::Vector3d(m.col(1))),
-                        array_of(Eigen::Vector3d(m.col(2)))});
-}
-
 /// The noise that all steps went by.
 json description_of(const result::known_noise& noise, const options& o) {
     json description{{"model", noise.is_across_surface ? "across_surface" : o.noise.name},
@@ -158,12 +144,6 @@ json description_of(const gnomon::plane_estimate& e, const gnomon::oriented_box&
             {"centroid", array_of(e.centroid)},
             {"axes", columns_of(box.axes)},
             {"covariance", columns_of(covariance_about(box.axes, e))}};
-}
-
-json description_of(const gnomon::oriented_box& box) {
-    return {{"center", array_of(box.center)},
-            {"axes", columns_of(box.axes)},
-            {"lengths", array_of(box.lengths)}};
 }
 
 json description_of(const segment_bounds& bounds, const gnomon::alpha_shape::polygon& polygon) {
