@@ -65,7 +65,7 @@ json entry_of(const object& o, const rec::view& v, const rec::object_recognizer<
             {"points", o.points},
             {"center", array_of(o.box.center)},
             {"pose", {{"position", array_of(o.place())}, {"yaw", yaw_of(o.box)}}},
-            {"box", description_of(o.box)},
+            {"box", box_description(o.box)},
             {"log_ratio", o.decision.log_ratio},
             {"evidence", evidence}};
 }

@@ -18,7 +18,7 @@ inline json columns_of(const Eigen::Matrix3d& m) {
                         array_of(Eigen::Vector3d(m.col(2)))});
 }
 
-inline json description_of(const gnomon::oriented_box& box) {
+inline json box_description(const gnomon::oriented_box& box) {
     return {{"center", array_of(box.center)},
             {"axes", columns_of(box.axes)},
             {"lengths", array_of(box.lengths)}};

@@ -63,7 +63,7 @@ struct perceive_views_options {
     /// Cells [m] to whose means dense scans are thinned first; chosen: finer than the parts of
     /// furniture, and 20 cells are wider than a noise of 1 cm.
     double cell = 0.01;
-    std::size_t min_points = 30;  ///< least cells of a view; chosen on rooms, seeds 1 to 8
+    std::size_t min_points = 60;  ///< least cells of a view; chosen on rooms, seeds 1 to 8
     /// Most neighbors of a cell: 50 span several surfaces of a chair at 4 m. Half as many cells are
     /// the least of a part. Chosen on furniture_models(), seed 7.
     std::size_t k = 20;
