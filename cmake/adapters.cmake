@@ -19,3 +19,4 @@ endfunction()
 
 gnomon_adapter(assimp assimp::assimp assimp)
 gnomon_adapter(embree embree embree)
+gnomon_adapter(json nlohmann_json::nlohmann_json nlohmann_json)

@@ -8,11 +8,12 @@
 #include <string>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/output_directory.hpp"
 #include "common/program.hpp"
 #include "common/progress.hpp"
+#include "common/seen_scan.hpp"
 #include "measure_a_room/floor_plan.hpp"
 #include "measure_a_room/options.hpp"
 #include "measure_a_room/simulated_room.hpp"
@@ -23,21 +24,13 @@
 
 namespace {
 
-using json = nlohmann::ordered_json;
-
 /// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
     constexpr double sigma = 0.015;  // of the simulated scan [m]
-    gnomon::scan scan =
+    return seen_scan(
         o.scan.empty() ? scan_all_around(room_with_openings(o.seed), sigma, o.seed, o.threads).scan
-                       : gnomon::io::read(o.scan);
-    if (std::ranges::none_of(scan, gnomon::is_finite))
-        throw gnomon::error(o.scan, "", "has no finite point");
-    if (o.viewpoint)
-        scan.viewpoints = *o.viewpoint;
-    else if (scan.viewpoints.empty())
-        scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
-    return scan;
+                       : gnomon::io::read(o.scan),
+        o.scan, o.viewpoint);
 }
 
 /// @throws gnomon::error  if there is no room
@@ -52,8 +45,6 @@ survey measured(const gnomon::scan& scan, const options& o) {
     if (s.planes.walls.empty()) throw gnomon::error(o.scan, "", "has no walls");
     return s;
 }
-
-json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
 json report_of(const gnomon::scan& scan, const survey& s) {
     json lengths = json::array();

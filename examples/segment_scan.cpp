@@ -13,15 +13,18 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/output_directory.hpp"
 #include "common/program.hpp"
 #include "common/progress.hpp"
+#include "common/seen_scan.hpp"
 #include "picture/of_perception.hpp"
+#include "recognize_scan/objects.hpp"
 #include "segment_scan/mesh.hpp"
 #include "segment_scan/options.hpp"
 #include "segment_scan/shape.hpp"
+#include <gnomon/adapters/json_model.hpp>
 #include <gnomon/features/segment_shape.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
@@ -29,7 +32,6 @@
 
 namespace {
 
-using json = nlohmann::ordered_json;
 using surfel = gnomon::surfel<gnomon::plane_fit>;
 using result = gnomon::perception_result<gnomon::plane_fit>;
 
@@ -43,15 +45,9 @@ gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
 
 /// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
-    gnomon::scan scan =
-        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"});
-    if (std::ranges::none_of(scan, gnomon::is_finite))
-        throw gnomon::error(o.scan, "", "has no finite point");
-    if (o.viewpoint)
-        scan.viewpoints = *o.viewpoint;
-    else if (scan.viewpoints.empty())
-        scan.viewpoints = Eigen::Vector3d(0.0, 0.0, 0.0);
-    return scan;
+    return seen_scan(
+        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"}), o.scan,
+        o.viewpoint);
 }
 
 /// The median distance of a finite point from its nearest neighbor [m]; 0 for a single point.
@@ -133,14 +129,6 @@ void report_floor(const result& r) {
                 picture::counted(r.kept.size(), "point").c_str());
 }
 
-json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
-
-/// The columns of a matrix, one after the other.
-json columns_of(const Eigen::Matrix3d& m) {
-    return json::array({array_of(Eigen::Vector3d(m.col(0))), array_of(Eigen::Vector3d(m.col(1))),
-                        array_of(Eigen::Vector3d(m.col(2)))});
-}
-
 /// The noise that all steps went by.
 json description_of(const result::known_noise& noise, const options& o) {
     json description{{"model", noise.is_across_surface ? "across_surface" : o.noise.name},
@@ -158,12 +146,6 @@ json description_of(const gnomon::plane_estimate& e, const gnomon::oriented_box&
             {"centroid", array_of(e.centroid)},
             {"axes", columns_of(box.axes)},
             {"covariance", columns_of(covariance_about(box.axes, e))}};
-}
-
-json description_of(const gnomon::oriented_box& box) {
-    return {{"center", array_of(box.center)},
-            {"axes", columns_of(box.axes)},
-            {"lengths", array_of(box.lengths)}};
 }
 
 json description_of(const segment_bounds& bounds, const gnomon::alpha_shape::polygon& polygon) {
@@ -190,6 +172,31 @@ json description_of(const segment_bounds& bounds) {
     return description;
 }
 
+/// The name of the object of most points of each segment. recognize_scan's own surfaces are used, as
+/// the model has learned such: those of this program are larger.
+/// @throws gnomon::error  if the scan has no floor
+std::vector<std::string> object_names_of(const gnomon::scan& scan, const result& r,
+                                         const gnomon::recognition::object_recognizer<>& model,
+                                         const options& o) {
+    const auto found = objects_of(
+        scan, o.scan,
+        {.up = o.up.value_or(Eigen::Vector3d::UnitZ()), .noise = r.noise.curve}, model,
+        model.decision_options(), o.threads);
+    std::vector<std::string> names;
+    for (std::size_t s = 0; s < r.surfaces.size(); ++s) {
+        names.emplace_back(gnomon::recognition::background_name);
+        std::vector<std::size_t> count(found.objects.size(), 0);
+        for (const gnomon::point_index i : r.surfaces[s]) {
+            const std::int32_t object = found.seen.groups.labels()[i];
+            if (object == gnomon::unlabeled) continue;
+            const auto number = static_cast<std::size_t>(object);
+            if (2 * ++count[number] > r.surfaces[s].size())
+                names.back() = found.objects[number].name;
+        }
+    }
+    return names;
+}
+
 /// One object per segment, largest first.
 json description_of(const gnomon::scan& scan, const result& r,
                     const std::vector<segment_bounds>& bounds, const options& o) {
@@ -208,7 +215,7 @@ json description_of(const gnomon::scan& scan, const result& r,
                         {"aspect_ratio", shape.aspect_ratio()},
                         {"box_size", array_of(shape.frame.box_size)},
                         {"plane", description_of(plane, bounds[label].box)},
-                        {"box", description_of(bounds[label].box)},
+                        {"box", box_description(bounds[label].box)},
                         {"polygon", description_of(bounds[label])},
                         {"viewpoint", array_of(scan.viewpoints[members.front()])}});
     }
@@ -271,13 +278,17 @@ void print_table(const json& report, unsigned threads) {
     if (noise.contains("reason"))
         std::printf("across the surfaces, because of the scan: %s; nothing was merged\n",
                     noise["reason"].get<std::string>().c_str());
-    if (!segments.empty()) std::puts("\nlabel    points   size [m]              normal");
+    if (!segments.empty())
+        std::printf("\nlabel    points   size [m]              normal%s\n",
+                    segments.front().contains("object") ? "              object" : "");
     for (std::size_t i = 0; i < std::min<std::size_t>(segments.size(), 10); ++i) {
         const json& s = segments[i];
         const auto normal = s["normal"].get<std::vector<double>>();
-        std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s\n", i, s["points"].get<std::size_t>(),
+        std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s%s%s\n", i, s["points"].get<std::size_t>(),
                     size_of(s).c_str(), normal[0], normal[1], normal[2],
-                    s["flat"] ? "" : "   not flat");
+                    s["flat"] ? "" : "   not flat",
+                    s.contains("object") ? "   " : "",
+                    s.contains("object") ? s["object"].get<std::string>().c_str() : "");
     }
     if (segments.size() > 10) std::puts("  ...");
     std::puts("");
@@ -315,6 +326,10 @@ void segment_scan(const options& o) {
         const timed_step step(seconds, name);
         return work();
     };
+    std::optional<gnomon::recognition::object_recognizer<>> model;
+    if (!o.model.empty())
+        timed("reading of the model",
+              [&] { model = gnomon::recognition::read_model(o.model, o.threads); });
     const gnomon::scan scan = timed("reading", [&] { return scan_of(o); });
     const std::optional<gnomon::noise_curve> noise = noise_of(scan, o);
     std::vector<std::string> files{"normals.ply", "segments.ply", "segments.png", "segments.json"};
@@ -329,10 +344,16 @@ void segment_scan(const options& o) {
     for (const auto& step : r.steps) seconds[std::string(step.name)] = step.seconds;
     if (o.remove_floor) report_floor(r);
     std::vector<segment_bounds> bounds;
-    const json segments = timed("description", [&] {
+    json segments = timed("description", [&] {
         bounds = bounds_of(scan, r, o.threads);
         return description_of(scan, r, bounds, o);
     });
+    if (model) {
+        timed("recognition", [&] {
+            const auto names = object_names_of(scan, r, *model, o);
+            for (std::size_t s = 0; s < names.size(); ++s) segments[s]["object"] = names[s];
+        });
+    }
     const std::string png = timed("picture", [&] { return picture_of(scan, r, o); });
     timed("writing", [&] {
         write_points(out, scan, r);

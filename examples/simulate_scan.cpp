@@ -16,8 +16,8 @@
 #include <vector>
 
 #include <Eigen/Core>
-#include <nlohmann/json.hpp>
 
+#include "common/json.hpp"
 #include "common/output_directory.hpp"
 #include "common/program.hpp"
 #include "common/progress.hpp"
@@ -30,8 +30,6 @@
 namespace sim = gnomon::simulation;
 
 namespace {
-
-using json = nlohmann::ordered_json;
 
 sim::true_scan scan_of(const sim::scene& world, const options& o) {
     const progress telling("scanning");
@@ -60,14 +58,6 @@ sim::true_scan scan_of(const sim::scene& world, const options& o) {
     return along(sim::rotational{.mount = world.sensor});
 }
 
-/// A name with '?' for what the picture has no letter for.
-std::string in_ascii(std::string name) {
-    for (char& c : name) {
-        if (c < ' ' || c > '~') c = '?';
-    }
-    return name;
-}
-
 /// The number of points of each object of the scene.
 std::vector<std::size_t> points_of_objects(const sim::scene& world, const sim::true_scan& truth) {
     std::vector<std::size_t> count(world.objects().size(), 0);
@@ -90,7 +80,7 @@ std::string picture_of(const sim::scene& world, const sim::true_scan& truth,
     for (const std::size_t object : order) {
         if (count[object] == 0) break;
         label_of[object] = static_cast<std::int32_t>(legend.size());
-        legend.push_back(in_ascii(world.objects()[object]) + " " +
+        legend.push_back(picture::in_ascii(world.objects()[object]) + " " +
                          picture::with_commas(count[object]));
     }
 
@@ -121,8 +111,6 @@ void write_points(const std::string& path, const sim::true_scan& truth) {
                scalar_property("part", truth.parts), scalar_property("surface", truth.surfaces),
                scalar_property("range", truth.ranges), scalar_property("echo", truth.echoes)});
 }
-
-json array_of(const Eigen::Vector3d& v) { return json::array({v.x(), v.y(), v.z()}); }
 
 /// Which number means what, and where doors and windows are.
 json names_of(const sim::scene& world) {

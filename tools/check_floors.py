@@ -49,7 +49,8 @@ FORBIDDEN = {
 # Included by name: the registry needs Boost; few users have organized images, or need what describes
 # segments and points beyond their curvature.
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
-           "gnomon/segmentation/segment_image.hpp"}
+           "gnomon/segmentation/segment_image.hpp",
+           "gnomon/perception/perceive_views.hpp"}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
     "project_to_plane", "segment_shape",

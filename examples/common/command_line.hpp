@@ -124,6 +124,13 @@ inline constexpr option<Options> out{
     "--out", true, [](Options& o, const std::string&, const std::string& value) { o.out = value; }};
 
 template <class Options>
+inline constexpr option<Options> model{
+    "--model", true, [](Options& o, const std::string& name, const std::string& value) {
+        if (value.empty()) throw usage_error(name + ": its value is missing");
+        o.model = value;
+    }};
+
+template <class Options>
 inline constexpr option<Options> k{
     "--k", true, [](Options& o, const std::string& name, const std::string& value) {
         o.k = number_within<std::size_t>(name, value, 3, 10'000, "from 3 to 10,000");

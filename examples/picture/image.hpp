@@ -19,6 +19,14 @@
 
 namespace picture {
 
+/// A name with '?' for what the picture has no letter for.
+[[nodiscard]] inline std::string in_ascii(std::string name) {
+    for (char& c : name) {
+        if (c < ' ' || c > '~') c = '?';
+    }
+    return name;
+}
+
 /// Pixels row by row from the upper left.
 class image {
   public:

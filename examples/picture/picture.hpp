@@ -31,9 +31,8 @@ namespace picture {
     return with_commas(n) + " " + thing + (n == 1 ? "" : "s");
 }
 
-/// Lines over a picture, and their legend by color.
-struct annotation {
-    std::vector<stroke> strokes;
+/// What is drawn over a picture, and the legend of its colors.
+struct annotation : overlay {
     std::vector<std::pair<color, std::string>> legend;
 };
 
@@ -65,7 +64,7 @@ struct annotation {
         for (const view& v : scene(splats, viewpoint, up).views()) {
             sheet.write(x, 22, v.caption);
             sheet.fill(x - 1, top - 1, x + width + 1, top + height + 1, line);
-            sheet.paste(drawn(splats, lines.strokes, v.from, width, height, v.back), x, top);
+            sheet.paste(drawn(splats, lines, v.from, width, height, v.back), x, top);
             x += width + margin;
         }
     }

@@ -6,10 +6,12 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <Eigen/Core>
@@ -32,6 +34,13 @@ struct splat {
 /// A straight line between two places, drawn over all else.
 struct stroke {
     Eigen::Vector3d from, to;  ///< finite [m]
+    color tint;
+};
+
+/// A text at a place, written over all else.
+struct inscription {
+    Eigen::Vector3d at;  ///< its middle, finite [m]
+    std::string text;    ///< ASCII
     color tint;
 };
 
@@ -156,11 +165,38 @@ class canvas {
     std::vector<double> depth_;
 };
 
-/// Splats, and strokes over them, as `from` sees them, `width` x `height` pixels; the points of
-/// segments fill it.
-[[nodiscard]] inline image drawn(const std::vector<splat>& splats,
-                                 const std::vector<stroke>& strokes, camera from, int width,
-                                 int height, backs back) {
+/// Writes a text on white where a camera sees its place, further down where others are.
+/// @param taken  upper left corners and widths of the texts so far
+inline void write(image& drawing, const inscription& text, const camera& from,
+                  std::vector<std::array<int, 3>>& taken) {
+    const Eigen::Vector3d q = from.project(text.at);
+    const bool is_inside = q.x() >= 0.0 && q.x() < drawing.width() && q.y() >= 0.0 &&
+                           q.y() < drawing.height();
+    if (!(q.z() > 0.0) || !is_inside) return;
+    constexpr int line = 20;  // pixels
+    const int width = image::width_of(text.text);
+    const int x = std::clamp(static_cast<int>(q.x()) - width / 2, 0,
+                             std::max(0, drawing.width() - width));
+    int y = std::clamp(static_cast<int>(q.y()) - line / 2, 0, drawing.height() - line);
+    const auto is_taken = [&](const std::array<int, 3>& t) {
+        return x < t[0] + t[2] + 6 && t[0] < x + width + 6 && std::abs(y - t[1]) < line;
+    };
+    while (std::ranges::any_of(taken, is_taken) && y + 2 * line < drawing.height()) y += 4;
+    taken.push_back({x, y, width});
+    drawing.fill(x - 3, y - 2, x + width + 3, y + line - 2, white);
+    drawing.write(x, y, text.text, text.tint);
+}
+
+/// Lines and texts over a picture.
+struct overlay {
+    std::vector<stroke> strokes;
+    std::vector<inscription> texts;
+};
+
+/// Splats, and strokes and texts over them, as `from` sees them, `width` x `height` pixels; the
+/// points of segments fill it.
+[[nodiscard]] inline image drawn(const std::vector<splat>& splats, const overlay& over, camera from,
+                                 int width, int height, backs back) {
     const auto hidden = [&](const splat& s) {
         return back == backs::hidden && s.normal.dot(from.position - s.position) < 0.0;
     };
@@ -177,8 +213,12 @@ class canvas {
         if (!hidden(s)) large.draw(s, from);
     }
     large.darken_steps();
-    for (const stroke& s : strokes) large.draw(s, from);
-    return large.halved();
+    for (const stroke& s : over.strokes) large.draw(s, from);
+    image half = large.halved();
+    from.focal *= 0.5, from.center_x *= 0.5, from.center_y *= 0.5;
+    std::vector<std::array<int, 3>> taken;
+    for (const inscription& text : over.texts) write(half, text, from, taken);
+    return half;
 }
 
 }  // namespace picture

@@ -39,6 +39,8 @@ into DIR.
   --viewpoint X,Y,Z   position of the sensor (from SCAN, else 0,0,0)
   --remove-floor      leave out floor and ceiling
   --up X,Y,Z          against gravity (0,0,1)
+  --model MODEL       name the objects that segments belong to, which a file of
+                      learn_objects knows; SCAN must show the floor
   --polygons          write polygons.ply too, a mesh of the polygons of flat segments
   --threads N         0 for all there are (0)
   --help              this text
@@ -51,7 +53,9 @@ the third, its normal [m], at its centroid. The box of a flat segment is the rec
 of smallest area around its points, moved along their rays to the plane; its third
 length is the rms distance from the plane. Else it is the box of smallest volume. Its
 polygon has an outline, counterclockwise seen against the normal, holes, area [m^2],
-and as islands further polygons; it is null where there is none.
+and as islands further polygons; it is null where there is none. With --model the object
+of a segment is that of most of its points, as recognize_scan finds them by surfaces of its
+own, or "background".
 
 Exit status: 0; 1 if a file cannot be read or written, or SCAN cannot be processed; 2
 for a wrong command line.
@@ -66,6 +70,7 @@ struct named_noise {
 struct options {
     std::string scan;  ///< path, or empty for the simulated kitchen
     std::string out;
+    std::string model;  ///< path, or empty: objects are not named
     gnomon::noise_knn neighborhood;
     gnomon::planes_on_cells segmentation;
     named_noise noise;
@@ -99,6 +104,7 @@ inline named_noise noise_of(const std::string& name, const std::string& value) {
 
 inline constexpr option<options> known_options[] = {
     common::out<options>,
+    common::model<options>,
     {"--k", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.neighborhood.k =

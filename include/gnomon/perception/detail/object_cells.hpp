@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The cells of a scan that may belong to objects, and how many neighbors their density allows.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <vector>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/features/segment_shape.hpp>
+#include <gnomon/neighborhoods/adjacency.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// The number of neighbors within `reach` at the median density of points, but at least 10 and at
+/// most k.
+template <class R>
+[[nodiscard]] std::size_t neighbors_by_density(const R& points, std::size_t k, double reach,
+                                               const auto& run) {
+    constexpr std::size_t near = 4, least = 10;  // chosen on furniture_models(), seed 7
+    const adjacency nearest = knn{.k = near}(points, run);
+    const position_view<R> position(points, {});
+    std::vector<double> squared;
+    for (std::size_t i = 0; i < nearest.size(); ++i) {
+        if (nearest[i].size() == near)
+            squared.push_back(squared_distance(position[i], position[nearest[i].back()]));
+    }
+    if (squared.empty()) return std::min(least, k);
+    const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
+    std::nth_element(squared.begin(), middle, squared.end());
+    // As many as a disc of this radius has at the density of the disc of the nearest ones.
+    const double within = static_cast<double>(near) * reach * reach / *middle;
+    if (!(within < static_cast<double>(k))) return k;  // also for points at one place
+    return std::min(k, std::max(least, static_cast<std::size_t>(within)));
+}
+
+/// The indices of points that are not of walls: in no surface longer than `max_length`, and, if in
+/// no surface at all, not within 5 cm of such a one.
+[[nodiscard]] inline std::vector<point_index> without_walls(const auto& points, const auto& surface,
+                                                            const segments& parts,
+                                                            double max_length) {
+    constexpr double band = 0.05;  // as that of the floor, rho_o [m]
+    std::vector<plane> walls;
+    std::vector<char> is_wall(parts.size(), 0);
+    for (std::size_t s = 0; s < parts.size(); ++s) {
+        const auto shape = segment_shape::of(points, surface, parts[s]);
+        if (!shape.is_surface() || !(shape.frame.box_size.maxCoeff() > max_length)) continue;
+        is_wall[s] = 1;
+        const Eigen::Vector3d n = shape.frame.normal();
+        walls.push_back({n, gnomon::detail::dot(n, shape.frame.centroid)});
+    }
+    const auto is_near_wall = [&](const Eigen::Vector3d& x) {
+        return std::any_of(walls.begin(), walls.end(), [&](const plane& w) {
+            return std::abs(w.signed_distance(x)) <= band;
+        });
+    };
+    std::vector<point_index> left;
+    for (std::size_t i = 0; i < parts.labels().size(); ++i) {
+        const std::int32_t label = parts.labels()[i];
+        const bool is_of_wall = label == unlabeled ? is_near_wall(points.points[i])
+                                                   : is_wall[static_cast<std::size_t>(label)] != 0;
+        if (!is_of_wall) left.push_back(static_cast<point_index>(i));
+    }
+    return left;
+}
+
+}  // namespace gnomon::recognition::detail

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// From a scan to the views of the objects in it: removal of floor, ceiling and walls, grouping by
+/// distance, and the smooth surfaces of each group. Views to learn and views to recognize are
+/// comparable only if the same steps made both, so this is one function:
+///
+///     namespace rec = gnomon::recognition;
+///     // Of a room, the floor is searched for:
+///     const auto seen = rec::perceive_views(scan, {}, gnomon::threads{});
+///     for (const rec::view& v : seen.views) use(model.explain(v));
+///     // Of a single object on a floor that is not in the scan:
+///     const auto alone = rec::perceive_views(
+///         scan, {.ground = gnomon::plane{}, .noise = gnomon::constant_noise{0.005},
+///                .gap = rec::infinite_gap});
+///
+/// In no umbrella: include it by name.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/filters/crop_height.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/perception/detail/object_cells.hpp>
+#include <gnomon/perception/perception.hpp>
+#include <gnomon/perception/perception_result.hpp>
+#include <gnomon/recognition/view.hpp>
+#include <gnomon/recognition/views_of.hpp>
+#include <gnomon/segmentation/euclidean_clusters.hpp>
+#include <gnomon/segmentation/preprocess.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::recognition {
+
+/// How views are perceived. Klasing 2010, Secs. 4.2 and 5.5.1.
+struct perceive_views_options {
+    /// The plane below the objects, with its normal upwards. Without it floor and ceiling are
+    /// searched for.
+    std::optional<plane> ground = std::nullopt;
+    Eigen::Vector3d up{0.0, 0.0, 1.0};  ///< of unit length; used only without `ground`
+    /// Heights that are left out. Legs without a floor are cut as those on a floor.
+    crop_height_options bands{};
+    std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
+    double gap = 0.10;          ///< largest distance of nearest points within a view [m]
+    std::size_t min_parts = 1;  ///< views of fewer parts are dropped
+    /// Cells [m] to whose means dense scans are thinned first; chosen: finer than the parts of
+    /// furniture, and 20 cells are wider than a noise of 1 cm.
+    double cell = 0.01;
+    std::size_t min_points = 60;  ///< least cells of a view; chosen on rooms, seeds 1 to 8
+    /// Most neighbors of a cell: 50 span several surfaces of a chair at 4 m. Half as many cells are
+    /// the least of a part. Chosen on furniture_models(), seed 7.
+    std::size_t k = 20;
+    /// In sparse scans a cell has as many neighbors as are within this distance in the median [m],
+    /// but at least 10. Chosen on furniture_models(), seed 7.
+    double reach = 0.05;
+    /// Surfaces that are longer [m] are walls and belong to no view; chosen: the longest of
+    /// furniture_models() is 1.8 m.
+    double max_length = 2.2;
+
+    /// @throws std::invalid_argument  if k is below 3, reach not positive, or gap or max_length
+    ///                                negative or NaN
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(k >= 3, "perceive_views: a normal requires 3 neighbors");
+        require(reach > 0.0, "perceive_views: the reach must be positive");
+        require(gap >= 0.0, "perceive_views: the gap must not be negative or NaN");
+        require(max_length >= 0.0, "perceive_views: max_length must not be negative or NaN");
+    }
+};
+
+/// The views in a scan of n points.
+struct perceived_views {
+    std::optional<plane> ground;  ///< as given, or the floor if it was found
+    std::vector<view> views;      ///< the one of most cells first
+    segments parts;               ///< of the n points; part::segment is a number of these
+    segments groups;              ///< of the n points: those of each view, with points of no part
+};
+
+namespace detail {
+
+/// Surfaces of a group of cells.
+template <class R, execution X>
+[[nodiscard]] perception_result<plane_fit> surfaces_in(const R& cells,
+                                                       const perceive_views_options& options,
+                                                       const X& run) {
+    const std::size_t k = neighbors_by_density(cells, options.k, options.reach, run);
+    perception<knn, plane_pca, conservative, smooth_surfaces> chain{.neighborhood = {.k = k},
+                                                                    .noise = options.noise};
+    chain.segmentation.surfaces.min_points = k / 2;
+    return chain(cells, run);
+}
+
+/// The groups of cells that may be objects: all in one, or those of at most a gap from each other
+/// that are not in walls. Takes over the noise that was measured on all.
+template <execution X>
+[[nodiscard]] segments object_groups(const voxel_grid::means& cells,
+                                     perceive_views_options& options, const X& run) {
+    if (!(options.gap < infinite_gap))
+        return segments(std::vector<std::int32_t>(cells.size(), 0));
+    const auto seen = surfaces_in(cells, options, run);
+    if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
+    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length);
+    const auto near = euclidean_clusters(subset_view(cells, left),
+                                         {.radius = options.gap, .min_points = 1}, run);
+    std::vector<std::int32_t> labels(cells.size(), unlabeled);
+    for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = near.labels()[i];
+    return segments(std::move(labels));
+}
+
+}  // namespace detail
+
+/// Perceives the views of objects in a scan.
+///
+/// Objects are groups of points of which chains of steps of at most `gap` connect the cells, those
+/// of no part among them, as the legs of a chair often are. Without a ground the views have none if
+/// no floor is found: features of heights then refuse them.
+/// @param points   any point range of n points [m]; seen from the origin without view points
+/// @param options  ground, noise, density, gap
+/// @param run      the result does not depend on it
+/// @throws std::invalid_argument  for options that are not valid, or what the steps throw for them
+/// Complexity: O(n log n).
+template <class R, execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj>
+[[nodiscard]] perceived_views perceive_views(const R& points, perceive_views_options options = {},
+                                             const X& run = {}, Proj projection = {}) {
+    options.require_valid();
+    const auto& team = gnomon::detail::staying(run);
+    perceived_views result;
+    result.ground = options.ground;
+    std::optional<double> ceiling;
+    if (!result.ground) {
+        result.ground = find_floor(points, options.up, {}, projection);
+        if (result.ground) ceiling = find_ceiling(points, *result.ground, {}, projection);
+    }
+    const position_view<R, Proj> position(points, projection);
+    std::vector<point_index> kept;
+    if (result.ground) {
+        kept = crop_height(points, *result.ground, ceiling, options.bands, projection);
+    } else {
+        for (std::size_t i = 0; i < position.size(); ++i)
+            if (is_finite(position[i])) kept.push_back(static_cast<point_index>(i));
+    }
+    const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
+                                      {.edge = options.cell}, team);
+    constexpr std::size_t fewest = 4;  // formula: a plane and a residual
+    const std::size_t least = std::max(fewest, options.min_points);
+    std::vector<std::int32_t> part_of_cell(cells.size(), unlabeled), view_of_cell = part_of_cell;
+    if (cells.size() >= least) {
+        const segments groups = detail::object_groups(cells, options, team);
+        std::int32_t parts = 0;
+        for (std::size_t g = 0; g < groups.size() && groups[g].size() >= least; ++g) {
+            const subset_view group(cells, groups[g]);
+            const auto seen = detail::surfaces_in(group, options, team);
+            auto views = views_of(group, seen.surface, seen.surfaces,
+                                  {.gap = infinite_gap,
+                                   .min_parts = std::max<std::size_t>(1, options.min_parts),
+                                   .ground = result.ground},
+                                  team);
+            if (views.empty()) continue;
+            for (part& p : views.front().parts) p.segment += parts;
+            for (std::size_t i = 0; i < group.size(); ++i) {
+                const point_index c = groups[g][i];
+                const std::int32_t label = seen.surfaces.labels()[i];
+                if (label != unlabeled) part_of_cell[c] = parts + label;
+                view_of_cell[c] = static_cast<std::int32_t>(result.views.size());
+            }
+            parts += static_cast<std::int32_t>(seen.surfaces.size());
+            result.views.push_back(std::move(views.front()));
+        }
+    }
+    const auto of_points = [&](const std::vector<std::int32_t>& of_cells) {
+        std::vector<std::int32_t> labels(position.size(), unlabeled);
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cells[cells.of_point[i]];
+        return segments(std::move(labels));
+    };
+    result.parts = of_points(part_of_cell);
+    result.groups = of_points(view_of_cell);
+    return result;
+}
+
+}  // namespace gnomon::recognition
