@@ -78,7 +78,7 @@ inline std::vector<example> built_in(const options& o) {
     constexpr std::size_t pieces_of_clutter = 24;
     std::vector<example> all;
     for (auto& model : sim::furniture_models()) all.push_back({model.name, model, o.views});
-    // As many views as of three models.
+    // The views of three models.
     const std::size_t each = std::max<std::size_t>(1, 3 * o.views / pieces_of_clutter);
     for (auto& model : clutter(pieces_of_clutter, o.seed))
         all.push_back({std::string(gnomon::recognition::background_name), std::move(model), each});

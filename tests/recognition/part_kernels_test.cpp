@@ -42,6 +42,22 @@ TEST(part_kernels, recognize_fresh_views) {
     }
 }
 
+TEST(part_kernels, learn_view_by_view_as_at_once) {
+    const auto& t = some_views::training();
+    rec::part_kernels piecewise(3, rec::default_features, rec::default_relations);
+    for (std::size_t i = 0; i < t.views.size(); ++i) {
+        piecewise.learn(t.views[i], t.classes[i]);
+        if (i == t.views.size() / 2) piecewise.calibrate();
+    }
+    piecewise.calibrate();
+    EXPECT_EQ(piecewise.temperature(), default_kernels().temperature());
+    for (const auto& v : some_views::fresh().views) {
+        EXPECT_EQ(rec::explain(piecewise, v).probability,
+                  rec::explain(default_kernels(), v).probability);
+    }
+    EXPECT_THROW(piecewise.learn(t.views[0], 3), std::invalid_argument);
+}
+
 TEST(part_kernels, have_evidence_that_sums_to_the_decision) {
     for (const bool counts_parts : {false, true}) {
         for (const double pair_weight : {0.0, 0.5}) {

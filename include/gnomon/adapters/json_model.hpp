@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Files of what an object_recognizer has learned, in JSON by nlohmann-json. The trees are not in
+/// Model files of object_recognizer, in JSON by nlohmann-json. The trees are not in
 /// them: they are grown again from the samples, the same to the last bit. Link with gnomon::json.
 ///
 ///     namespace rec = gnomon::recognition;
@@ -67,14 +67,14 @@ void require_usable(const json_place& file, const Recognizer& made,
     const json_place samples = file["samples"];
     const std::size_t columns = made.descriptor().describe({}, {}, {}, false).size();
     samples["columns"].require(c.samples.columns == columns,
-                               "must be " + std::to_string(columns) + ", as of these features");
+                               "must be " + std::to_string(columns) + " for these features");
     samples["values"].require(c.samples.values.size() == columns * c.samples.rows(),
                               "must be rows times columns");
     for (const std::uint32_t number : c.samples.classes)
         samples["classes"].require(number < c.names.size(), "has the number of a missing class");
     file["sources"].require(c.sources.size() == c.samples.rows() &&
                                 std::is_sorted(c.sources.begin(), c.sources.end()),
-                            "must be a number for each sample, ascending");
+                            "must have an entry for each sample, ascending");
 }
 
 /// The double with the fewest digits that is this number in single precision.

@@ -89,11 +89,32 @@ struct perceive_views_options {
 struct perceived_views {
     std::optional<plane> ground;  ///< as given, or the floor if it was found
     std::vector<view> views;      ///< the one of most cells first
-    segments parts;               ///< of the n points; part::segment is a number of these
+    segments parts;               ///< of the n points; part::segment counts them
     segments groups;              ///< of the n points: those of each view, with points of no part
 };
 
 namespace detail {
+
+/// The points that may belong to objects, ascending: those between floor and ceiling, or all finite
+/// ones if no floor is known.
+/// @param ground  the floor, which is searched for if it is not known
+template <class R, class Proj>
+[[nodiscard]] std::vector<point_index> without_floor(const R& points,
+                                                     const position_view<R, Proj>& position,
+                                                     const perceive_views_options& options,
+                                                     std::optional<plane>& ground,
+                                                     const Proj& projection) {
+    std::optional<double> ceiling;
+    if (!ground) {
+        ground = find_floor(points, options.up, {}, projection);
+        if (ground) ceiling = find_ceiling(points, *ground, {}, projection);
+    }
+    if (ground) return crop_height(points, *ground, ceiling, options.bands, projection);
+    std::vector<point_index> kept;
+    for (std::size_t i = 0; i < position.size(); ++i)
+        if (is_finite(position[i])) kept.push_back(static_cast<point_index>(i));
+    return kept;
+}
 
 /// Surfaces of a group of cells.
 template <class R, execution X>
@@ -112,13 +133,12 @@ template <class R, execution X>
 template <execution X>
 [[nodiscard]] segments object_groups(const voxel_grid::means& cells,
                                      perceive_views_options& options, const X& run) {
-    if (!(options.gap < infinite_gap))
-        return segments(std::vector<std::int32_t>(cells.size(), 0));
+    if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
     const auto seen = surfaces_in(cells, options, run);
     if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
     const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length);
-    const auto near = euclidean_clusters(subset_view(cells, left),
-                                         {.radius = options.gap, .min_points = 1}, run);
+    const auto near =
+        euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
     std::vector<std::int32_t> labels(cells.size(), unlabeled);
     for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = near.labels()[i];
     return segments(std::move(labels));
@@ -144,19 +164,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& team = gnomon::detail::staying(run);
     perceived_views result;
     result.ground = options.ground;
-    std::optional<double> ceiling;
-    if (!result.ground) {
-        result.ground = find_floor(points, options.up, {}, projection);
-        if (result.ground) ceiling = find_ceiling(points, *result.ground, {}, projection);
-    }
     const position_view<R, Proj> position(points, projection);
-    std::vector<point_index> kept;
-    if (result.ground) {
-        kept = crop_height(points, *result.ground, ceiling, options.bands, projection);
-    } else {
-        for (std::size_t i = 0; i < position.size(); ++i)
-            if (is_finite(position[i])) kept.push_back(static_cast<point_index>(i));
-    }
+    const auto kept = detail::without_floor(points, position, options, result.ground, projection);
     const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                       {.edge = options.cell}, team);
     constexpr std::size_t fewest = 4;  // formula: a plane and a residual

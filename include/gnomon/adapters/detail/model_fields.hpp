@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The fields of what an object_recognizer has learned, and the numbers of its features and
+/// The fields of learned_views, and the values of its features and
 /// relations, in a model file.
 #pragma once
 
