@@ -10,6 +10,8 @@
 #include <concepts>
 #include <cstddef>
 #include <numbers>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
@@ -108,11 +110,19 @@ inline constexpr std::size_t relation_count =
     decltype(boost::hana::size(std::declval<const Relations&>()))::value;
 
 /// The values of all relations of two parts.
+/// @throws std::invalid_argument  if a value is not finite
 template <class Relations>
 [[nodiscard]] std::array<double, relation_count<Relations>> relation_vector(
     const Relations& relations, const part& a, const part& b) {
+    const auto value = [&]<part_relation R>(const R& r) {
+        const double x = r(a, b);
+        if (!std::isfinite(x))
+            throw std::invalid_argument("the relation " + std::string(R::name) +
+                                        " of two parts is not finite");
+        return x;
+    };
     return boost::hana::unpack(relations, [&](const auto&... r) {
-        return std::array<double, relation_count<Relations>>{static_cast<double>(r(a, b))...};
+        return std::array<double, relation_count<Relations>>{value(r)...};
     });
 }
 
