@@ -100,15 +100,15 @@ class json_place {
             require(number <= std::numeric_limits<T>::max(), "is too large");
             to = static_cast<T>(number);
         } else if constexpr (std::is_floating_point_v<T>) {
-            require(value_.is_number(), "must be a number");
+            require(value_.is_number(), "must be numeric");
             to = value_.get<T>();
         } else if constexpr (std::same_as<T, std::string>) {
             require(value_.is_string(), "must be a string");
             to = value_.get<std::string>();
         } else if constexpr (has_json_fields<T>) {
             boost::hana::for_each(json_fields<T>, [&](const auto& field) {
-                (*this)[std::string(boost::hana::first(field))].read(
-                    to.*boost::hana::second(field));
+                (*this)[std::string(boost::hana::first(field))].read(to.*
+                                                                     boost::hana::second(field));
             });
         } else {
             require(value_.is_array(), "must be an array");
