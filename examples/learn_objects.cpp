@@ -20,8 +20,8 @@
 #include "learn_objects/options.hpp"
 #include "learn_objects/progress_bar.hpp"
 #include <gnomon/adapters/json_model.hpp>
-#include <gnomon/gnomon.hpp>
 #include <gnomon/filters/subset.hpp>
+#include <gnomon/gnomon.hpp>
 #include <gnomon/io.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>

@@ -39,8 +39,8 @@ scan_objects recognized(const gnomon::scan& scan, const rec::object_recognizer<>
     return objects_of(scan, o.scan, how, model, decisions, o.threads);
 }
 
-/// The angle of an axis about `up` [rad], in [0, pi), from the projection of the x axis, or of the y
-/// axis if x is up.
+/// The angle of an axis about `up` [rad], in [0, pi), from the projection of the x axis, or of the
+/// y axis if x is up.
 double yaw_of(const gnomon::oriented_box& box) {
     const Eigen::Vector3d up = box.axes.col(2), axis = box.axes.col(0);
     const Eigen::Vector3d ahead =
@@ -124,7 +124,7 @@ void recognize_scan(const options& o) {
         gnomon::io::color_properties(found.seen.groups.labels(), picture::color_of),
         gnomon::io::scalar_property("label", found.seen.groups.labels())};
     gnomon::io::write_ply(out / "labeled.ply", scan,
-              {columns, gnomon::io::field_properties(scan, columns)});
+                          {columns, gnomon::io::field_properties(scan, columns)});
     gnomon::io::replace_file(out / "recognized.png", png);
     gnomon::io::replace_file(out / "objects.json", report.dump(2) + "\n");
     std::printf("%s in %.2f s, recognized in %.2f s of it\n",

@@ -45,9 +45,8 @@ gnomon::scan scan_of_kitchen(const gnomon::threads& threads) {
 
 /// @throws gnomon::error  if the file cannot be read, or no point of it is finite
 gnomon::scan scan_of(const options& o) {
-    return seen_scan(
-        o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"}), o.scan,
-        o.viewpoint);
+    return seen_scan(o.scan.empty() ? scan_of_kitchen(o.threads) : gnomon::io::read(o.scan, {"*"}),
+                     o.scan, o.viewpoint);
 }
 
 /// The median distance of a finite point from its nearest neighbor [m]; 0 for a single point.
@@ -172,16 +171,15 @@ json description_of(const segment_bounds& bounds) {
     return description;
 }
 
-/// The name of the object of most points of each segment. recognize_scan's own surfaces are used, as
-/// the model has learned such: those of this program are larger.
+/// The name of the object of most points of each segment. recognize_scan's own surfaces are used,
+/// as the model has learned such: those of this program are larger.
 /// @throws gnomon::error  if the scan has no floor
 std::vector<std::string> object_names_of(const gnomon::scan& scan, const result& r,
                                          const gnomon::recognition::object_recognizer<>& model,
                                          const options& o) {
     const auto found = objects_of(
-        scan, o.scan,
-        {.up = o.up.value_or(Eigen::Vector3d::UnitZ()), .noise = r.noise.curve}, model,
-        model.decision_options(), o.threads);
+        scan, o.scan, {.up = o.up.value_or(Eigen::Vector3d::UnitZ()), .noise = r.noise.curve},
+        model, model.decision_options(), o.threads);
     std::vector<std::string> names;
     for (std::size_t s = 0; s < r.surfaces.size(); ++s) {
         names.emplace_back(gnomon::recognition::background_name);
@@ -286,8 +284,7 @@ void print_table(const json& report, unsigned threads) {
         const auto normal = s["normal"].get<std::vector<double>>();
         std::printf("%5zu %9zu   %s   %5.2f %5.2f %5.2f%s%s%s\n", i, s["points"].get<std::size_t>(),
                     size_of(s).c_str(), normal[0], normal[1], normal[2],
-                    s["flat"] ? "" : "   not flat",
-                    s.contains("object") ? "   " : "",
+                    s["flat"] ? "" : "   not flat", s.contains("object") ? "   " : "",
                     s.contains("object") ? s["object"].get<std::string>().c_str() : "");
     }
     if (segments.size() > 10) std::puts("  ...");

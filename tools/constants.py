@@ -35,6 +35,8 @@ from cpp_source import (INCLUDE_DIR, code_only, comments, function_bodies, witho
 
 FOLDERS = ["gnomon/segmentation", "gnomon/occlusion", "gnomon/perception",
            "gnomon/normals/detail/wide_noise.hpp"]
+# The views of objects have surfaces of their own, with more that is chosen: on simulated furniture.
+OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/object_cells.hpp"}
 MAX_CHOSEN = 15
 
 # Numbers of formulas: the number is a group of the pattern, which is found in its line. Name, source.
@@ -228,8 +230,9 @@ def constants(include):
     for folder in FOLDERS:
         place = include / folder
         for header in sorted(place.rglob("*.hpp")) if place.is_dir() else [place] * place.exists():
-            yield from Header(header.relative_to(include).as_posix(),
-                              header.read_text(encoding="utf-8")).constants()
+            name = header.relative_to(include).as_posix()
+            if name not in OTHER:
+                yield from Header(name, header.read_text(encoding="utf-8")).constants()
 
 
 def print_table(rows):

@@ -54,10 +54,12 @@ inline std::vector<sim::furniture_model> clutter(std::size_t pieces, std::uint64
                       random.uniform(0.15, 0.6));
                 break;
             case 2:
-                piece.add_object("bin", sim::cylinder{random.uniform(0.1, 0.25),
-                                                      random.uniform(0.2, 0.7)});
+                piece.add_object(
+                    "bin", sim::cylinder{random.uniform(0.1, 0.25), random.uniform(0.2, 0.7)});
                 break;
-            case 3: block("board", 0.03, random.uniform(0.5, 2.0), random.uniform(0.8, 2.0)); break;
+            case 3:
+                block("board", 0.03, random.uniform(0.5, 2.0), random.uniform(0.8, 2.0));
+                break;
             case 4:
                 block("wall", 0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6));
                 block("other wall", 0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6), 90);
@@ -78,7 +80,7 @@ inline std::vector<example> built_in(const options& o) {
     constexpr std::size_t pieces_of_clutter = 24;
     std::vector<example> all;
     for (auto& model : sim::furniture_models()) all.push_back({model.name, model, o.views});
-    // The views of three models.
+    // In all the number of views of three models.
     const std::size_t each = std::max<std::size_t>(1, 3 * o.views / pieces_of_clutter);
     for (auto& model : clutter(pieces_of_clutter, o.seed))
         all.push_back({std::string(gnomon::recognition::background_name), std::move(model), each});
@@ -110,7 +112,8 @@ inline std::vector<example> in_files(const options& o) {
     const auto up = o.y_up ? sim::up_axis::y : sim::up_axis::z;
     std::vector<example> all;
     const auto add = [&](const std::filesystem::path& file, const std::string& name) {
-        if (is_mesh_file(file)) all.push_back({name, sim::read_furniture(file.string(), up), o.views});
+        if (is_mesh_file(file))
+            all.push_back({name, sim::read_furniture(file.string(), up), o.views});
     };
     for (const auto& entry : sorted_entries(o.models)) {
         if (std::filesystem::is_directory(entry)) {
@@ -133,9 +136,10 @@ inline std::vector<example> examples_of(const options& o) {
 #ifdef GNOMON_EXAMPLES_ASSIMP
     auto all = detail::in_files(o);
     if (std::ranges::all_of(all, [&](const example& e) { return e.name == all.front().name; }))
-        throw gnomon::error(o.models, "", "has the class " + all.front().name +
-                                              " only; two are required, such as a folder "
-                                              "\"background\"");
+        throw gnomon::error(o.models, "",
+                            "has the class " + all.front().name +
+                                " only; two are required, such as a folder "
+                                "\"background\"");
     return all;
 #else
     throw usage_error("--models: this program was built without Assimp, which reads mesh files");

@@ -37,7 +37,8 @@ class progress_bar {
         drawn_ = seconds;
         constexpr std::size_t width = 30;
         const std::size_t full = done * width / steps_;
-        const double left = seconds * static_cast<double>(steps_ - done) / static_cast<double>(done);
+        const double left =
+            seconds * static_cast<double>(steps_ - done) / static_cast<double>(done);
         std::fprintf(stderr, "\r%s [%s%s] %zu of %zu, %.0f s left \033[K", what_.c_str(),
                      std::string(full, '#').c_str(), std::string(width - full, '.').c_str(), done,
                      steps_, left);

@@ -170,13 +170,13 @@ class canvas {
 inline void write(image& drawing, const inscription& text, const camera& from,
                   std::vector<std::array<int, 3>>& taken) {
     const Eigen::Vector3d q = from.project(text.at);
-    const bool is_inside = q.x() >= 0.0 && q.x() < drawing.width() && q.y() >= 0.0 &&
-                           q.y() < drawing.height();
+    const bool is_inside =
+        q.x() >= 0.0 && q.x() < drawing.width() && q.y() >= 0.0 && q.y() < drawing.height();
     if (!(q.z() > 0.0) || !is_inside) return;
     constexpr int line = 20;  // pixels
     const int width = image::width_of(text.text);
-    const int x = std::clamp(static_cast<int>(q.x()) - width / 2, 0,
-                             std::max(0, drawing.width() - width));
+    const int x =
+        std::clamp(static_cast<int>(q.x()) - width / 2, 0, std::max(0, drawing.width() - width));
     int y = std::clamp(static_cast<int>(q.y()) - line / 2, 0, drawing.height() - line);
     const auto is_taken = [&](const std::array<int, 3>& t) {
         return x < t[0] + t[2] + 6 && t[0] < x + width + 6 && std::abs(y - t[1]) < line;

@@ -39,7 +39,7 @@ struct object {
 /// The objects in a scan.
 struct scan_objects {
     gnomon::recognition::perceived_views seen;
-    std::vector<object> objects;       ///< those of seen.views
+    std::vector<object> objects;  ///< those of seen.views
 };
 
 namespace detail {

@@ -28,7 +28,8 @@ inline void add_edges(picture::annotation& drawing, const gnomon::oriented_box& 
     };
     for (unsigned from = 0; from < 8; ++from)
         for (unsigned axis = 1; axis < 8; axis *= 2)
-            if ((from & axis) == 0) drawing.strokes.push_back({corner(from), corner(from | axis), tint});
+            if ((from & axis) == 0)
+                drawing.strokes.push_back({corner(from), corner(from | axis), tint});
 }
 
 inline picture::image picture_of(const gnomon::scan& scan, const scan_objects& found,
@@ -47,13 +48,15 @@ inline picture::image picture_of(const gnomon::scan& scan, const scan_objects& f
         drawing.texts.push_back({o.box.center + 0.5 * o.box.lengths[2] * up, text, tint});
     }
     constexpr std::size_t k = 12;
-    const auto surface = gnomon::estimate_normals(scan, gnomon::knn{.k = k}, gnomon::plane_pca{}, threads);
+    const auto surface =
+        gnomon::estimate_normals(scan, gnomon::knn{.k = k}, gnomon::plane_pca{}, threads);
     std::vector<picture::splat> splats;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!gnomon::is_finite(scan.points[i])) continue;
         const std::int32_t object = found.seen.groups.labels()[i];
-        const std::int32_t label =
-            object == gnomon::unlabeled ? object : color_of_object[static_cast<std::size_t>(object)];
+        const std::int32_t label = object == gnomon::unlabeled
+                                       ? object
+                                       : color_of_object[static_cast<std::size_t>(object)];
         // As in of_perception.hpp: points that fill a disc.
         const double spacing =
             1.5 * surface[i].mean_distance * std::sqrt(std::numbers::pi / static_cast<double>(k));

@@ -46,12 +46,18 @@ inline std::string description_of(const rec::evidence& e, const rec::view& v) {
                (e.second == rec::term::none ? "the other points" : name_of(v.parts[e.second], v));
     };
     switch (e.kind) {
-        case rec::term_kind::part: return description_of(v.parts[e.first], v);
-        case rec::term_kind::pair: return both(" with ");
-        case rec::term_kind::missing_pair: return both(" not as usual with ");
-        case rec::term_kind::part_count: return "number of parts";
-        case rec::term_kind::rest: return "other points and small parts";
-        case rec::term_kind::prior: break;
+        case rec::term_kind::part:
+            return description_of(v.parts[e.first], v);
+        case rec::term_kind::pair:
+            return both(" with ");
+        case rec::term_kind::missing_pair:
+            return both(" not as usual with ");
+        case rec::term_kind::part_count:
+            return "number of parts";
+        case rec::term_kind::rest:
+            return "other points and small parts";
+        case rec::term_kind::prior:
+            break;
     }
     return "frequency of the class";
 }

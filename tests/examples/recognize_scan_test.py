@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""Learns furniture, and recognizes it in simulated rooms: results, exit status and messages of the
+"""Learning of furniture, and its recognition in simulated rooms: results, exit status and messages of the
 programs learn_objects and recognize_scan, and of segment_scan --model.
 
     recognize_scan_test.py LEARN_OBJECTS RECOGNIZE_SCAN SEGMENT_SCAN SIMULATE_SCAN

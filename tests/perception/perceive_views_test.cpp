@@ -30,10 +30,6 @@ struct room_of_tables {
             scan.points.push_back(origin + Eigen::Vector3d(x + noise(), y + noise(), z + noise()));
             table_of.push_back(table);
         };
-        for (int i = 0; has_room && i < 100; ++i) {
-            for (int j = 0; j < 100; ++j) add(-1, 0.04 * i, 0.04 * j - 2.0, 0.0);
-            for (int j = 0; j < 50; ++j) add(-1, 4.0, 0.04 * i - 2.0, 0.04 * j);
-        }
         for (std::size_t t = 0; t < tables.size(); ++t) {
             const double x = tables[t].x(), y = tables[t].y();
             const int number = static_cast<int>(t);
@@ -42,6 +38,10 @@ struct room_of_tables {
                     add(number, x + 0.02 * i - 0.3, y + 0.02 * j - 0.3, 0.7);
             for (int k = 0; k < 34; ++k)
                 for (int a = 0; a < 6; ++a) add(number, x + 0.01 * a, y, 0.02 * k);
+        }
+        for (int i = 0; has_room && i < 100; ++i) {
+            for (int j = 0; j < 100; ++j) add(-1, 0.04 * i, 0.04 * j - 2.0, 0.0);
+            for (int j = 0; j < 50; ++j) add(-1, 4.0, 0.04 * i - 2.0, 0.04 * j);
         }
         scan.viewpoints = Eigen::Vector3d(origin + Eigen::Vector3d(-1.0, 0.0, 1.3));
     }
@@ -69,8 +69,7 @@ TEST(perceive_views, finds_each_object_of_a_room_without_floor_and_wall) {
             const rec::part& top = seen.views[v].parts.front();
             EXPECT_NEAR(top.highest, 0.7, 0.02);
             // Its points are those of the segment, on the same table.
-            for (const gnomon::point_index i :
-                 seen.parts[static_cast<std::size_t>(top.segment)])
+            for (const gnomon::point_index i : seen.parts[static_cast<std::size_t>(top.segment)])
                 EXPECT_EQ(room.table_of[i], table);
         }
         std::sort(tables.begin(), tables.end());
@@ -86,8 +85,8 @@ TEST(perceive_views, gap_decides_what_is_one_object) {
 
 TEST(perceive_views, a_single_object_has_one_view_however_wide_its_gaps) {
     const room_of_tables alone({{1.0, 0.0}, {1.0, 1.5}}, false);
-    const auto seen = rec::perceive_views(
-        alone.scan, {.ground = gnomon::plane{}, .gap = rec::infinite_gap});
+    const auto seen =
+        rec::perceive_views(alone.scan, {.ground = gnomon::plane{}, .gap = rec::infinite_gap});
     ASSERT_EQ(seen.views.size(), 1u);
     EXPECT_GE(seen.views[0].parts.size(), 2u);
     EXPECT_EQ(seen.views[0].ground->offset, 0.0);
@@ -112,7 +111,8 @@ TEST(perceive_views, a_view_of_a_room_is_that_of_the_object_alone) {
 
 TEST(perceive_views, does_not_depend_on_the_number_of_threads) {
     const room_of_tables room({{1.0, -1.0}, {2.0, 1.0}});
-    const auto a = rec::perceive_views(room.scan), b = rec::perceive_views(room.scan, {}, gnomon::threads{3});
+    const auto a = rec::perceive_views(room.scan),
+               b = rec::perceive_views(room.scan, {}, gnomon::threads{3});
     EXPECT_EQ(a.groups, b.groups);
     EXPECT_EQ(a.parts, b.parts);
     ASSERT_EQ(a.views.size(), b.views.size());
@@ -145,10 +145,17 @@ TEST(perceive_views, degenerate_scans_have_no_views) {
 TEST(perceive_views, options_out_of_range_are_refused) {
     const std::vector<Eigen::Vector3d> points(100, Eigen::Vector3d(1, 2, 3));
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-    for (const rec::perceive_views_options& wrong :
-         {rec::perceive_views_options{.gap = -1.0}, {.gap = nan}, {.cell = 0.0}, {.cell = nan},
-          {.k = 2}, {.reach = 0.0}, {.reach = nan}, {.max_length = -1.0}, {.max_length = nan},
-          {.up = Eigen::Vector3d(0, 0, 2)}, {.ground = gnomon::plane{{0, 0, 2}, 0.0}}})
+    for (const rec::perceive_views_options& wrong : {rec::perceive_views_options{.gap = -1.0},
+                                                     {.gap = nan},
+                                                     {.cell = 0.0},
+                                                     {.cell = nan},
+                                                     {.k = 2},
+                                                     {.reach = 0.0},
+                                                     {.reach = nan},
+                                                     {.max_length = -1.0},
+                                                     {.max_length = nan},
+                                                     {.up = Eigen::Vector3d(0, 0, 2)},
+                                                     {.ground = gnomon::plane{{0, 0, 2}, 0.0}}})
         EXPECT_THROW(static_cast<void>(rec::perceive_views(points, wrong)), std::invalid_argument);
 }
 

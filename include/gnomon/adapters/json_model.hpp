@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Model files of object_recognizer, in JSON by nlohmann-json. The trees are not in
+/// Files of trained object_recognizers, in JSON by nlohmann-json. The trees are not in
 /// them: they are grown again from the samples, the same to the last bit. Link with gnomon::json.
 ///
 ///     namespace rec = gnomon::recognition;
@@ -67,14 +67,14 @@ void require_usable(const json_place& file, const Recognizer& made,
     const json_place samples = file["samples"];
     const std::size_t columns = made.descriptor().describe({}, {}, {}, false).size();
     samples["columns"].require(c.samples.columns == columns,
-                               "must be " + std::to_string(columns) + " for these features");
+                               "must be " + std::to_string(columns) + " with these features");
     samples["values"].require(c.samples.values.size() == columns * c.samples.rows(),
                               "must be rows times columns");
     for (const std::uint32_t number : c.samples.classes)
         samples["classes"].require(number < c.names.size(), "has the number of a missing class");
-    file["sources"].require(c.sources.size() == c.samples.rows() &&
-                                std::is_sorted(c.sources.begin(), c.sources.end()),
-                            "must have an entry for each sample, ascending");
+    file["sources"].require(
+        c.sources.size() == c.samples.rows() && std::is_sorted(c.sources.begin(), c.sources.end()),
+        "must have an entry for each sample, ascending");
 }
 
 /// The double with the fewest digits that is this number in single precision.
@@ -95,8 +95,8 @@ void require_usable(const json_place& file, const Recognizer& made,
 /// is.
 /// @throws gnomon::error          with the operating system's message
 /// @throws std::invalid_argument  if two features or two relations have the same name, a class name
-///                                is not UTF-8, or a sample is not in single precision, as restore()
-///                                may have left it
+///                                is not UTF-8, or a sample is not in single precision, as
+///                                restore() may have left it
 template <class Features, class Relations>
 void write_model(const std::string& path, const object_recognizer<Features, Relations>& model) {
     detail::json file{{"version", detail::model_version}};
@@ -115,8 +115,8 @@ void write_model(const std::string& path, const object_recognizer<Features, Rela
     io::replace_file(path, text);
 }
 
-/// Reads a model, and grows its trees. Scales, weights and the numbers of the relations are those of
-/// the file.
+/// Reads a model, and grows its trees. Scales, weights and the numbers of the relations are those
+/// of the file.
 /// @param file  path of the file, or its name and contents
 /// @param run   the result does not depend on it
 /// @param like  a recognizer with the features and relations of the file
@@ -126,13 +126,11 @@ void write_model(const std::string& path, const object_recognizer<Features, Rela
 ///                        type, or numbers that contradict each other. All is checked before a
 ///                        recognizer is made
 /// Complexity: O(file), and that of the trees.
-template <execution X = sequential,
-          class Features = std::remove_cv_t<decltype(default_features)>,
+template <execution X = sequential, class Features = std::remove_cv_t<decltype(default_features)>,
           class Relations = std::remove_cv_t<decltype(default_relations)>>
 [[nodiscard]] object_recognizer<Features, Relations> read_model(
     const io::input& file, const X& run = {},
-    const object_recognizer<Features, Relations>& like =
-        object_recognizer<Features, Relations>{}) {
+    const object_recognizer<Features, Relations>& like = object_recognizer<Features, Relations>{}) {
     detail::json parsed;
     try {
         parsed = detail::json::parse(file.bytes);
@@ -168,13 +166,11 @@ template <execution X = sequential,
     return model;
 }
 /// The same, of a path.
-template <execution X = sequential,
-          class Features = std::remove_cv_t<decltype(default_features)>,
+template <execution X = sequential, class Features = std::remove_cv_t<decltype(default_features)>,
           class Relations = std::remove_cv_t<decltype(default_relations)>>
 [[nodiscard]] object_recognizer<Features, Relations> read_model(
     const std::string& path, const X& run = {},
-    const object_recognizer<Features, Relations>& like =
-        object_recognizer<Features, Relations>{}) {
+    const object_recognizer<Features, Relations>& like = object_recognizer<Features, Relations>{}) {
     return read_model(io::load(path), run, like);
 }
 

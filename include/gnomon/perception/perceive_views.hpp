@@ -58,17 +58,17 @@ struct perceive_views_options {
     /// Heights that are left out. Legs without a floor are cut as those on a floor.
     crop_height_options bands{};
     std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
-    double gap = 0.10;          ///< largest distance of nearest points within a view [m]
+    double gap = 0.10;          ///< between nearest points of a view, at most [m]; Sec. 5.5.1
     std::size_t min_parts = 1;  ///< views of fewer parts are dropped
     /// Cells [m] to whose means dense scans are thinned first; chosen: finer than the parts of
     /// furniture, and 20 cells are wider than a noise of 1 cm.
     double cell = 0.01;
     std::size_t min_points = 60;  ///< least cells of a view; chosen on rooms, seeds 1 to 8
     /// Most neighbors of a cell: 50 span several surfaces of a chair at 4 m. Half as many cells are
-    /// the least of a part. Chosen on furniture_models(), seed 7.
+    /// the least of a part; chosen on furniture_models(), seed 7.
     std::size_t k = 20;
     /// In sparse scans a cell has as many neighbors as are within this distance in the median [m],
-    /// but at least 10. Chosen on furniture_models(), seed 7.
+    /// but at least 10; chosen on furniture_models(), seed 7.
     double reach = 0.05;
     /// Surfaces that are longer [m] are walls and belong to no view; chosen: the longest of
     /// furniture_models() is 1.8 m.
@@ -89,31 +89,29 @@ struct perceive_views_options {
 struct perceived_views {
     std::optional<plane> ground;  ///< as given, or the floor if it was found
     std::vector<view> views;      ///< the one of most cells first
-    segments parts;               ///< of the n points; part::segment counts them
+    segments parts;               ///< of the n points; part::segment refers to these
     segments groups;              ///< of the n points: those of each view, with points of no part
 };
 
 namespace detail {
 
-/// The points that may belong to objects, ascending: those between floor and ceiling, or all finite
-/// ones if no floor is known.
-/// @param ground  the floor, which is searched for if it is not known
+/// The finite points above the given ground, or between floor and ceiling if these are found.
 template <class R, class Proj>
-[[nodiscard]] std::vector<point_index> without_floor(const R& points,
-                                                     const position_view<R, Proj>& position,
-                                                     const perceive_views_options& options,
-                                                     std::optional<plane>& ground,
-                                                     const Proj& projection) {
+[[nodiscard]] std::vector<point_index> between_floor_and_ceiling(
+    const R& points, const perceive_views_options& options, std::optional<plane>& ground,
+    Proj projection) {
+    ground = options.ground;
     std::optional<double> ceiling;
     if (!ground) {
         ground = find_floor(points, options.up, {}, projection);
         if (ground) ceiling = find_ceiling(points, *ground, {}, projection);
     }
     if (ground) return crop_height(points, *ground, ceiling, options.bands, projection);
-    std::vector<point_index> kept;
+    const position_view<R, Proj> position(points, projection);
+    std::vector<point_index> finite;
     for (std::size_t i = 0; i < position.size(); ++i)
-        if (is_finite(position[i])) kept.push_back(static_cast<point_index>(i));
-    return kept;
+        if (is_finite(position[i])) finite.push_back(static_cast<point_index>(i));
+    return finite;
 }
 
 /// Surfaces of a group of cells.
@@ -163,9 +161,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
     options.require_valid();
     const auto& team = gnomon::detail::staying(run);
     perceived_views result;
-    result.ground = options.ground;
-    const position_view<R, Proj> position(points, projection);
-    const auto kept = detail::without_floor(points, position, options, result.ground, projection);
+    const auto kept = detail::between_floor_and_ceiling(points, options, result.ground, projection);
     const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                       {.edge = options.cell}, team);
     constexpr std::size_t fewest = 4;  // formula: a plane and a residual
@@ -195,7 +191,7 @@ template <class R, execution X = sequential, class Proj = std::identity>
         }
     }
     const auto of_points = [&](const std::vector<std::int32_t>& of_cells) {
-        std::vector<std::int32_t> labels(position.size(), unlabeled);
+        std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
         for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cells[cells.of_point[i]];
         return segments(std::move(labels));
     };

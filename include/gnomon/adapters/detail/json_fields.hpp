@@ -107,8 +107,8 @@ class json_place {
             to = value_.get<std::string>();
         } else if constexpr (has_json_fields<T>) {
             boost::hana::for_each(json_fields<T>, [&](const auto& field) {
-                (*this)[std::string(boost::hana::first(field))].read(
-                    to.*boost::hana::second(field));
+                (*this)[std::string(boost::hana::first(field))].read(to.*
+                                                                     boost::hana::second(field));
             });
         } else {
             require(value_.is_array(), "must be an array");

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The fields of learned_views, and the values of its features and
+/// The fields of a trained object_recognizer, and the numbers of its features and
 /// relations, in a model file.
 #pragma once
 
@@ -25,10 +25,10 @@
 namespace gnomon::recognition::detail {
 
 template <>
-inline constexpr auto json_fields<random_trees_options> = boost::hana::make_tuple(
-    boost::hana::make_pair("trees", &random_trees_options::trees),
-    boost::hana::make_pair("seed", &random_trees_options::seed),
-    boost::hana::make_pair("min_split", &random_trees_options::min_split));
+inline constexpr auto json_fields<random_trees_options> =
+    boost::hana::make_tuple(boost::hana::make_pair("trees", &random_trees_options::trees),
+                            boost::hana::make_pair("seed", &random_trees_options::seed),
+                            boost::hana::make_pair("min_split", &random_trees_options::min_split));
 
 template <>
 inline constexpr auto json_fields<object_recognizer_options> = boost::hana::make_tuple(
@@ -37,27 +37,27 @@ inline constexpr auto json_fields<object_recognizer_options> = boost::hana::make
     boost::hana::make_pair("min_probability", &object_recognizer_options::min_probability));
 
 template <std::size_t D>
-inline constexpr auto json_fields<cluster_statistics<D>> = boost::hana::make_tuple(
-    boost::hana::make_pair("count", &cluster_statistics<D>::count),
-    boost::hana::make_pair("mean", &cluster_statistics<D>::mean),
-    boost::hana::make_pair("scatter", &cluster_statistics<D>::scatter));
+inline constexpr auto json_fields<cluster_statistics<D>> =
+    boost::hana::make_tuple(boost::hana::make_pair("count", &cluster_statistics<D>::count),
+                            boost::hana::make_pair("mean", &cluster_statistics<D>::mean),
+                            boost::hana::make_pair("scatter", &cluster_statistics<D>::scatter));
 
 template <>
-inline constexpr auto json_fields<labeled_samples> = boost::hana::make_tuple(
-    boost::hana::make_pair("columns", &labeled_samples::columns),
-    boost::hana::make_pair("classes", &labeled_samples::classes),
-    boost::hana::make_pair("values", &labeled_samples::values));
+inline constexpr auto json_fields<labeled_samples> =
+    boost::hana::make_tuple(boost::hana::make_pair("columns", &labeled_samples::columns),
+                            boost::hana::make_pair("classes", &labeled_samples::classes),
+                            boost::hana::make_pair("values", &labeled_samples::values));
 
 /// The members of object_recognizer<...>::content.
 template <class Content>
     requires requires(Content c) { c.words, c.samples, c.sources; }
-inline constexpr auto json_fields<Content> = boost::hana::make_tuple(
-    boost::hana::make_pair("options", &Content::options),
-    boost::hana::make_pair("temperature", &Content::temperature),
-    boost::hana::make_pair("classes", &Content::names),
-    boost::hana::make_pair("words", &Content::words),
-    boost::hana::make_pair("sources", &Content::sources),
-    boost::hana::make_pair("samples", &Content::samples));
+inline constexpr auto json_fields<Content> =
+    boost::hana::make_tuple(boost::hana::make_pair("options", &Content::options),
+                            boost::hana::make_pair("temperature", &Content::temperature),
+                            boost::hana::make_pair("classes", &Content::names),
+                            boost::hana::make_pair("words", &Content::words),
+                            boost::hana::make_pair("sources", &Content::sources),
+                            boost::hana::make_pair("samples", &Content::samples));
 
 /// Calls f(list, value) for the numbers of a feature or a relation that values of views depend on.
 inline constexpr auto for_each_number = [](auto& policy, auto&& f) {
@@ -79,9 +79,8 @@ void write_policies(json& file, const char* list, const auto& policies) {
             std::find(file[list].begin(), file[list].end(), name) == file[list].end(),
             "write_model: two features or relations have the same name");
         file[list].push_back(name);
-        for_each_number(policy, [&](const char* numbers, const auto& value) {
-            file[numbers][name] = value;
-        });
+        for_each_number(
+            policy, [&](const char* numbers, const auto& value) { file[numbers][name] = value; });
     });
 }
 

@@ -56,9 +56,8 @@ template <class R>
         walls.push_back({n, gnomon::detail::dot(n, shape.frame.centroid)});
     }
     const auto is_near_wall = [&](const Eigen::Vector3d& x) {
-        return std::any_of(walls.begin(), walls.end(), [&](const plane& w) {
-            return std::abs(w.signed_distance(x)) <= band;
-        });
+        return std::any_of(walls.begin(), walls.end(),
+                           [&](const plane& w) { return std::abs(w.signed_distance(x)) <= band; });
     };
     std::vector<point_index> left;
     for (std::size_t i = 0; i < parts.labels().size(); ++i) {
