@@ -249,7 +249,7 @@ TEST(object_recognizer, knows_versions_of_a_view) {
 }
 
 /// Calibration leaves out views with all their versions: of labels without meaning, nothing is
-/// certain. If it judged the samples that the trees were grown on, all would be.
+/// certain. If it tested on the samples that the trees were grown on, all would be.
 TEST(object_recognizer, is_calibrated_on_views_that_are_left_out) {
     for (const bool has_versions : {false, true}) {
         rec::object_recognizer model(few_trees);
