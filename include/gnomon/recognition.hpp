@@ -8,6 +8,7 @@
 #include <gnomon/recognition/cluster.hpp>
 #include <gnomon/recognition/greedy_means.hpp>
 #include <gnomon/recognition/height_profile.hpp>
+#include <gnomon/recognition/labeled_samples.hpp>
 #include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/normality.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>

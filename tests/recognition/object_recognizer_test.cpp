@@ -174,7 +174,11 @@ TEST(object_recognizer, obeys_the_laws) {
 TEST(object_recognizer, explains_views_of_many_parts) {
     auto v = some_views::fresh().views[0];
     const auto parts = v.parts;
-    for (int i = 0; i < 3; ++i) v.parts.insert(v.parts.end(), parts.begin(), parts.end());
+    v.parts.insert(v.parts.end(), parts.begin(), parts.end());
+    for (const std::size_t other : {2u, 1u, 5u}) {  // of shelves and a table
+        const auto& more = some_views::fresh().views[other].parts;
+        v.parts.insert(v.parts.end(), more.begin(), more.end());
+    }
     ASSERT_GT(v.parts.size(), 20u);
     const auto found = furniture_recognizer().explain(v);
     EXPECT_EQ(found.evidence.size(), 2u + 12u + 12u * 13u / 2u);
@@ -245,7 +249,7 @@ TEST(object_recognizer, knows_versions_of_a_view) {
 }
 
 /// Calibration leaves out views with all their versions: of labels without meaning, nothing is
-/// certain. If it were measured on the samples that the trees were grown on, all would be.
+/// certain. If it tested on the samples that the trees were grown on, all would be.
 TEST(object_recognizer, is_calibrated_on_views_that_are_left_out) {
     for (const bool has_versions : {false, true}) {
         rec::object_recognizer model(few_trees);

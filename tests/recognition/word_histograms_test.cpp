@@ -80,7 +80,7 @@ TEST(scaled_by_largest, needs_the_ground_and_leaves_other_features_alone) {
     EXPECT_THROW((void)rec::scaled_by_largest(rec::thesis_features, views), std::invalid_argument);
 }
 
-/// Boards without noise have no volume; that of a new view is finite.
+/// Boards without noise have no volume; that of a new view stays small.
 TEST(scaled_by_largest, has_scales_where_all_values_of_the_training_set_are_zero) {
     gnomon::random_stream random(1);
     some_views::cloud flat;

@@ -20,7 +20,8 @@ namespace gnomon::recognition {
 
 /// The temperature under which the true classes have the largest likelihood, on a grid from 1/4 to
 /// 55 in steps of 5 %.
-/// @param log_likelihoods  of views that were not learned, for every class; empty ones are ignored
+/// @param log_likelihoods  of views that were not learned, for every class; empty ones are ignored;
+/// without any, it is 1
 /// @param classes          the true class of each view
 /// @throws std::invalid_argument  if they differ in number, or a class is too large
 /// Complexity: O(n * classes) for n views.
@@ -28,6 +29,9 @@ namespace gnomon::recognition {
                                             std::span<const std::uint32_t> classes) {
     gnomon::detail::require(log_likelihoods.size() == classes.size(),
                             "fit_temperature: views and classes differ in number");
+    if (std::all_of(log_likelihoods.begin(), log_likelihoods.end(),
+                    [](const auto& l) { return l.empty(); }))
+        return 1.0;
     constexpr double step = 0.05, least = 1e-300;  // the latter, numerical: against log(0)
     double best = 1.0, best_loss = std::numeric_limits<double>::infinity();
     for (int k = -28; k <= 80; ++k) {

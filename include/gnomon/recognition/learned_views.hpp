@@ -13,6 +13,7 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/recognition/cluster.hpp>
+#include <gnomon/recognition/labeled_samples.hpp>
 #include <gnomon/recognition/random_trees.hpp>
 
 namespace gnomon::recognition {
@@ -43,15 +44,16 @@ struct learned_views {
     void require_consistent() const {
         using gnomon::detail::require;
         const std::size_t n = samples.rows();
-        require(names.size() > 1 && n > 0 && sources.size() == n &&
-                    samples.values.size() == n * samples.columns,
+        require(names.size() > 1 && n > 0 && sources.size() == n,
                 "object_recognizer: samples, classes and sources do not fit together");
+        samples.require_valid(names.size());
         require(options.min_probability >= 0.0 && options.min_probability <= 1.0,
                 "object_recognizer: min_probability must be in [0, 1]");
-        for (const std::uint32_t c : samples.classes)
-            require(c < names.size(), "object_recognizer: a sample has no class");
-        for (const double x : samples.values)
-            require(std::isfinite(x), "object_recognizer: a sample is not finite");
+        for (std::size_t c = 0; c < names.size(); ++c)
+            require(!names[c].empty() &&
+                        std::find(names.begin(), names.begin() + static_cast<std::ptrdiff_t>(c),
+                                  names[c]) == names.begin() + static_cast<std::ptrdiff_t>(c),
+                    "object_recognizer: a class has no name, or that of another one");
         require(temperature > 0.0 && std::isfinite(temperature),
                 "object_recognizer: the temperature must be finite and positive");
         for (const auto& w : words)

@@ -67,10 +67,12 @@ class object_recognizer {
 
     /// Learns versions of one view of an object: the view itself, and others of the same scan of
     /// which a part is hidden. Words grow; fit() is to follow.
-    /// @throws std::invalid_argument  if the name is empty, or a view has no ground where one is
+    /// @throws std::invalid_argument  if there is no name or view, or a view has no ground where
+    /// one is
     ///                                needed; nothing is learned then
     void learn(std::span<const view> versions, std::string_view name) {
-        gnomon::detail::require(!name.empty(), "object_recognizer: a class needs a name");
+        gnomon::detail::require(!name.empty() && !versions.empty(),
+                                "object_recognizer: a class needs a name and a view");
         std::vector<std::vector<double>> described;
         std::vector<typename descriptor_type::measured> measured;
         for (const view& v : versions) {
@@ -153,7 +155,9 @@ class object_recognizer {
             for (std::size_t i = n; has_rest && i < v.parts.size(); ++i) chosen.push_back(i);
             return log_likelihood_of(descriptor_.describe(v, m, chosen, has_rest));
         };
-        std::vector<term> terms = detail::interaction_terms(n + 1, log_prior(), f);
+        const std::vector<double> equal_classes(classes(),
+                                                -std::log(static_cast<double>(classes())));
+        std::vector<term> terms = detail::interaction_terms(n + 1, equal_classes, f);
         for (term& t : terms) {
             if (t.kind == term_kind::part && t.first < n) t.word = nearest_word(m.parts[t.first]);
             if (t.kind == term_kind::part && t.first == n) t.kind = term_kind::rest;
@@ -169,11 +173,10 @@ class object_recognizer {
         return log_likelihood_of(descriptor_(v));
     }
 
-    /// The decision on a view, without its evidence.
+    /// The decision on a view, without its evidence, and with it.
     [[nodiscard]] decision decide(const view& v) const {
         return recognition::decide(*this, v, decision_options());
     }
-    /// The decision on a view, with its evidence.
     [[nodiscard]] decision explain(const view& v) const {
         return recognition::explain(*this, v, decision_options());
     }
@@ -208,19 +211,16 @@ class object_recognizer {
     /// In single precision, which halves a model file.
     [[nodiscard]] static std::vector<double> rounded(std::vector<double> d) {
         constexpr double largest = 1e30;  // numerical: finite in single precision
-        for (double& x : d)
-            x = static_cast<double>(static_cast<float>(std::clamp(x, -largest, largest)));
+        for (double& x : d) {
+            gnomon::detail::require(std::abs(x) <= largest,
+                                    "object_recognizer: a feature or a relation is too large");
+            x = static_cast<double>(static_cast<float>(x));
+        }
         return d;
     }
 
     void require_fitted() const {
         gnomon::detail::require(trees_.classes() > 0, "object_recognizer: fit() it first");
-    }
-
-    /// That of equally frequent classes.
-    [[nodiscard]] std::vector<double> log_prior() const {
-        const auto n = static_cast<double>(classes());
-        return std::vector<double>(classes(), -std::log(n));
     }
 
     [[nodiscard]] std::vector<double> log_likelihood_of(std::vector<double> sample) const {

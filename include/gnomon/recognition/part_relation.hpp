@@ -85,11 +85,12 @@ struct plane_offset {
     double min_deviation = 0.02;
     [[nodiscard]] double operator()(const part& a, const part& b) const {
         const auto extent = [](const part& p) { return p.shape.frame.spectrum.lambda[0]; };
-        const part& larger = extent(a) < extent(b) ? b : a;
-        const part& smaller = extent(a) < extent(b) ? a : b;
-        return std::abs(gnomon::detail::dot(
-            smaller.shape.normal,
-            gnomon::detail::difference(larger.shape.frame.centroid, smaller.shape.frame.centroid)));
+        const Eigen::Vector3d way =
+            gnomon::detail::difference(a.shape.frame.centroid, b.shape.frame.centroid);
+        const double of_a = std::abs(gnomon::detail::dot(a.shape.normal, way));
+        const double of_b = std::abs(gnomon::detail::dot(b.shape.normal, way));
+        if (extent(a) == extent(b)) return std::max(of_a, of_b);
+        return extent(a) < extent(b) ? of_a : of_b;
     }
 };
 

@@ -79,7 +79,8 @@ struct decision {
     double log_ratio = 0.0;               ///< log of the ratio of best to second
     std::vector<recognition::evidence> evidence;  ///< its sum is log_ratio, up to rounding
 
-    /// Whether no object was recognized: nothing was certain, there were no parts, or the view
+    /// Whether no object was recognized: nothing was certain, there were no parts or terms, or the
+    /// view
     /// shows something else.
     [[nodiscard]] bool is_background() const { return !is_certain || is_of_background_class; }
 };
@@ -106,8 +107,9 @@ struct decision {
 
 /// The decision on terms.
 /// @param has_parts  whether the view has parts; without, it is background
-/// @throws std::invalid_argument  if there is no class, a term has another number of them, P_d is
-///                                not in [0, 1], or the temperature is not positive and finite
+/// @throws std::invalid_argument  if there is no class, a term has another number of them or
+///                                is NaN, every class is excluded, P_d is not in [0, 1], or the
+///                                temperature is not positive and finite
 /// Complexity: O(terms * classes). Source: Klasing 2010, Eqs. (5.9) to (5.17), Sec. 5.5.2.
 [[nodiscard]] inline decision decide(std::span<const term> terms, std::size_t classes,
                                      bool has_parts, const decide_options& options = {}) {
@@ -119,16 +121,19 @@ struct decision {
             "decide: the temperature must be finite and positive");
     for (const term& t : terms)
         require(t.log_likelihood.size() == classes, "decide: a term has another number of classes");
+    const std::vector<double> sum = sum_of(terms, classes);
     decision d;
-    d.probability = softmax(sum_of(terms, classes), options.temperature);
-    const auto& p = d.probability;
-    d.best = static_cast<std::size_t>(std::max_element(p.begin(), p.end()) - p.begin());
-    d.is_certain = has_parts && p[d.best] >= options.min_probability;
+    d.best = static_cast<std::size_t>(std::max_element(sum.begin(), sum.end()) - sum.begin());
+    for (const double x : sum)
+        require(x <= sum[d.best] && std::isfinite(sum[d.best]),
+                "decide: log-likelihoods are NaN, or exclude every class");
+    d.probability = softmax(sum, options.temperature);
+    d.is_certain = has_parts && !terms.empty() && d.probability[d.best] >= options.min_probability;
     d.is_of_background_class = d.best == options.background_class;
     if (classes == 1) return d;
     d.second = d.best == 0 ? 1 : 0;
     for (std::size_t c = 0; c < classes; ++c)
-        if (c != d.best && p[c] > p[d.second]) d.second = c;
+        if (c != d.best && sum[c] > sum[d.second]) d.second = c;
     d.evidence.reserve(terms.size());
     for (const term& t : terms) {
         const double ratio =

@@ -18,6 +18,7 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/random.hpp>
+#include <gnomon/recognition/labeled_samples.hpp>
 
 namespace gnomon::recognition {
 
@@ -26,24 +27,6 @@ struct random_trees_options {
     std::size_t trees = 200;    ///< more are better, and take longer
     std::uint64_t seed = 1;     ///< the same one gives the same trees
     std::size_t min_split = 2;  ///< nodes of fewer samples are leaves
-};
-
-/// Samples in rows of equal length, with their classes.
-struct labeled_samples {
-    std::size_t columns = 0;
-    std::vector<double> values;          ///< rows * columns, finite
-    std::vector<std::uint32_t> classes;  ///< of each row
-
-    [[nodiscard]] std::size_t rows() const { return classes.size(); }
-    [[nodiscard]] std::span<const double> row(std::size_t i) const {
-        return {values.data() + i * columns, columns};
-    }
-    /// Precondition: the sample has `columns` values, or is the first one.
-    void add(std::span<const double> sample, std::uint32_t its_class) {
-        columns = sample.size();
-        values.insert(values.end(), sample.begin(), sample.end());
-        classes.push_back(its_class);
-    }
 };
 
 /// Trees that were grown on samples.
@@ -55,7 +38,8 @@ class random_trees {
     /// @param samples  at least one
     /// @param classes  number of classes, above that of every sample
     /// @param run      the result does not depend on it
-    /// @throws std::invalid_argument  if there are no samples or trees, or a class is too large
+    /// @throws std::invalid_argument  if there are no samples or trees, numbers do not fit
+    ///                                together, a value is not finite, or a class is too large
     /// Complexity: O(trees * n log(n) * sqrt(columns)) for n samples.
     template <execution X = sequential>
     random_trees(const labeled_samples& samples, std::size_t classes,
@@ -63,9 +47,8 @@ class random_trees {
         : classes_(classes), trees_(options.trees) {
         using gnomon::detail::require;
         require(samples.rows() > 0 && samples.columns > 0, "random_trees: there are no samples");
+        samples.require_valid(classes);
         require(options.trees > 0, "random_trees: there must be trees");
-        for (const std::uint32_t c : samples.classes)
-            require(c < classes, "random_trees: a sample has no class");
         run(options.trees, [&](std::size_t t) {
             grower(samples, options, random_stream(options.seed, t), trees_[t]).grow(classes);
         });

@@ -61,8 +61,11 @@ template <class R, class Proj = std::identity>
         std::abs(axis[2]) < 0.9 ? Eigen::Vector3d(0.0, 0.0, 1.0) : Eigen::Vector3d(1.0, 0.0, 0.0);
     const Eigen::Vector3d left = d::direction_of(d::cross(other, axis)), up = d::cross(axis, left);
     const Eigen::Vector3d edge = d::combined(std::cos(turn), left, std::sin(turn), up);
-    for (auto& [place, i] : across)
-        place = d::dot(edge, d::direction_of(d::difference(position[i], viewpoint)));
+    // Of half-spaces through the view point, about the axis that is parallel to the edge.
+    const auto angle_of = [&](const Eigen::Vector3d& way) {
+        return std::atan2(d::dot(edge, way), d::dot(axis, way));
+    };
+    for (auto& [place, i] : across) place = angle_of(d::difference(position[i], viewpoint));
     std::sort(across.begin(), across.end());
     const auto n = static_cast<double>(across.size());
     across.resize(static_cast<std::size_t>(std::ceil((1.0 - share) * n)));

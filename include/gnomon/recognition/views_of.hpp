@@ -85,7 +85,7 @@ namespace detail {
 /// @param options  gap, least number of parts, and the ground, without which features that depend
 ///                 on heights are refused
 /// @param run      `sequential{}` or `threads{n}`; the result does not depend on it
-/// @return the views of at least `min_parts` parts, in the order of their largest segments
+/// @return the views of at least `min_parts` parts, in the order of their first segments
 /// @throws std::invalid_argument  if points, surface and segments differ in number, the gap is
 ///                                negative or NaN, or the normal of the ground not of unit length
 /// Complexity: O(n log n). Source: Klasing 2010, Sec. 5.5.1.
@@ -98,6 +98,8 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
     using gnomon::detail::require;
     require(parts.labels().size() == std::ranges::size(points),
             "views_of: points and segments differ in number");
+    require(std::ranges::size(surface) == std::ranges::size(points),
+            "views_of: points and normals differ in number");
     require(options.gap >= 0.0, "views_of: the gap must not be negative");
     if (options.ground) gnomon::detail::require_hesse(*options.ground);
     const auto& team = gnomon::detail::staying(run);

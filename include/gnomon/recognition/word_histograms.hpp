@@ -45,9 +45,10 @@ template <class Features>
 [[nodiscard]] Features scaled_by_largest(const Features& features, std::span<const view> views) {
     return boost::hana::transform(features, [&]<class F>(F f) {
         if constexpr (std::same_as<F, mean_height> || std::same_as<F, box_volume>) {
-            f.scale = std::numeric_limits<double>::min();
+            double largest = 0.0;
             for (const view& v : views)
-                for (const part& p : v.parts) f.scale = std::max(f.scale, f(p, v));
+                for (const part& p : v.parts) largest = std::max(largest, f(p, v));
+            if (largest > 0.0) f.scale = largest;
         }
         return f;
     });
@@ -104,6 +105,11 @@ class word_histograms {
         using gnomon::detail::require;
         require(views.size() == of_view.size(),
                 "word_histograms: views and classes differ in number");
+        require(options.smoothing > 0.0 && std::isfinite(options.smoothing),
+                "word_histograms: smoothing must be positive");
+        std::size_t parts = 0;
+        for (const view& v : views) parts += v.parts.size();
+        require(clusters.labels.size() == parts, "word_histograms: a clustering of other parts");
         for (const std::uint32_t c : of_view)
             require(c < classes, "word_histograms: a class is too large");
         detect_.words = make_vocabulary<D>(clusters.clusters,
