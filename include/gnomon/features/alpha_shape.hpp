@@ -159,9 +159,7 @@ alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj pr
     const detail::planar_delaunay triangulation(std::move(projected));
     detail::alpha_complex complex(triangulation);
     shape.polygons = detail::polygons_of(complex, triangulation.points());
-    const auto index = [&](std::uint32_t v) { return triangulation.points()[v].index; };
-    for (const auto& [a, b, c] : complex.triangles())
-        shape.triangles.push_back({index(a), index(b), index(c)});
+    shape.triangles = complex.triangles();
     for (polygon& part : shape.polygons) {
         part.area = part.area / scale / scale;
         shape.area += part.area;

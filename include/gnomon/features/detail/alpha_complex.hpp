@@ -26,6 +26,7 @@ class alpha_complex {
 
     /// O(n) after the triangulation.
     explicit alpha_complex(const planar_delaunay& d) : d_(d), triangle_of_(d.edges(), none) {
+        triangles_.reserve(d.edges() / 3);  // three edges have one on their left
         for (edge e = 0; e < d.edges(); ++e) {
             if (d.is_removed(e) || triangle_of_[e] != none || !d.has_triangle(e)) continue;
             edge side = e;
@@ -37,11 +38,17 @@ class alpha_complex {
         unite_neighbors();
     }
 
-    /// The corners of each triangle, counterclockwise.
-    [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const {
-        std::vector<std::array<std::uint32_t, 3>> corners;
-        for (std::size_t t = 0; t < triangles_.size(); ++t)
-            if (is_kept_[t]) corners.push_back(corners_of(triangles_[t]));
+    /// The indices of the corners of each triangle, counterclockwise.
+    [[nodiscard]] std::vector<std::array<point_index, 3>> triangles() const {
+        std::vector<std::array<point_index, 3>> corners;
+        corners.reserve(
+            static_cast<std::size_t>(std::count(is_kept_.begin(), is_kept_.end(), true)));
+        const auto index = [&](std::uint32_t v) { return d_.points()[v].index; };
+        for (std::size_t t = 0; t < triangles_.size(); ++t) {
+            if (!is_kept_[t]) continue;
+            const auto [a, b, c] = corners_of(triangles_[t]);
+            corners.push_back({index(a), index(b), index(c)});
+        }
         return corners;
     }
 
@@ -93,7 +100,7 @@ class alpha_complex {
             for (const std::uint32_t v : corners_of(triangles_[t]))
                 largest[v] = std::max(largest[v], radii[t]);
         }
-        const std::vector<double> limits = limits_of(largest);
+        const std::vector<double> limits = limits_of(std::move(largest));
         is_kept_.resize(triangles_.size());
         for (std::size_t t = 0; t < triangles_.size(); ++t) {
             const auto [a, b, c] = corners_of(triangles_[t]);
@@ -104,66 +111,33 @@ class alpha_complex {
 
     /// The square of alpha at each point.
     /// @param largest  squared circumradius of the triangles at each point
-    [[nodiscard]] std::vector<double> limits_of(const std::vector<double>& largest) const {
+    [[nodiscard]] std::vector<double> limits_of(std::vector<double> largest) const {
         // pi density radius^2 of the triangles of random points is Gamma(2) (Miles 1970), and a
         // point has six. The largest of 10^6 triangles has 2.1 times the median of `largest`, and
         // 1.7 times its quantile 0.9.
         constexpr double from_median = 2.5 * 2.5;
         constexpr double from_high_quantile = 1.7 * 1.7;
+        constexpr std::size_t smallest = 512;  // several lines of points 1/100 as far apart
         const std::size_t n = largest.size();
-        std::vector<std::uint32_t> order(n);
-        for (std::uint32_t v = 0; v < n; ++v) order[v] = v;
-        const auto quantile = [&](double q, auto begin, auto end) {
-            const auto at =
-                begin + static_cast<std::ptrdiff_t>(q * static_cast<double>(end - begin - 1));
-            std::nth_element(begin, at, end, [&](std::uint32_t a, std::uint32_t b) {
-                return largest[a] < largest[b];
-            });
-            return largest[*at];
+        const auto quantile = [&largest](double q, std::size_t begin, std::size_t end) {
+            const auto at = [&](std::size_t i) {
+                return largest.begin() + static_cast<std::ptrdiff_t>(i);
+            };
+            const auto i = static_cast<std::size_t>(q * static_cast<double>(end - begin - 1));
+            std::nth_element(at(begin), at(begin + i), at(end));
+            return largest[begin + i];
         };
+        std::vector<double> limits(n);
+        d_.for_each_cell(smallest, [&](std::size_t begin, std::size_t end) {
+            const double limit = from_median * quantile(0.5, begin, end);
+            for (std::size_t v = begin; v < end; ++v) limits[v] = limit;
+        });
         // Where lines are wide for their distance, few points are at the gaps between them; those
         // on the border of the shape, about 6 sqrt(n) with an opening, have to be fewer.
         const double on_border = std::clamp(6.0 / std::sqrt(static_cast<double>(n)), 0.1, 0.5);
-        const double least =
-            from_high_quantile * quantile(1.0 - on_border, order.begin(), order.end());
-        std::vector<double> limits(n);
-        for_each_cell(order.begin(), order.end(), [&](auto begin, auto end) {
-            const double limit = std::max(least, from_median * quantile(0.5, begin, end));
-            for (auto v = begin; v != end; ++v) limits[*v] = limit;
-        });
+        const double least = from_high_quantile * quantile(1.0 - on_border, 0, n);
+        for (double& limit : limits) limit = std::max(least, limit);
         return limits;
-    }
-
-    /// Halves points across their larger extent, down to cells of about 1000.
-    template <class Iterator, class Visit>
-    void for_each_cell(Iterator begin, Iterator end, const Visit& visit) const {
-        constexpr std::ptrdiff_t smallest = 512;  // several lines of points 1/100 as far apart
-        if (end - begin < 2 * smallest) {
-            visit(begin, end);
-            return;
-        }
-        const auto x = [&](std::uint32_t v) { return d_.points()[v].x; };
-        const auto y = [&](std::uint32_t v) { return d_.points()[v].y; };
-        const auto halve = [&](const auto& coordinate, const auto& other) {
-            const Iterator middle = begin + (end - begin) / 2;
-            std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
-                return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b)
-                                                      : other(a) < other(b);
-            });
-            for_each_cell(begin, middle, visit);
-            for_each_cell(middle, end, visit);
-        };
-        if (extent(begin, end, x) > extent(begin, end, y))
-            halve(x, y);
-        else
-            halve(y, x);
-    }
-
-    template <class Iterator, class Coordinate>
-    [[nodiscard]] static double extent(Iterator begin, Iterator end, const Coordinate& of) {
-        const auto [low, high] =
-            std::minmax_element(begin, end, [&](auto a, auto b) { return of(a) < of(b); });
-        return of(*high) - of(*low);
     }
 
     [[nodiscard]] bool has_kept(edge e) const {
