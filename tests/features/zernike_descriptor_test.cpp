@@ -174,6 +174,17 @@ TEST(zernike_descriptor, keeps_its_digits) {
     EXPECT_LT(share_of_values(expected, zernike_descriptor::of(points)), 1e-8);
 }
 
+TEST(zernike_descriptor, is_the_same_on_any_number_of_threads) {
+    const auto points = clouds::in_cube(5000, 4);
+    for (const std::size_t voxels : {0u, 32u}) {
+        const gnomon::zernike_options options{.order = 8, .voxels = voxels};
+        const auto expected = zernike_descriptor::of(points, options);
+        for (const unsigned n : {2u, 3u, 8u})
+            EXPECT_EQ(zernike_descriptor::of(points, options, gnomon::threads{n}).values,
+                      expected.values);
+    }
+}
+
 TEST(zernike_descriptor, rejects_bad_arguments) {
     const auto points = clouds::in_cube(10, 1);
     EXPECT_THROW((void)zernike_descriptor::of(points, {.order = 21}), std::invalid_argument);

@@ -20,6 +20,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <utility>
 #include <vector>
 
@@ -84,7 +85,7 @@ namespace detail {
 struct closed_outline {
     std::vector<point_index> indices;
     double area = 0.0;            // positive if counterclockwise
-    std::uint32_t component = 0;  // of triangles
+    std::uint32_t component = 0;  // of the complex
 
     closed_outline(const std::vector<planar_point>& points, const alpha_complex::path& corners,
                    std::uint32_t part)
@@ -115,10 +116,10 @@ struct closed_outline {
     });
     std::sort(paths.begin(), paths.end());
     std::vector<alpha_shape::polygon> polygons;
-    std::vector<std::uint32_t> polygon_of(2 * points.size(), 0);  // triangles are fewer than this
+    std::map<std::uint32_t, std::size_t> polygon_of;  // of each component
     for (closed_outline& path : paths) {
         if (path.area > 0.0) {
-            polygon_of[path.component] = static_cast<std::uint32_t>(polygons.size());
+            polygon_of[path.component] = polygons.size();
             polygons.push_back({std::move(path.indices), {}, path.area});
         } else {
             alpha_shape::polygon& outer = polygons[polygon_of[path.component]];
@@ -159,9 +160,7 @@ alpha_shape alpha_shape::of(const R& points, const gnomon::plane& plane, Proj pr
     const detail::planar_delaunay triangulation(std::move(projected));
     detail::alpha_complex complex(triangulation);
     shape.polygons = detail::polygons_of(complex, triangulation.points());
-    const auto index = [&](std::uint32_t v) { return triangulation.points()[v].index; };
-    for (const auto& [a, b, c] : complex.triangles())
-        shape.triangles.push_back({index(a), index(b), index(c)});
+    shape.triangles = complex.triangles();
     for (polygon& part : shape.polygons) {
         part.area = part.area / scale / scale;
         shape.area += part.area;

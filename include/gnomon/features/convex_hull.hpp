@@ -58,7 +58,8 @@ struct convex_hull {
     /// @throws std::invalid_argument  if n is 2^32 - 1 or more
     /// Complexity: O(n log n) for most sets, O(n) if few points are extreme. Coordinates below
     /// 1e-80 of the largest count as zero. Source: Barber, Dobkin and Huhdanpaa
-    /// 1996 (detail/quickhull.hpp).
+    /// 1996 (detail/quickhull.hpp). It takes no execution: hulls of many segments may be computed
+    /// on as many threads, and most points of one are discarded in a single pass.
     template <class R, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] static convex_hull of(const R& points, Proj projection = {});

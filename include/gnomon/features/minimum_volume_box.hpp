@@ -161,7 +161,7 @@ class smallest_box {
 ///         length. Never larger than the box of `principal_frame`
 /// @throws std::invalid_argument  if n is 2^32 - 1 or more
 /// Complexity: that of `convex_hull`, O(h) for its h vertices, and O(e^2) for the e edges of the
-/// core.
+/// core. It takes no execution: the best box so far shortens the rest of the search.
 template <class R, class Proj = std::identity>
     requires point_range<R, Proj>
 [[nodiscard]] oriented_box minimum_volume_box(const R& points, Proj projection = {}) {

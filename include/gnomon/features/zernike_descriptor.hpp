@@ -24,6 +24,7 @@
 #include <gnomon/core/detail/scratch.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/trust.hpp>
@@ -58,13 +59,14 @@ struct zernike_descriptor {
 
     /// The descriptor of the finite points of a range.
     /// @param points      any point range of n points [m]
+    /// @param run         for the sums over the points; the result is the same bytes for every one
     /// @param projection  maps an element of the range to a point
     /// @throws std::invalid_argument  if an option is out of range, or n is 2^32 - 1 or more
     /// Complexity: O(n order^3), with voxels O(n log n) and O(v order^3) for v occupied ones.
-    template <class R, class Proj = std::identity>
+    template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
     [[nodiscard]] static zernike_descriptor of(const R& points, const zernike_options& options = {},
-                                               Proj projection = {});
+                                               const X& run = {}, Proj projection = {});
 
     /// The Euclidean distance of the values. O(order^2).
     /// @throws std::invalid_argument  if the orders differ
@@ -127,10 +129,10 @@ inline void voxelize(scratch<Eigen::Vector3d>& positions, std::size_t voxels) {
 
 }  // namespace detail
 
-template <class R, class Proj>
+template <class R, execution X, class Proj>
     requires point_range<R, Proj>
 zernike_descriptor zernike_descriptor::of(const R& points, const zernike_options& options,
-                                          Proj projection) {
+                                          const X& run, Proj projection) {
     detail::require(options.order <= 20, "zernike_descriptor: the order is 20 at most");
     detail::require(options.voxels <= 1024, "zernike_descriptor: there are 1024 voxels at most");
     const position_view<R, Proj> p(points, std::move(projection));
@@ -165,8 +167,14 @@ zernike_descriptor zernike_descriptor::of(const R& points, const zernike_options
         const double side = 2.0 / (static_cast<double>(options.voxels) * filled.radius);
         mass = side * side * side;
     }
-    for (const Eigen::Vector3d& v : positions)
-        if (detail::dot(v, v) <= 1.0) moments.add(v, mass);
+    // Sums of chunks in their order: the same bytes on any number of threads.
+    std::vector<detail::zernike_moments> sums(detail::chunk_count(positions.size()), moments);
+    detail::for_each_chunk(run, positions.size(), [&](std::size_t begin, std::size_t end) {
+        detail::zernike_moments& own = sums[begin / detail::chunk_size];
+        for (std::size_t i = begin; i < end; ++i)
+            if (detail::dot(positions[i], positions[i]) <= 1.0) own.add(positions[i], mass);
+    });
+    for (const detail::zernike_moments& sum : sums) moments.add(sum);
     result.values = moments.norms();
     result.trust = trust::good;
     return result;

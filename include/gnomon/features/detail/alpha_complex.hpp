@@ -25,24 +25,23 @@ class alpha_complex {
     using path = std::vector<std::uint32_t>;  // origins of edges, triangles to the left
 
     /// O(n) after the triangulation.
-    explicit alpha_complex(const planar_delaunay& d) : d_(d), triangle_of_(d.edges(), none) {
-        for (edge e = 0; e < d.edges(); ++e) {
-            if (d.is_removed(e) || triangle_of_[e] != none || !d.has_triangle(e)) continue;
-            edge side = e;
-            for (int i = 0; i < 3; ++i, side = d.next_about_left(side))
-                triangle_of_[side] = static_cast<std::uint32_t>(triangles_.size());
-            triangles_.push_back(e);
-        }
+    explicit alpha_complex(const planar_delaunay& d) : d_(d), is_kept_(d.edges(), false) {
+        components_.reset(d.edges() / 2);
         keep_small_triangles();
-        unite_neighbors();
     }
 
-    /// The corners of each triangle, counterclockwise.
-    [[nodiscard]] std::vector<std::array<std::uint32_t, 3>> triangles() const {
-        std::vector<std::array<std::uint32_t, 3>> corners;
-        for (std::size_t t = 0; t < triangles_.size(); ++t)
-            if (is_kept_[t]) corners.push_back(corners_of(triangles_[t]));
-        return corners;
+    /// The indices of the corners of each triangle, counterclockwise.
+    [[nodiscard]] std::vector<std::array<point_index, 3>> triangles() const {
+        std::vector<std::array<point_index, 3>> all;
+        all.reserve(static_cast<std::size_t>(std::count(is_kept_.begin(), is_kept_.end(), true)) /
+                    3);
+        const auto index = [&](edge e) { return d_.points()[d_.origin(e)].index; };
+        for (edge e = 0; e < d_.edges(); ++e) {
+            if (!is_kept_[e]) continue;
+            const auto [first, second, third] = sides_of(e);
+            if (e < second && e < third) all.push_back({index(e), index(second), index(third)});
+        }
+        return all;
     }
 
     /// Calls found(path, component) for each closed path around triangles that are connected by
@@ -53,7 +52,7 @@ class alpha_complex {
         std::vector<std::uint32_t> place(d_.points().size(), none);
         for (edge start = 0; start < d_.edges(); ++start) {
             if (is_done[start] || !is_boundary(start)) continue;
-            const std::uint32_t component = components_.find(triangle_of_[start]);
+            const std::uint32_t component = components_.find(start / 2);
             path open;
             for (edge e = start; !is_done[e]; e = next_on_boundary(e)) {
                 is_done[e] = true;
@@ -68,16 +67,27 @@ class alpha_complex {
   private:
     static constexpr std::uint32_t none = planar_delaunay::no_edge;
 
-    [[nodiscard]] std::array<std::uint32_t, 3> corners_of(edge e) const {
+    [[nodiscard]] std::array<edge, 3> sides_of(edge e) const {
         const edge second = d_.next_about_left(e);
-        return {d_.origin(e), d_.origin(second), d_.destination(second)};
+        return {e, second, d_.next_about_left(second)};
     }
 
-    [[nodiscard]] double squared_circumradius(edge e) const {
-        const auto [i, j, k] = corners_of(e);
-        const planar_point& a = d_.points()[i];
-        const planar_point& b = d_.points()[j];
-        const planar_point& c = d_.points()[k];
+    /// The smallest side of each triangle.
+    [[nodiscard]] std::vector<edge> smallest_sides() const {
+        std::vector<edge> smallest;
+        smallest.reserve(d_.edges() / 3);
+        for (edge e = 0; e < d_.edges(); ++e) {
+            if (d_.is_removed(e)) continue;
+            const auto [first, second, third] = sides_of(e);
+            if (e < second && e < third && d_.has_triangle(e)) smallest.push_back(e);
+        }
+        return smallest;
+    }
+
+    [[nodiscard]] double squared_circumradius(const std::array<edge, 3>& sides) const {
+        const planar_point& a = d_.points()[d_.origin(sides[0])];
+        const planar_point& b = d_.points()[d_.origin(sides[1])];
+        const planar_point& c = d_.points()[d_.origin(sides[2])];
         const auto squared = [](const planar_point& p, const planar_point& q) {
             return (p.x - q.x) * (p.x - q.x) + (p.y - q.y) * (p.y - q.y);
         };
@@ -86,102 +96,64 @@ class alpha_complex {
     }
 
     void keep_small_triangles() {
-        std::vector<double> radii(triangles_.size());
+        const std::vector<edge> triangles = smallest_sides();
+        std::vector<double> radii(triangles.size());           // squared
         std::vector<double> largest(d_.points().size(), 0.0);  // about each point
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            radii[t] = squared_circumradius(triangles_[t]);
-            for (const std::uint32_t v : corners_of(triangles_[t]))
-                largest[v] = std::max(largest[v], radii[t]);
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            const auto sides = sides_of(triangles[t]);
+            radii[t] = squared_circumradius(sides);
+            for (const edge e : sides)
+                largest[d_.origin(e)] = std::max(largest[d_.origin(e)], radii[t]);
         }
-        const std::vector<double> limits = limits_of(largest);
-        is_kept_.resize(triangles_.size());
-        for (std::size_t t = 0; t < triangles_.size(); ++t) {
-            const auto [a, b, c] = corners_of(triangles_[t]);
-            const auto [low, high] = std::minmax(limits[a], limits[b]);
-            is_kept_[t] = std::isfinite(radii[t]) && radii[t] <= std::clamp(limits[c], low, high);
+        const std::vector<double> limits = limits_of(std::move(largest));
+        for (std::size_t t = 0; t < triangles.size(); ++t) {
+            const auto [a, b, c] = sides_of(triangles[t]);
+            const auto limit = [&](edge e) { return limits[d_.origin(e)]; };
+            const auto [low, high] = std::minmax({limit(a), limit(b)});
+            if (!std::isfinite(radii[t]) || radii[t] > std::clamp(limit(c), low, high)) continue;
+            for (const edge e : {a, b, c}) is_kept_[e] = true;
+            components_.unite(a / 2, b / 2);
+            components_.unite(a / 2, c / 2);
         }
     }
 
     /// The square of alpha at each point.
     /// @param largest  squared circumradius of the triangles at each point
-    [[nodiscard]] std::vector<double> limits_of(const std::vector<double>& largest) const {
+    [[nodiscard]] std::vector<double> limits_of(std::vector<double> largest) const {
         // pi density radius^2 of the triangles of random points is Gamma(2) (Miles 1970), and a
         // point has six. The largest of 10^6 triangles has 2.1 times the median of `largest`, and
         // 1.7 times its quantile 0.9.
         constexpr double from_median = 2.5 * 2.5;
         constexpr double from_high_quantile = 1.7 * 1.7;
+        constexpr std::size_t smallest = 512;  // several lines of points 1/100 as far apart
         const std::size_t n = largest.size();
-        std::vector<std::uint32_t> order(n);
-        for (std::uint32_t v = 0; v < n; ++v) order[v] = v;
-        const auto quantile = [&](double q, auto begin, auto end) {
-            const auto at =
-                begin + static_cast<std::ptrdiff_t>(q * static_cast<double>(end - begin - 1));
-            std::nth_element(begin, at, end, [&](std::uint32_t a, std::uint32_t b) {
-                return largest[a] < largest[b];
-            });
-            return largest[*at];
+        const auto quantile = [&largest](double q, std::size_t begin, std::size_t end) {
+            const auto at = [&](std::size_t i) {
+                return largest.begin() + static_cast<std::ptrdiff_t>(i);
+            };
+            const auto i = static_cast<std::size_t>(q * static_cast<double>(end - begin - 1));
+            std::nth_element(at(begin), at(begin + i), at(end));
+            return largest[begin + i];
         };
+        std::vector<double> limits(n);
+        d_.for_each_cell(smallest, [&](std::size_t begin, std::size_t end) {
+            const double limit = from_median * quantile(0.5, begin, end);
+            for (std::size_t v = begin; v < end; ++v) limits[v] = limit;
+        });
         // Where lines are wide for their distance, few points are at the gaps between them; those
         // on the border of the shape, about 6 sqrt(n) with an opening, have to be fewer.
         const double on_border = std::clamp(6.0 / std::sqrt(static_cast<double>(n)), 0.1, 0.5);
-        const double least =
-            from_high_quantile * quantile(1.0 - on_border, order.begin(), order.end());
-        std::vector<double> limits(n);
-        for_each_cell(order.begin(), order.end(), [&](auto begin, auto end) {
-            const double limit = std::max(least, from_median * quantile(0.5, begin, end));
-            for (auto v = begin; v != end; ++v) limits[*v] = limit;
-        });
+        const double least = from_high_quantile * quantile(1.0 - on_border, 0, n);
+        for (double& limit : limits) limit = std::max(least, limit);
         return limits;
     }
 
-    /// Halves points across their larger extent, down to cells of about 1000.
-    template <class Iterator, class Visit>
-    void for_each_cell(Iterator begin, Iterator end, const Visit& visit) const {
-        constexpr std::ptrdiff_t smallest = 512;  // several lines of points 1/100 as far apart
-        if (end - begin < 2 * smallest) {
-            visit(begin, end);
-            return;
-        }
-        const auto x = [&](std::uint32_t v) { return d_.points()[v].x; };
-        const auto y = [&](std::uint32_t v) { return d_.points()[v].y; };
-        const auto halve = [&](const auto& coordinate, const auto& other) {
-            const Iterator middle = begin + (end - begin) / 2;
-            std::nth_element(begin, middle, end, [&](std::uint32_t a, std::uint32_t b) {
-                return coordinate(a) != coordinate(b) ? coordinate(a) < coordinate(b)
-                                                      : other(a) < other(b);
-            });
-            for_each_cell(begin, middle, visit);
-            for_each_cell(middle, end, visit);
-        };
-        if (extent(begin, end, x) > extent(begin, end, y))
-            halve(x, y);
-        else
-            halve(y, x);
-    }
-
-    template <class Iterator, class Coordinate>
-    [[nodiscard]] static double extent(Iterator begin, Iterator end, const Coordinate& of) {
-        const auto [low, high] =
-            std::minmax_element(begin, end, [&](auto a, auto b) { return of(a) < of(b); });
-        return of(*high) - of(*low);
-    }
-
-    [[nodiscard]] bool has_kept(edge e) const {
-        return triangle_of_[e] != none && is_kept_[triangle_of_[e]];
-    }
-    [[nodiscard]] bool is_boundary(edge e) const { return has_kept(e) && !has_kept(e ^ 1); }
-
-    void unite_neighbors() {
-        components_.reset(triangles_.size());
-        for (edge e = 0; e < d_.edges(); e += 2)
-            if (has_kept(e) && has_kept(e + 1))
-                components_.unite(triangle_of_[e], triangle_of_[e + 1]);
-    }
+    [[nodiscard]] bool is_boundary(edge e) const { return is_kept_[e] && !is_kept_[e ^ 1]; }
 
     /// The boundary edge after e around the triangles that are connected about the end of e.
     [[nodiscard]] edge next_on_boundary(edge e) const {
         edge next = d_.next_about_left(e);
-        while (has_kept(next ^ 1)) next = d_.next_about_left(next ^ 1);
+        while (is_kept_[next ^ 1]) next = d_.next_about_left(next ^ 1);
         return next;
     }
 
@@ -202,10 +174,8 @@ class alpha_complex {
     }
 
     const planar_delaunay& d_;
-    std::vector<std::uint32_t> triangle_of_;  // on the left of each edge
-    std::vector<edge> triangles_;             // one edge of each
-    std::vector<bool> is_kept_;
-    union_find components_;  // of triangles
+    std::vector<bool> is_kept_;  // the triangle on the left of each edge
+    union_find components_;      // of edges, each one with its reverse
 };
 
 }  // namespace gnomon::detail

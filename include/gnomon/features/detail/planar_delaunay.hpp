@@ -2,8 +2,8 @@
 /// @file
 /// The Delaunay triangulation of points in a plane by divide and conquer (Guibas and Stolfi 1985,
 /// Primitives for the manipulation of general subdivisions and the computation of Voronoi
-/// diagrams), across x and y in turn (Dwyer 1987). Coordinates are integers, so that their
-/// differences, and all signs, are exact.
+/// diagrams), across the larger extent (Dwyer 1987: x and y in turn). Coordinates are integers, so
+/// that their differences, and all signs, are exact.
 #pragma once
 
 #include <algorithm>
@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <gnomon/features/detail/planar_hull.hpp>
+#include <gnomon/features/detail/planar_places.hpp>
 #include <gnomon/neighborhoods/detail/delaunay_star.hpp>
 
 namespace gnomon::detail {
@@ -27,30 +28,34 @@ class planar_delaunay {
     /// @param points  with integers up to 2^33 in magnitude as coordinates, less than 2^28
     /// Of points at one place the smallest index is kept. O(n log n).
     explicit planar_delaunay(std::vector<planar_point> points) : points_(std::move(points)) {
-        sort_by_place(points_);
+        sort_places(points_);
         if (points_.size() < 2) return;
-        const std::size_t edges = 6 * points_.size();  // at most, at any time
-        origin_.reserve(edges);
-        next_.reserve(edges);
-        previous_.reserve(edges);
-        triangulate(0, points_.size(), false);
+        edges_.reserve(6 * points_.size());  // at most, at any time
+        triangulate(0, points_.size());
     }
 
     /// The different points; origins refer to them.
     [[nodiscard]] const std::vector<planar_point>& points() const { return points_; }
 
-    /// The number of directed edges, with those that were removed.
-    [[nodiscard]] edge edges() const { return static_cast<edge>(origin_.size()); }
-    [[nodiscard]] bool is_removed(edge e) const { return next_[e] == no_edge; }
+    /// Calls visit(begin, end) for cells of the points, which are halved across their larger extent
+    /// as long as both halves have `least` points.
+    template <class Visit>
+    void for_each_cell(std::size_t least, const Visit& visit) const {
+        visit_cells(0, points_.size(), least, visit);
+    }
 
-    [[nodiscard]] std::uint32_t origin(edge e) const { return origin_[e]; }
-    [[nodiscard]] std::uint32_t destination(edge e) const { return origin_[e ^ 1]; }
+    /// The number of directed edges, with those that were removed.
+    [[nodiscard]] edge edges() const { return static_cast<edge>(edges_.size()); }
+    [[nodiscard]] bool is_removed(edge e) const { return edges_[e].next == no_edge; }
+
+    [[nodiscard]] std::uint32_t origin(edge e) const { return edges_[e].origin; }
+    [[nodiscard]] std::uint32_t destination(edge e) const { return edges_[e ^ 1].origin; }
 
     /// The next edge counterclockwise about the origin of e.
-    [[nodiscard]] edge next_about_origin(edge e) const { return next_[e]; }
+    [[nodiscard]] edge next_about_origin(edge e) const { return edges_[e].next; }
 
     /// The next edge counterclockwise about the face on the left of e.
-    [[nodiscard]] edge next_about_left(edge e) const { return previous_[e ^ 1]; }
+    [[nodiscard]] edge next_about_left(edge e) const { return edges_[e ^ 1].previous; }
 
     /// Whether the face on the left of e is a triangle, and not the outer face.
     [[nodiscard]] bool has_triangle(edge e) const {
@@ -65,10 +70,17 @@ class planar_delaunay {
         edge right;  // out of the rightmost point, with the hull on its right
     };
 
-    /// Whether a is left of b; below, where the plane is turned by a right angle.
+    struct directed_edge {
+        std::uint32_t origin;
+        edge next, previous;  // about the origin
+    };
+
+    /// Whether a is left of b; below, where the plane is turned by a right angle. Those equal in
+    /// one coordinate are ordered by the other, as if the plane were turned by a little more or
+    /// less.
     [[nodiscard]] static bool is_before(const planar_point& a, const planar_point& b,
                                         bool is_turned) {
-        if (is_turned) return a.y != b.y ? a.y < b.y : a.x > b.x;
+        if (is_turned) return a.y != b.y ? a.y < b.y : a.x < b.x;
         return a.x != b.x ? a.x < b.x : a.y < b.y;
     }
 
@@ -92,27 +104,20 @@ class planar_delaunay {
     }
 
     edge add(std::uint32_t from, std::uint32_t to) {
-        if (free_ != no_edge) {
-            const edge e = std::exchange(free_, previous_[free_]);
-            next_[e] = previous_[e] = e;
-            next_[e ^ 1] = previous_[e ^ 1] = e ^ 1;
-            origin_[e] = from;
-            origin_[e ^ 1] = to;
-            return e;
-        }
-        const edge e = edges();
-        for (const std::uint32_t end : {from, to}) {
-            next_.push_back(edges());
-            previous_.push_back(edges());
-            origin_.push_back(end);
-        }
+        edge e = edges();
+        if (free_ != no_edge)
+            e = std::exchange(free_, edges_[free_].previous);
+        else
+            edges_.resize(edges_.size() + 2);
+        edges_[e] = {from, e, e};
+        edges_[e ^ 1] = {to, e ^ 1, e ^ 1};
         return e;
     }
     /// Joins the cycles about the origins of a and b, or splits their common one.
     void splice(edge a, edge b) {
-        std::swap(next_[a], next_[b]);
-        previous_[next_[a]] = a;
-        previous_[next_[b]] = b;
+        std::swap(edges_[a].next, edges_[b].next);
+        edges_[edges_[a].next].previous = a;
+        edges_[edges_[b].next].previous = b;
     }
     /// Adds an edge from the destination of a to the origin of b, which have one left face.
     edge connect(edge a, edge b) {
@@ -123,28 +128,29 @@ class planar_delaunay {
         return e;
     }
     void remove(edge e) {
-        splice(e, previous_[e]);
-        splice(e ^ 1, previous_[e ^ 1]);
-        next_[e] = next_[e ^ 1] = no_edge;
-        previous_[e] = std::exchange(free_, e);
+        splice(e, edges_[e].previous);
+        splice(e ^ 1, edges_[e ^ 1].previous);
+        edges_[e].next = edges_[e ^ 1].next = no_edge;
+        edges_[e].previous = std::exchange(free_, e);
     }
 
-    outer_edges triangulate(std::size_t begin, std::size_t end, bool is_turned) {
+    outer_edges triangulate(std::size_t begin, std::size_t end) {
         const auto at = [&](std::size_t i) {
             return points_.begin() + static_cast<std::ptrdiff_t>(i);
         };
+        constexpr std::size_t few = 12;  // performance only
+        const bool is_turned = end - begin > few && planar_box(at(begin), at(end)).is_upright();
         const auto before = [&](const planar_point& a, const planar_point& b) {
             return is_before(a, b, is_turned);
         };
-        constexpr std::size_t few = 12;  // performance only
         if (end - begin <= few) {
             std::sort(at(begin), at(end), before);
             return triangulate_sorted(begin, end);
         }
-        const std::size_t middle = begin + (end - begin) / 2;
+        const std::size_t middle = middle_of(begin, end);
         std::nth_element(at(begin), at(middle), at(end), before);
-        const edge lower = triangulate(begin, middle, !is_turned).left;
-        const edge upper = triangulate(middle, end, !is_turned).left;
+        const edge lower = triangulate(begin, middle).left;
+        const edge upper = triangulate(middle, end).left;
         return merged(extremes(lower, is_turned), extremes(upper, is_turned));
     }
 
@@ -190,7 +196,7 @@ class planar_delaunay {
             if (is_left(origin(to), from))
                 from = next_about_left(from);
             else if (is_right(origin(from), to))
-                to = next_[to ^ 1];
+                to = next_about_origin(to ^ 1);
             else
                 break;
         }
@@ -198,8 +204,8 @@ class planar_delaunay {
         if (origin(from) == origin(left.left)) left.left = base ^ 1;
         if (origin(to) == origin(right.right)) right.right = base;
         for (;;) {
-            const edge a = candidate(base, next_[base ^ 1], next_);
-            const edge b = candidate(base, previous_[base], previous_);
+            const edge a = candidate(base, next_about_origin(base ^ 1), &directed_edge::next);
+            const edge b = candidate(base, edges_[base].previous, &directed_edge::previous);
             const bool a_is_above = is_right(destination(a), base);
             const bool b_is_above = is_right(destination(b), base);
             if (!a_is_above && !b_is_above) return {left.left, right.right};
@@ -210,21 +216,22 @@ class planar_delaunay {
     }
 
     /// Removes edges that the next point above the base refutes.
-    /// @param around  next_ or previous_, the direction of search about an end of the base
-    edge candidate(edge base, edge e, const std::vector<edge>& around) {
-        while (is_right(destination(e), base) &&
-               is_within(destination(base), origin(base), destination(e), destination(around[e]))) {
-            const edge after = around[e];
+    /// @param around  next or previous, the direction of search about an end of the base
+    edge candidate(edge base, edge e, edge directed_edge::*around) {
+        for (;;) {
+            const edge after = edges_[e].*around;
+            const bool is_last = (after ^ base) < 2;  // the base itself: no arithmetic needed
+            if (is_last || !is_right(destination(e), base) ||
+                !is_within(destination(base), origin(base), destination(e), destination(after)))
+                return e;
             remove(e);
             e = after;
         }
-        return e;
     }
 
     std::vector<planar_point> points_;
-    std::vector<std::uint32_t> origin_;
-    std::vector<edge> next_, previous_;  // about the origin
-    edge free_ = no_edge;  // the last edge that was removed; previous_ has the one before
+    std::vector<directed_edge> edges_;
+    edge free_ = no_edge;  // the last edge that was removed; `previous` is the one before
 };
 
 }  // namespace gnomon::detail

@@ -55,6 +55,14 @@ class zernike_moments {
         });
     }
 
+    /// Adds those of other masses, to the same order. O(order^3).
+    void add(const zernike_moments& other) {
+        for (std::size_t i = 0; i < sums_.size(); ++i) {
+            sums_[i].re += other.sums_[i].re;
+            sums_[i].im += other.sums_[i].im;
+        }
+    }
+
     /// F_nl for n = 0, ..., order and l = n mod 2, ..., n. O(order^4).
     [[nodiscard]] std::vector<double> norms() const {
         std::vector<double> all;

@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: BSL-1.0
-/// @file
-/// Spin images and shape contexts compared with those of PCL, on one thread:
-///     pcl_descriptors SCAN...      without a scan: on the surface of a box with noise
-/// Spin images must be equal bin by bin to 1e-5, shape contexts in their sums over azimuths, whose
-/// reference PCL draws at random. PCL computes in float: a neighbor at a limit of a bin may be on
-/// the other side of it. Spin images with a neighbor that near to the end of the cylinder, or to
-/// its axis, are counted and not compared. Times are those of the processor, the least of several
-/// runs in turns, of both without the index. Exit status: 0, or 1 if something differs.
+// Spin images and shape contexts compared with those of PCL, on one thread. Spin images must be
+// equal bin by bin to 1e-5, shape contexts in their sums over azimuths, whose reference PCL draws
+// at random. PCL computes in float: a neighbor at a limit of a bin may be on the other side of it.
+// Spin images with a neighbor that near to the end of the cylinder, or to its axis, are counted and
+// not compared. Times are those of the processor, the least of several runs in turns, of both
+// without the index.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
-#include <ctime>
 #include <limits>
 #include <memory>
 #include <numbers>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include "two_scans.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/features/describe_points.hpp>
 #include <gnomon/features/shape_context.hpp>
 #include <gnomon/features/spin_image.hpp>
-#include <gnomon/io/read.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <pcl/features/3dsc.h>
@@ -76,55 +73,44 @@ struct described_cloud {
     }
 
     template <class Estimation>
-    void give_to(Estimation& estimation, std::span<const gnomon::point_index> keys) const {
+    void give_to(Estimation& estimation) const {
         estimation.setInputCloud(pcl_points);
         estimation.setInputNormals(pcl_normals);
         estimation.setSearchMethod(pcl_tree);
-        estimation.setIndices(std::make_shared<pcl::Indices>(keys.begin(), keys.end()));
+        estimation.setIndices(std::make_shared<pcl::Indices>(keypoints.begin(), keypoints.end()));
     }
 };
 
-/// Seconds of the processor that one call takes.
-double seconds_of(auto&& work) {
-    const auto now = [] {
-        std::timespec t{};
-        clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
-        return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-    };
-    const double begin = now();
-    work();
-    return now() - begin;
-}
-
-/// The least times of some runs in turns, summed over parts of the keypoints: other programs on the
-/// machine rarely disturb all runs of a part. compare(keys, ours, theirs) gets the results.
+/// The least times of some runs in turns. compare(ours, theirs) gets the results.
 struct times {
     double ours = 0.0, pcl = 0.0;
 
     template <class Theirs>
-    static times measure(const described_cloud& cloud, auto&& describe, auto&& estimate,
-                         auto&& compare, std::size_t part, int runs) {
-        times sum;
-        for (std::size_t begin = 0; begin < cloud.keypoints.size(); begin += part) {
-            const auto rest = std::span(cloud.keypoints).subspan(begin);
-            const auto keys = rest.first(std::min(part, rest.size()));
-            times least{1e300, 1e300};
-            gnomon::point_descriptors ours;
-            pcl::PointCloud<Theirs> theirs;
-            for (int run = 0; run < runs; ++run) {
-                least.pcl = std::min(least.pcl, seconds_of([&] { estimate(keys, theirs); }));
-                least.ours = std::min(least.ours, seconds_of([&] { ours = describe(keys); }));
-            }
-            sum.ours += least.ours;
-            sum.pcl += least.pcl;
-            compare(keys, ours, theirs);
+    static times measure(const effort& much, auto&& describe, auto&& estimate, auto&& compare) {
+        const effort once{.quick = true, .out = {}};
+        const int runs = much.quick ? 1 : 5;
+        times least{1e300, 1e300};
+        gnomon::point_descriptors ours;
+        pcl::PointCloud<Theirs> theirs;
+        for (int run = 0; run < runs; ++run) {
+            least.pcl = std::min(least.pcl, seconds_of(once, [&] { estimate(theirs); }));
+            least.ours = std::min(least.ours, seconds_of(once, [&] { ours = describe(); }));
         }
-        return sum;
+        compare(ours, theirs);
+        return least;
     }
 
-    void print(const char* what, const std::string& name, double radius, std::size_t keys) const {
-        std::printf("%s, %s, radius %.3f m, %zu points: PCL %.3f s, gnomon %.3f s, ratio %.1f\n",
-                    what, name.c_str(), radius, keys, pcl, ours, pcl / ours);
+    /// The first columns of a row.
+    [[nodiscard]] json row(const std::string& cloud, const char* what, double radius,
+                           std::size_t keys) const {
+        const double n = static_cast<double>(keys);
+        return {{"cloud", cloud},
+                {"descriptor", what},
+                {"radius [m]", radius},
+                {"points", keys},
+                {"PCL, of a point [us]", rounded(1e6 * pcl / n, 2)},
+                {"gnomon, of a point [us]", rounded(1e6 * ours / n, 2)},
+                {"ratio", rounded(pcl / ours, 1)}};
     }
 };
 
@@ -143,9 +129,8 @@ bool depends_on_rounding(const described_cloud& cloud, std::size_t i, const gnom
     return false;
 }
 
-/// @return the number of differences
-std::size_t compare_spin_images(const described_cloud& cloud, const std::string& name,
-                                double search_radius) {
+json compare_spin_images(const effort& much, const described_cloud& cloud, const std::string& name,
+                         double search_radius) {
     constexpr unsigned width = 8;  // 153 bins, as in PCL's examples
     const double r = search_radius / std::numbers::sqrt2;
     const gnomon::spin_image image{.radius = r,
@@ -155,25 +140,25 @@ std::size_t compare_spin_images(const described_cloud& cloud, const std::string&
                                    .interpolate = true,
                                    .normalize = true};
     using histogram = pcl::Histogram<153>;
-    const auto describe = [&](std::span<const gnomon::point_index> keys) {
-        return gnomon::describe_points(cloud.index, cloud.surface, keys, image);
+    const auto describe = [&] {
+        return gnomon::describe_points(cloud.index, cloud.surface, cloud.keypoints, image);
     };
-    const auto estimate = [&](std::span<const gnomon::point_index> keys, auto& result) {
+    const auto estimate = [&](auto& result) {
         pcl::SpinImageEstimation<pcl::PointXYZ, pcl::Normal, histogram> estimation(width, 0.0, 0);
-        cloud.give_to(estimation, keys);
+        cloud.give_to(estimation);
         estimation.setRadiusSearch(search_radius);
         estimation.compute(result);
     };
     double largest = 0.0;
     std::size_t different = 0, doubtful = 0;
-    const auto compare = [&](auto keys, const auto& ours, const auto& theirs) {
-        for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto compare = [&](const auto& ours, const auto& theirs) {
+        for (std::size_t k = 0; k < cloud.keypoints.size(); ++k) {
             if (!gnomon::usable(ours.trust[k])) continue;
             double difference = 0.0;
             for (std::size_t b = 0; b < 153; ++b)
                 difference =
                     std::max<double>(difference, std::abs(ours[k][b] - theirs[k].histogram[b]));
-            if (difference > 1e-5 && depends_on_rounding(cloud, keys[k], image)) {
+            if (difference > 1e-5 && depends_on_rounding(cloud, cloud.keypoints[k], image)) {
                 ++doubtful;
                 continue;
             }
@@ -181,36 +166,39 @@ std::size_t compare_spin_images(const described_cloud& cloud, const std::string&
             largest = std::max(largest, difference);
         }
     };
-    times::measure<histogram>(cloud, describe, estimate, compare, 500, 5)
-        .print("spin images", name, search_radius, cloud.keypoints.size());
-    std::printf("  largest difference of a bin %.1e, %zu above 1e-5, and %zu by rounding\n",
-                largest, different, doubtful);
-    return different;
+    json row = times::measure<histogram>(much, describe, estimate, compare)
+                   .row(name, "spin image", search_radius, cloud.keypoints.size());
+    if (different > 0)
+        throw std::runtime_error(std::to_string(different) + " spin images differ from PCL's");
+    char text[16];
+    std::snprintf(text, sizeof text, "%.0e", largest);
+    row["difference"] = text;
+    row["by rounding"] = doubtful;
+    return row;
 }
 
-/// @return the number of differences
-std::size_t compare_shape_contexts(const described_cloud& cloud, const std::string& name,
-                                   double radius) {
+json compare_shape_contexts(const effort& much, const described_cloud& cloud,
+                            const std::string& name, double radius) {
     const gnomon::shape_context context{.radius = radius,
                                         .inner_radius = 0.1 * radius,
                                         .azimuth_bins = 12,
                                         .elevation_bins = 11,
                                         .radial_bins = 15,
                                         .density_radius = 0.2 * radius};
-    const auto describe = [&](std::span<const gnomon::point_index> keys) {
-        return gnomon::describe_points(cloud.index, cloud.surface, keys, context);
+    const auto describe = [&] {
+        return gnomon::describe_points(cloud.index, cloud.surface, cloud.keypoints, context);
     };
-    const auto estimate = [&](std::span<const gnomon::point_index> keys, auto& result) {
+    const auto estimate = [&](auto& result) {
         pcl::ShapeContext3DEstimation<pcl::PointXYZ, pcl::Normal> estimation;
-        cloud.give_to(estimation, keys);
+        cloud.give_to(estimation);
         estimation.setRadiusSearch(radius);
         estimation.setMinimalRadius(context.inner_radius);
         estimation.setPointDensityRadius(context.density_radius);
         estimation.compute(result);
     };
     double sum = 0.0, difference = 0.0;
-    const auto compare = [&](auto keys, const auto& ours, const auto& theirs) {
-        for (std::size_t k = 0; k < keys.size(); ++k) {
+    const auto compare = [&](const auto& ours, const auto& theirs) {
+        for (std::size_t k = 0; k < cloud.keypoints.size(); ++k) {
             // Sums over azimuths. PCL puts nearer neighbors than the first shell into it.
             std::vector<double> a(165, 0.0), b(165, 0.0);
             for (std::size_t i = 0; i < 1980; ++i) {
@@ -224,10 +212,14 @@ std::size_t compare_shape_contexts(const described_cloud& cloud, const std::stri
             }
         }
     };
-    times::measure<pcl::ShapeContext1980>(cloud, describe, estimate, compare, 100, 3)
-        .print("shape contexts", name, radius, cloud.keypoints.size());
-    std::printf("  %.1e of the sum is in other bins\n", difference / sum);
-    return difference <= 1e-3 * sum ? 0 : 1;
+    json row = times::measure<pcl::ShapeContext1980>(much, describe, estimate, compare)
+                   .row(name, "shape context", radius, cloud.keypoints.size());
+    if (difference > 1e-3 * sum) throw std::runtime_error("shape contexts differ from PCL's");
+    char text[16];
+    std::snprintf(text, sizeof text, "%.0e", difference / sum);
+    row["difference"] = text;
+    row["by rounding"] = 0;
+    return row;
 }
 
 /// The surface of a box of 1 m x 0.8 m x 0.6 m with noise of 2 mm.
@@ -244,22 +236,25 @@ std::vector<Eigen::Vector3d> noisy_box(std::size_t n) {
     return points;
 }
 
-std::size_t compare_all(const std::vector<Eigen::Vector3d>& points, const std::string& name) {
-    std::size_t different = 0;
-    const described_cloud cloud(points, 10'000), few(points, 300);
+void compare_all(const std::vector<Eigen::Vector3d>& points, const std::string& name,
+                 const effort& much, json& rows) {
+    const described_cloud cloud(points, much.quick ? 500 : 10'000);
+    const described_cloud few(points, much.quick ? 20 : 2000);
     for (const double radius : {0.05, 0.1, 0.2})
-        different += compare_spin_images(cloud, name, radius);
-    return different + compare_shape_contexts(few, name, 0.2);
+        rows.push_back(compare_spin_images(much, cloud, name, radius));
+    for (const double radius : {0.1, 0.2})
+        rows.push_back(compare_shape_contexts(much, few, name, radius));
+}
+
+json measure(const effort& much) {
+    json rows = json::array();
+    compare_all(noisy_box(20'000), "box", much, rows);
+    const two_scans room({15.0, "whole", "rotational"}, first_seed);
+    const gnomon::scan& scan = room.scans[0].scan;
+    compare_all({scan.begin(), scan.end()}, "room", much, rows);
+    return {{"compared with PCL", rows}};
 }
 
 }  // namespace
 
-int main(int argc, char** argv) {
-    std::size_t different = 0;
-    if (argc < 2) different += compare_all(noisy_box(20'000), "a box");
-    for (int i = 1; i < argc; ++i) {
-        const gnomon::scan scan = gnomon::io::read(argv[i]);
-        different += compare_all({scan.begin(), scan.end()}, argv[i]);
-    }
-    return different == 0 ? 0 : 1;
-}
+int main(int argc, char** argv) { return run_program(argc, argv, measure); }
