@@ -47,9 +47,11 @@ std::vector<sim::furniture_model> models() {
 void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const auto all = models();
     const auto names = names_of(all);
-    const std::size_t n = views_per_model(much);
-    const scan_set scans = scans_of(all, n, {}, seed, purpose::learning),
-                   tests = scans_of(all, n, {}, seed, purpose::test);
+    // As many views in all as of the twelve models. Seats that are farther are two scan lines.
+    const std::size_t n = 3 * views_per_model(much);
+    constexpr view_kind near{.farthest = 3.0};
+    const scan_set scans = scans_of(all, n, near, seed, purpose::learning),
+                   tests = scans_of(all, n, near, seed, purpose::test);
     const view_set training = views_of(with_hidden_parts(scans, seed)), seen = views_of(tests);
     const auto add = [&](const char* mode, bool has_relations, outcomes found) {
         rows.add({{"mode", mode}, {"relations", has_relations}}, std::move(found));

@@ -104,8 +104,8 @@ class study {
                                            rec::default_features, rec::no_relations,
                                            {.pair_weight = 0.0});
         const rec::part_kernels soft_uncounted(once.views, once.classes, names.size(),
-                                               rec::default_features, rec::default_relations,
-                                               {.counts_parts = false});
+                                               rec::default_features, rec::no_relations,
+                                               {.pair_weight = 0.0, .counts_parts = false});
 
         for (const auto& [name, kind] : kinds) {
             const scan_set tests = scans_of(models, n, kind, seed, purpose::test);
@@ -131,7 +131,7 @@ class study {
             ablated("default", "hidden parts in training", decided(nothing_hidden));
             ablated("soft words", "-", of_soft);
             ablated("soft words", "pairs", outcomes_of(soft_parts, seen, soft_parts.temperature()));
-            ablated("soft words", "number of parts",
+            ablated("soft words", "pairs and number of parts",
                     outcomes_of(soft_uncounted, seen, soft_uncounted.temperature()));
             if (kind.duration == 8.0 && kind.sigma == 0.005 && kind.occluded_share == 0.0)
                 add_times(model, tests, seen);

@@ -135,9 +135,14 @@ struct normality {
 /// Medians of columns, over the seeds, by the name of the row.
 class medians {
   public:
-    void add(const json& key, const std::vector<std::pair<std::string, double>>& values) {
+    using columns = std::vector<std::pair<std::string, double>>;
+
+    void add(const json& key, const columns& values) {
         auto at = std::ranges::find_if(rows_, [&](const auto& r) { return r.first == key; });
-        if (at == rows_.end()) at = rows_.insert(at, {key, {}});
+        if (at == rows_.end()) {
+            rows_.emplace_back(key, std::vector<columns>{values});
+            return;
+        }
         at->second.push_back(values);
     }
     [[nodiscard]] json table(int digits) const {
@@ -156,7 +161,6 @@ class medians {
     }
 
   private:
-    using columns = std::vector<std::pair<std::string, double>>;
     std::vector<std::pair<json, std::vector<columns>>> rows_;
 };
 

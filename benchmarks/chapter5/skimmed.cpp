@@ -9,7 +9,6 @@
 #include "views.hpp"
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_features.hpp>
-#include <gnomon/recognition/part_kernels.hpp>
 #include <gnomon/recognition/part_relation.hpp>
 #include <gnomon/recognition/word_histograms.hpp>
 
@@ -57,17 +56,6 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const view_set with_wide = views_of(with_hidden_parts(wide_scans, seed));
     add_default("thin", with_thin);
     add_default("thin and skimmed", joined(with_thin, with_wide));
-
-    const auto add_soft = [&](const char* trained, const view_set& training) {
-        const rec::part_kernels soft(training.views, training.classes, names.size(),
-                                     rec::default_features, rec::default_relations);
-        add("soft words", trained, [&](bool is_wide) {
-            return outcomes_of(soft, test(is_wide), soft.temperature());
-        });
-    };
-    const view_set thin_once = views_of(thin_scans), wide_once = views_of(wide_scans);
-    add_soft("thin", thin_once);
-    add_soft("thin and skimmed", joined(thin_once, wide_once));
 
     const view_set thin50 = views_of(thin_tests, thesis_density),
                    wide50 = views_of(wide_tests, thesis_density);

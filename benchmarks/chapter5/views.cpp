@@ -22,6 +22,7 @@ sim::object_view_options options_of(const view_kind& kind, std::uint64_t seed, p
                                      .beam = {.sigma = kind.sigma},
                                      .occluded_share = kind.occluded_share,
                                      .seed = 10 * seed + static_cast<std::uint64_t>(use)};
+    options.places.high.x() = kind.farthest;
     if (kind.skims) {
         options.beam.footprint = {.divergence = gnomon::radians(0.010),
                                   .sub_rays = 9,

@@ -33,6 +33,7 @@ struct view_kind {
     double sigma = 0.005;         ///< of the noise along the rays [m]
     double occluded_share = 0.0;  ///< of the points, hidden by a board
     bool skims = false;           ///< whether the beam is 10 mrad wide, and averages
+    double farthest = 5.5;        ///< ahead of the sensor [m]
 };
 
 /// Scans of single objects, without the board that hides a part.
