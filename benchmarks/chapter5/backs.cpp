@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Models that differ in the place of their backs only: the same seat on the same legs, and the same
-// board above it, so that relations of parts are what tells them apart.
+// board above it, so that only relations of parts
+// distinguish them.
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -47,7 +48,8 @@ std::vector<sim::furniture_model> models() {
 void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const auto all = models();
     const auto names = names_of(all);
-    // As many views in all as of the twelve models. Seats that are farther are two scan lines.
+    // The number of views in all is that of the twelve models. Seats that are farther are two scan
+    // lines.
     const std::size_t n = 3 * views_per_model(much);
     constexpr view_kind near{.farthest = 3.0};
     const scan_set scans = scans_of(all, n, near, seed, purpose::learning),
@@ -62,8 +64,8 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
             add(mode, has_relations,
                 outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
         };
-        run(true, rec::object_recognizer({}, rec::default_features, rec::default_relations,
-                                         has_profile));
+        run(true,
+            rec::object_recognizer({}, rec::default_features, rec::default_relations, has_profile));
         run(false,
             rec::object_recognizer({}, rec::default_features, rec::no_relations, has_profile));
     };
@@ -89,7 +91,7 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
                                            rec::no_relations, options);
         add(mode, false, outcomes_of(without, seen50, 1.0));
     };
-    add_thesis("thesis, to the letter", {});
+    add_thesis("thesis, as printed", {});
     add_thesis("thesis, repaired", {.repair = rec::covariance_repair::pooled,
                                     .one_word_per_part = true,
                                     .counts_absence = true});

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The recommended mode, object_recognizer, and soft words beside it: fresh views of known models,
+// The recommended mode, object_recognizer, compared with soft words: fresh views of known models,
 // the meaning of their probabilities, what its pieces contribute, and times.
 #include <chrono>
 #include <cstddef>
@@ -89,12 +89,11 @@ class study {
         std::printf("%s\n", learning_.back().dump().c_str());
 
         const view_set once = unhidden(training);
-        const rec::part_kernels soft(once.views, once.classes, names.size(),
-                                     rec::default_features, rec::default_relations);
+        const rec::part_kernels soft(once.views, once.classes, names.size(), rec::default_features,
+                                     rec::default_relations);
         rec::object_recognizer no_relations({}, rec::default_features, rec::no_relations);
         learn(no_relations, training, names);
-        rec::object_recognizer no_profile({}, rec::default_features, rec::default_relations,
-                                          false);
+        rec::object_recognizer no_profile({}, rec::default_features, rec::default_relations, false);
         learn(no_profile, training, names);
         rec::object_recognizer parts_alone({}, rec::default_features, rec::no_relations, false);
         learn(parts_alone, training, names);

@@ -70,8 +70,8 @@ double purity(const clusters& found, const std::vector<std::string>& names) {
 }
 
 std::size_t largest(const clusters& found) {
-    const auto at = std::ranges::max_element(
-        found.clusters, {}, [](const auto& c) { return c.count; });
+    const auto at =
+        std::ranges::max_element(found.clusters, {}, [](const auto& c) { return c.count; });
     return static_cast<std::size_t>(at - found.clusters.begin());
 }
 
@@ -191,11 +191,10 @@ class study {
                 all.features, {.max_distance = rho, .distance = {.weights = weights}});
             add_words(seed, rho, all, found, set);
             const normality n(all, found);
-            normality_.add({{"rho", rho}},
-                           {{"words tested", static_cast<double>(n.words)},
-                            {"Anderson-Darling, a feature", n.anderson_darling},
-                            {"Mardia", n.mardia},
-                            {"energy", n.energy}});
+            normality_.add({{"rho", rho}}, {{"words tested", static_cast<double>(n.words)},
+                                            {"Anderson-Darling, a feature", n.anderson_darling},
+                                            {"Mardia", n.mardia},
+                                            {"energy", n.energy}});
             add_purity("greedy means", rho, all, found);
             add_purity("x-means, not more words", rho, all,
                        rec::x_means(all.features, {.max_clusters = found.clusters.size()}));
@@ -211,18 +210,18 @@ class study {
         std::size_t kept = 0;
         for (const auto& c : found.clusters) kept += c.count;
         const auto relations = relation_words(set, found, rec::thesis_relations, 4);
-        dictionary_.push_back({{"seed", seed},
-                               {"rho", rho},
-                               {"parts", all.features.size()},
-                               {"part words", found.clusters.size()},
-                               {"the thesis", rho > 0.05 ? "24" : "110"},
-                               {"parts in words", rounded(static_cast<double>(kept) /
-                                                              static_cast<double>(all.kinds.size()),
-                                                          3)},
-                               {"most frequent word", kinds.front().second},
-                               {"angle words", relations[0]},
-                               {"distance words", relations[1]},
-                               {"of the thesis", rho > 0.05 ? "7 + 2" : "45 + 307"}});
+        dictionary_.push_back(
+            {{"seed", seed},
+             {"rho", rho},
+             {"parts", all.features.size()},
+             {"part words", found.clusters.size()},
+             {"the thesis", rho > 0.05 ? "24" : "110"},
+             {"parts in words",
+              rounded(static_cast<double>(kept) / static_cast<double>(all.kinds.size()), 3)},
+             {"most frequent word", kinds.front().second},
+             {"angle words", relations[0]},
+             {"distance words", relations[1]},
+             {"of the thesis", rho > 0.05 ? "7 + 2" : "45 + 307"}});
         std::printf("%s\n", dictionary_.back().dump().c_str());
         if (seed == first_seed) add_most_frequent(rho, all, found);
         for (const double mass : {1.0, 2.0, 3.0, 5.0}) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: BSL-1.0
-// The recognition of the thesis, Sec. 5.6.3, Figs. 5.7 and 5.8: word histograms to the letter, with
+// The recognition of the thesis, Sec. 5.6.3, Figs. 5.7 and 5.8: word histograms as printed, with
 // repairs, by rho_max, which classes are confused, and what relations, their absence, and the
 // number of parts contribute.
 #include <algorithm>
@@ -23,9 +23,8 @@ namespace {
 using options = rec::word_histogram_options;
 
 constexpr options letter{};
-constexpr options repaired{.repair = rec::covariance_repair::pooled,
-                           .one_word_per_part = true,
-                           .counts_absence = true};
+constexpr options repaired{
+    .repair = rec::covariance_repair::pooled, .one_word_per_part = true, .counts_absence = true};
 
 /// The options with one change.
 options with(options of, auto&& change) {
@@ -69,12 +68,12 @@ class study {
             sweep[i]["relation words"] = median_of(relation_words);
         }
         json all;
-        all["to the letter"] = letter_rows;
+        all["as printed"] = letter_rows;
         all["repairs"] = repairs_.table(measures);
         all["by rho"] = sweep;
-        all["without one of its pieces, all seeds together"] = ablation_.pooled(
-            {measures[0], measures[1], measures[2], measures[3], measures[4]});
-        all["confusions, to the letter, all seeds together"] = confusions();
+        all["without one of its pieces, all seeds together"] =
+            ablation_.pooled({measures[0], measures[1], measures[2], measures[3], measures[4]});
+        all["confusions, as printed, all seeds together"] = confusions();
         return all;
     }
 
@@ -103,7 +102,7 @@ class study {
         const auto repair = [&](const char* what, outcomes found) {
             repairs_.add({{"method", what}}, std::move(found));
         };
-        repair("to the letter", plain.test);
+        repair("as printed", plain.test);
         const auto absence = [](options& o) { o.counts_absence = true; };
         const auto one_vote = [](options& o) { o.one_word_per_part = true; };
         const auto pooled = [](options& o) { o.repair = rec::covariance_repair::pooled; };
@@ -113,14 +112,13 @@ class study {
         const learned all_repairs = run(repaired, rec::thesis_relations);
         repair("with all three", all_repairs.test);
 
-        add_ablation("to the letter", letter, plain.test, run);
+        add_ablation("as printed", letter, plain.test, run);
         add_ablation("with all three", repaired, all_repairs.test, run);
 
         const std::vector<double> thresholds =
-            much_.quick
-                ? std::vector<double>{0.10, 0.03, 0.0}
-                : std::vector<double>{0.30, 0.20, 0.15, 0.10, 0.07, 0.05, 0.04, 0.03, 0.02, 0.01,
-                                      0.0};
+            much_.quick ? std::vector<double>{0.10, 0.03, 0.0}
+                        : std::vector<double>{0.30, 0.20, 0.15, 0.10, 0.07, 0.05,
+                                              0.04, 0.03, 0.02, 0.01, 0.0};
         sizes_.resize(thresholds.size());
         for (std::size_t i = 0; i < thresholds.size(); ++i) {
             options o = letter;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 // Occluded objects, Fig. 5.11: a board in front of an object hides a share of its points. All
-// methods learn the same views; all but soft words, and the thesis to the letter, also versions of
+// methods learn the same views; all but soft words, and the thesis as printed, also versions of
 // these of which a part is hidden.
 #include <array>
 #include <cstddef>
@@ -46,8 +46,8 @@ using profile_trees = rec::object_recognizer<boost::hana::tuple<rec::box_edge<0>
                                              std::remove_cv_t<decltype(rec::no_relations)>>;
 
 outcomes outcomes_of_profiles(const profile_trees& trees, const scan_set& tests) {
-    outcomes found = outcomes_of(profiles_of(tests),
-                                 [&](const rec::view& v) { return trees.decide(v); });
+    outcomes found =
+        outcomes_of(profiles_of(tests), [&](const rec::view& v) { return trees.decide(v); });
     for (std::size_t i = 0; i < found.all.size(); ++i)
         found.all[i].has_parts = tests.scans[i].size() >= default_density.min_points;
     return found;
@@ -122,9 +122,9 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const view_set seen_once = views_of(once), once50 = views_of(once, thesis_density);
     const rec::part_kernels soft(seen_once.views, seen_once.classes, models.size(),
                                  rec::default_features, rec::default_relations);
-    const rec::word_histograms thesis(
-        once50.views, once50.classes, models.size(),
-        rec::scaled_by_largest(rec::thesis_features, once50.views), rec::thesis_relations);
+    const rec::word_histograms thesis(once50.views, once50.classes, models.size(),
+                                      rec::scaled_by_largest(rec::thesis_features, once50.views),
+                                      rec::thesis_relations);
     const rec::word_histograms repaired(
         training50.views, training50.classes, models.size(),
         rec::scaled_by_largest(rec::thesis_features, training50.views), rec::thesis_relations,
@@ -137,20 +137,18 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const nearest_neighbor vfh_once(peers::vfh, once), esf_once(peers::esf, once);
 #endif
 
-    const std::vector<double> shares = much.quick ? std::vector<double>{0.0, 0.5}
-                                                  : std::vector<double>{0.0, 0.2, 0.4, 0.5, 0.6,
-                                                                        0.8};
+    const std::vector<double> shares = much.quick
+                                           ? std::vector<double>{0.0, 0.5}
+                                           : std::vector<double>{0.0, 0.2, 0.4, 0.5, 0.6, 0.8};
     for (const double share : shares) {
-        const scan_set tests =
-            scans_of(models, n, {.occluded_share = share}, seed, purpose::test);
+        const scan_set tests = scans_of(models, n, {.occluded_share = share}, seed, purpose::test);
         const view_set seen = views_of(tests), seen50 = views_of(tests, thesis_density);
         const auto add = [&](const char* method, outcomes found) {
             rows.add({{"hidden", share}, {"method", method}}, std::move(found));
         };
-        add("default",
-            outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
+        add("default", outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
         add("soft words", outcomes_of(soft, seen, soft.temperature()));
-        add("thesis, to the letter", outcomes_of(thesis, seen50, 1.0));
+        add("thesis, as printed", outcomes_of(thesis, seen50, 1.0));
         add("thesis, repaired", outcomes_of(repaired, seen50, 1.0));
         add("height profile", outcomes_of_profiles(profiles, tests));
 #ifdef CHAPTER5_PCL

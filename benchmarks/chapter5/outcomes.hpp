@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// How recognition is judged. A view is decided if the probability of the best class is P_d or
+/// How recognition is tested. A view is decided if the probability of the best class is P_d or
 /// more; views without parts are not decided, and never dropped. Precision is the share of right
 /// ones of the decided, missed the share of undecided ones, and right that of the right and
 /// decided, of all views.
@@ -78,9 +78,9 @@ struct outcomes {
         std::ranges::stable_sort(order, {}, [](const auto& o) { return o.first; });
         const auto n = static_cast<std::size_t>(
             std::lround((1.0 - undecided) * static_cast<double>(order.size())));
-        const auto right = std::count_if(order.begin(),
-                                         order.begin() + static_cast<std::ptrdiff_t>(n),
-                                         [](const auto& o) { return o.second; });
+        const auto right =
+            std::count_if(order.begin(), order.begin() + static_cast<std::ptrdiff_t>(n),
+                          [](const auto& o) { return o.second; });
         return static_cast<double>(right) / static_cast<double>(n);
     }
     [[nodiscard]] double evidence_error() const {
@@ -168,9 +168,8 @@ struct measure_by_seed {
         std::vector<double> values;
         for (const outcomes& o : seeds) values.push_back(m.of(o));
         key[m.name] = rounded(median_of(values), 3);
-        key[m.name + ", worst"] = rounded(m.larger_is_better ? std::ranges::min(values)
-                                                             : std::ranges::max(values),
-                                          3);
+        key[m.name + ", worst"] =
+            rounded(m.larger_is_better ? std::ranges::min(values) : std::ranges::max(values), 3);
     }
     std::printf("%s\n", key.dump().c_str());
     std::fflush(stdout);

@@ -21,7 +21,7 @@ from claims import judged  # noqa: E402
 SECTIONS = [
     ("fig_5_5", "Fig. 5.5: words",
      "The dictionary of the thesis: greedy means clustering of the five features of all parts of 480 views, Alg. 5.1, "
-     "with weights 0.30, 0.30, 0.13, 0.13, 0.13; words have 4 parts or more. What a part is, the simulator tells. "
+     "with weights 0.30, 0.30, 0.13, 0.13, 0.13; words have 4 parts or more. The simulator gives the true part of each segment. "
      "Relation words are counted over pairs of parts of the same view: the critical mass is the least share of the "
      "values of a pair of words in the fullest bin (36 bins of angles, 5 cm of distances), the support the least "
      "number of values. Words are tested for a normal distribution if they have 8 parts or more, at a significance "
@@ -37,27 +37,27 @@ SECTIONS = [
      "30.4 % missed is that of the most certain 69.6 % of views, whatever their probability, so that methods are "
      "compared at the undecided views of the thesis."),
     ("default_mode", "The recommended mode",
-     "`object_recognizer` with its defaults, and soft words (`part_kernels`). The recognizer learns each view "
+     "`object_recognizer` with its defaults, and soft words (`part_kernels`). It is taught each view "
      "together with two versions of its scan of which a part is hidden by `hide_part`. Fresh views are of the same "
      "models in other poses; those that differ in duration, noise or occlusion only have the same poses. Times of "
      "decisions are those of the processor, of one thread; learning is with all threads, on the wall clock, "
-     "beside other work of the machine."),
+     "next to other work of the machine."),
     ("occlusion", "Fig. 5.11: occluded objects",
      "A board in front of the object hides a share of its points, on the left, on the right or at the bottom. All "
      "methods learn the same views with the same two versions of which a part is hidden, but for soft words and the "
-     "thesis to the letter, which learn the views alone, and the peers once more without. VFH and ESF are of PCL, with the nearest neighbor by the sum of absolute "
+     "thesis as printed, which learn the views alone, and the peers once more without. VFH and ESF are of PCL, with the nearest neighbor by the sum of absolute "
      "differences; they have no probability, and decide on all views. The height profile is that of all points of the "
-     "scan, without any parts, with the same trees as the default. The thesis repaired learns hidden versions, too, "
+     "scan, without any parts, with the same trees as the default. The repaired method of the thesis has seen hidden versions, too, "
      "and does not count parts."),
     ("skimmed", "Sec. 5.8.4: skimmed points",
      "Scans by a beam of 10 mrad, of 9 sub-rays, that averages the ranges of all surfaces that it meets, tested "
      "after learning scans by thin beams, and after learning both."),
     ("backs", "Models that differ in their backs only",
      "Four chairs of the same seat, legs and back, which stands at the rear edge, 8 or 16 cm inwards, or 12 cm "
-     "to the side, up to 3 m ahead, where seats are seen: 120 views of each to learn, and as many to judge."),
+     "to the side, up to 3 m ahead, where seats are seen: 120 views of each to learn, and the same number to test."),
     ("furniture_files", "Furniture from files",
      "Chairs, tables and other furniture from mesh files of two sources. Models are left out, a fifth at a time, "
-     "of each class alike, in an order of the seed; the views of a left-out model are judged by a recognizer that "
+     "of each class alike, in an order of the seed; the views of a left-out model are classified by a recognizer that "
      "never saw it, which has learned classes, or models whose probabilities are added by class. \"Chair, table\": "
      "which of both is more probable, of views of chairs and tables. Fresh views are of models that were learned, by "
      "their names."),
@@ -72,12 +72,12 @@ def page(results, verdicts):
     if results.quick:
         lines += ["**Measured with `--quick`: few views. A test of the programs, not a result.**", ""]
     lines += [
-        "Chapter 5 of Klasing 2010 on simulated views, and the recommended mode of this library beside it, by one "
+        "Chapter 5 of Klasing 2010 on simulated views, compared with the recommended mode of this library, by one "
         "command:", "", "    sh benchmarks/reproduce.sh chapter5", "",
         "The twelve models of `furniture_models()` stand alone, without floor or board unless given, in front of a "
         "UTM-30LX at a height of 1.2 m, which scans them vertically for 8 s with a noise of 5 mm: 0.5 to 5.5 m ahead, "
         "up to 2.5 m to the sides, never nearer than 1.2 m, at any heading. 40 views of each model are learned, and "
-        "40 others judged. All is repeated with five seeds, which nothing was chosen on: values are medians, and those "
+        "40 others classified. All is repeated with five seeds, which nothing was chosen on: values are medians, and those "
         "of the worst seed where given.", "",
         "A view is decided if the probability of the best class is P_d = 0.90 or more. **Precision** is the share of "
         "right ones of the decided views, **missed** the share of undecided ones of all views, **right** that of the "
@@ -111,7 +111,7 @@ def draw_by_rho(axes, rows):
     axes.minorticks_off()
     axes.set_ylim(0, 1.02)
     axes.set_xlabel("rho_max of the words")
-    axes.set_title("The thesis to the letter (Fig. 5.8)")
+    axes.set_title("The thesis as printed (Fig. 5.8)")
 
 
 def draw_by_probability(axes, rows):

@@ -34,10 +34,9 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
 
     const auto add = [&](const char* mode, const char* trained, auto&& recognize) {
         for (const bool is_wide : {false, true}) {
-            rows.add({{"mode", mode},
-                      {"learned", trained},
-                      {"tested", is_wide ? "skimmed" : "thin"}},
-                     recognize(is_wide));
+            rows.add(
+                {{"mode", mode}, {"learned", trained}, {"tested", is_wide ? "skimmed" : "thin"}},
+                recognize(is_wide));
         }
     };
 
@@ -63,9 +62,8 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
         const rec::word_histograms thesis(
             training.views, training.classes, names.size(),
             rec::scaled_by_largest(rec::thesis_features, training.views), rec::thesis_relations);
-        add("thesis", trained, [&](bool is_wide) {
-            return outcomes_of(thesis, is_wide ? wide50 : thin50, 1.0);
-        });
+        add("thesis", trained,
+            [&](bool is_wide) { return outcomes_of(thesis, is_wide ? wide50 : thin50, 1.0); });
     };
     const view_set thin_training = views_of(thin_scans, thesis_density),
                    wide_training = views_of(wide_scans, thesis_density);

@@ -24,9 +24,8 @@ sim::object_view_options options_of(const view_kind& kind, std::uint64_t seed, p
                                      .seed = 10 * seed + static_cast<std::uint64_t>(use)};
     options.places.high.x() = kind.farthest;
     if (kind.skims) {
-        options.beam.footprint = {.divergence = gnomon::radians(0.010),
-                                  .sub_rays = 9,
-                                  .rule = sim::echo_rule::averaged};
+        options.beam.footprint = {
+            .divergence = gnomon::radians(0.010), .sub_rays = 9, .rule = sim::echo_rule::averaged};
     }
     return options;
 }
@@ -76,9 +75,9 @@ seen perceived(const gnomon::scan& scan, double sigma, const density& how,
         chain{.neighborhood = {.k = how.k}, .noise = gnomon::constant_noise{sigma}};
     chain.segmentation.surfaces.min_points = how.min_points;
     const auto all = chain(scan);
-    auto views = rec::views_of(
-        scan, all.surface, all.surfaces,
-        {.gap = rec::infinite_gap, .min_parts = 1, .ground = gnomon::plane{}});
+    auto views =
+        rec::views_of(scan, all.surface, all.surfaces,
+                      {.gap = rec::infinite_gap, .min_parts = 1, .ground = gnomon::plane{}});
     if (views.empty()) return result;
     result.view = std::move(views.front());
     if (truth.empty()) return result;
@@ -108,19 +107,15 @@ scan_set scans_of(const std::vector<sim::furniture_model>& models, std::size_t v
         set.classes.push_back(static_cast<std::uint32_t>(v.model));
         set.parts.emplace_back();
         for (const gnomon::point_index i : chosen)
-            set.parts.back().push_back(
-                names[v.model][static_cast<std::size_t>(v.truth.parts[i])]);
+            set.parts.back().push_back(names[v.model][static_cast<std::size_t>(v.truth.parts[i])]);
     }
     return set;
 }
 
 scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed) {
     constexpr std::size_t hidden = 2;
-    scan_set all{.scans = {},
-                 .classes = {},
-                 .parts = {},
-                 .versions = 1 + hidden,
-                 .sigma = scans.sigma};
+    scan_set all{
+        .scans = {}, .classes = {}, .parts = {}, .versions = 1 + hidden, .sigma = scans.sigma};
     for (std::size_t i = 0; i < scans.scans.size(); ++i) {
         gnomon::random_stream random(seed, i);
         for (std::size_t version = 0; version <= hidden; ++version) {

@@ -39,16 +39,15 @@ struct view_kind {
 /// Scans of single objects, without the board that hides a part.
 struct scan_set {
     std::vector<gnomon::scan> scans;
-    std::vector<std::uint32_t> classes;             ///< of each scan: the number of its model
-    std::vector<std::vector<std::string>> parts;    ///< of each point of each scan, its true part
-    std::size_t versions = 1;  ///< so many consecutive scans are versions of one view
+    std::vector<std::uint32_t> classes;           ///< of each scan: the number of its model
+    std::vector<std::vector<std::string>> parts;  ///< of each point of each scan, its true part
+    std::size_t versions = 1;  ///< this number of consecutive scans shows one view
     double sigma = 0.005;
 };
 
 /// The views of all models, model by model.
-[[nodiscard]] scan_set scans_of(const std::vector<sim::furniture_model>& models,
-                                std::size_t views, const view_kind& kind, std::uint64_t seed,
-                                purpose use);
+[[nodiscard]] scan_set scans_of(const std::vector<sim::furniture_model>& models, std::size_t views,
+                                const view_kind& kind, std::uint64_t seed, purpose use);
 
 /// Each scan, followed by two versions of it of which a part is hidden.
 [[nodiscard]] scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed);
