@@ -22,7 +22,7 @@ namespace {
 
 using options = rec::word_histogram_options;
 
-constexpr options letter{};
+constexpr options printed{};
 constexpr options repaired{
     .repair = rec::covariance_repair::pooled, .one_word_per_part = true, .counts_absence = true};
 
@@ -48,8 +48,8 @@ class study {
         auto measures = usual_measures();
         measures.push_back(equal_missed_measure());
         const std::vector<measure_by_seed> few{measures[0], measures[1], measures[2]};
-        json letter_rows = letter_.table(few);
-        for (json& row : letter_rows) {
+        json printed_rows = printed_.table(few);
+        for (json& row : printed_rows) {
             const bool is_training = row.at("views") == "training";
             row["the thesis: precision, missed, right"] =
                 is_training ? "0.976, 0.231, 0.750" : "0.955, 0.304, 0.665";
@@ -68,7 +68,7 @@ class study {
             sweep[i]["relation words"] = median_of(relation_words);
         }
         json all;
-        all["as printed"] = letter_rows;
+        all["as printed"] = printed_rows;
         all["repairs"] = repairs_.table(measures);
         all["by rho"] = sweep;
         all["without one of its pieces, all seeds together"] =
@@ -93,9 +93,9 @@ class study {
                            model.words().words.size(), model.relation_words().size()};
         };
 
-        const learned plain = run(letter, rec::thesis_relations);
-        letter_.add({{"views", "training"}}, plain.training);
-        letter_.add({{"views", "test"}}, plain.test);
+        const learned plain = run(printed, rec::thesis_relations);
+        printed_.add({{"views", "training"}}, plain.training);
+        printed_.add({{"views", "test"}}, plain.test);
         names_ = names_of(models);
         confused_.add(plain.test);
 
@@ -106,13 +106,13 @@ class study {
         const auto absence = [](options& o) { o.counts_absence = true; };
         const auto one_vote = [](options& o) { o.one_word_per_part = true; };
         const auto pooled = [](options& o) { o.repair = rec::covariance_repair::pooled; };
-        repair("with absence", run(with(letter, absence), rec::thesis_relations).test);
-        repair("with one word per part", run(with(letter, one_vote), rec::thesis_relations).test);
-        repair("with pooled covariances", run(with(letter, pooled), rec::thesis_relations).test);
+        repair("with absence", run(with(printed, absence), rec::thesis_relations).test);
+        repair("with one word per part", run(with(printed, one_vote), rec::thesis_relations).test);
+        repair("with pooled covariances", run(with(printed, pooled), rec::thesis_relations).test);
         const learned all_repairs = run(repaired, rec::thesis_relations);
         repair("with all three", all_repairs.test);
 
-        add_ablation("as printed", letter, plain.test, run);
+        add_ablation("as printed", printed, plain.test, run);
         add_ablation("with all three", repaired, all_repairs.test, run);
 
         const std::vector<double> thresholds =
@@ -121,7 +121,7 @@ class study {
                                               0.04, 0.03, 0.02, 0.01, 0.0};
         sizes_.resize(thresholds.size());
         for (std::size_t i = 0; i < thresholds.size(); ++i) {
-            options o = letter;
+            options o = printed;
             o.max_distance = thresholds[i];
             if (thresholds[i] == 0.0) o.min_members = 1;
             const learned found = run(o, rec::thesis_relations);
@@ -133,13 +133,22 @@ class study {
             std::fflush(stdout);
         }
 
-        // The same on parts as the default mode has them.
-        const view_set training20 = views_of(learning), test20 = views_of(testing);
-        const auto features20 = rec::scaled_by_largest(rec::thesis_features, training20.views);
-        const rec::word_histograms model(training20.views, training20.classes, models.size(),
-                                         features20, rec::thesis_relations, repaired);
-        repair("with all three, 20 neighbors, segments of 10 points",
-               outcomes_of(model, test20, 1.0));
+        // Smaller segments, and the parts of the default mode.
+        add_repairs_at({50, 15}, "segments of 15 points", learning, testing);
+        add_repairs_at(default_density, "20 neighbors, segments of 10 points", learning, testing);
+    }
+
+    void add_repairs_at(const density& how, const std::string& name, const scan_set& learning,
+                        const scan_set& testing) {
+        const view_set training = views_of(learning, how), test = views_of(testing, how);
+        const auto features = rec::scaled_by_largest(rec::thesis_features, training.views);
+        const std::size_t number = names_.size();
+        for (const auto& [method, o] :
+             {std::pair{"as printed, ", printed}, std::pair{"with all three, ", repaired}}) {
+            const rec::word_histograms model(training.views, training.classes, number, features,
+                                             rec::thesis_relations, o);
+            repairs_.add({{"method", method + name}}, outcomes_of(model, test, 1.0));
+        }
     }
 
     void add_ablation(const char* mode, const options& of, const outcomes& whole, auto&& run) {
@@ -181,7 +190,7 @@ class study {
 
     effort much_;
     std::vector<std::string> names_;
-    outcomes_by_row letter_, repairs_, sweep_, sweep_training_, ablation_;
+    outcomes_by_row printed_, repairs_, sweep_, sweep_training_, ablation_;
     std::vector<std::vector<std::pair<double, double>>> sizes_;  ///< words, by rho and seed
     outcomes confused_;
 };

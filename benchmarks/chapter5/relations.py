@@ -97,7 +97,7 @@ def relation_words(tables):
           "Sec. 5.6.3, Fig. 5.7: 0.955, 0.304",
           "detections of several words in one part vote several times; at the missed views of the thesis the precision "
           "is that of the first row of the repairs")
-def letter_test(tables):
+def printed_test(tables):
     found = row(tables["as printed"], views="test")
     return with_worst(found, "precision", "missed"), found["precision"] >= 0.955 and found["missed"] <= 0.304
 
@@ -105,7 +105,7 @@ def letter_test(tables):
 @relation("fig_5_8", "5.7.2", "as printed: precision 0.976 or more of training views, at 23.1 % missed or less",
           "Sec. 5.6.3: 0.976, 0.231",
           "so it is for training views: what limits the method is not what was not learned")
-def letter_training(tables):
+def printed_training(tables):
     found = row(tables["as printed"], views="training")
     return with_worst(found, "precision", "missed"), found["precision"] >= 0.976 and found["missed"] <= 0.231
 
@@ -167,7 +167,7 @@ def loses_little(tables, mode, without="relations", **more):
           "than without", "Sec. 5.7.1: relations never hurt",
           "relations that are seen count, missing ones do not, so that a class in which a pair never occurs is not "
           "penalized; overlapping words of one part count one relation several times")
-def relations_to_the_letter(tables):
+def relations_as_printed(tables):
     text, lost = loses_little(tables, "as printed")
     return text, lost <= 0.005
 
