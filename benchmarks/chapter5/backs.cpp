@@ -80,21 +80,20 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
                                   rec::no_relations, {.pair_weight = 0.0});
     add("soft words", false, outcomes_of(alone, seen, alone.temperature()));
 
-    const view_set once50 = views_of(scans, thesis_density),
-                   seen50 = views_of(tests, thesis_density);
-    const auto features = rec::scaled_by_largest(rec::thesis_features, once50.views);
-    const auto add_thesis = [&](const char* mode, const rec::word_histogram_options& options) {
-        const rec::word_histograms with(once50.views, once50.classes, names.size(), features,
+    const auto add_thesis = [&](const char* mode, const density& how,
+                                const rec::word_histogram_options& options) {
+        const view_set examples = views_of(scans, how), test = views_of(tests, how);
+        const auto features = rec::scaled_by_largest(rec::thesis_features, examples.views);
+        const rec::word_histograms with(examples.views, examples.classes, names.size(), features,
                                         rec::thesis_relations, options);
-        add(mode, true, outcomes_of(with, seen50, 1.0));
-        const rec::word_histograms without(once50.views, once50.classes, names.size(), features,
+        add(mode, true, outcomes_of(with, test, 1.0));
+        const rec::word_histograms without(examples.views, examples.classes, names.size(), features,
                                            rec::no_relations, options);
-        add(mode, false, outcomes_of(without, seen50, 1.0));
+        add(mode, false, outcomes_of(without, test, 1.0));
     };
-    add_thesis("thesis, as printed", {});
-    add_thesis("thesis, repaired", {.repair = rec::covariance_repair::pooled,
-                                    .one_word_per_part = true,
-                                    .counts_absence = true});
+    add_thesis("thesis, as printed", thesis_density, {});
+    add_thesis("thesis, repaired", repaired_density,
+               {.repair = rec::covariance_repair::pooled, .counts_absence = true});
 }
 
 json measure(const effort& much) {

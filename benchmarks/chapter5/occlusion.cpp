@@ -113,7 +113,7 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const std::size_t n = views_per_model(much);
     const scan_set once = scans_of(models, n, {}, seed, purpose::learning);
     const scan_set scans = with_hidden_parts(once, seed);
-    const view_set training = views_of(scans), training50 = views_of(scans, thesis_density);
+    const view_set training = views_of(scans), training15 = views_of(scans, repaired_density);
 
     rec::object_recognizer model;
     learn(model, training, names_of(models));
@@ -126,12 +126,9 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
                                       rec::scaled_by_largest(rec::thesis_features, once50.views),
                                       rec::thesis_relations);
     const rec::word_histograms repaired(
-        training50.views, training50.classes, models.size(),
-        rec::scaled_by_largest(rec::thesis_features, training50.views), rec::thesis_relations,
-        {.repair = rec::covariance_repair::pooled,
-         .counts_parts = false,
-         .one_word_per_part = true,
-         .counts_absence = true});
+        training15.views, training15.classes, models.size(),
+        rec::scaled_by_largest(rec::thesis_features, training15.views), rec::thesis_relations,
+        {.repair = rec::covariance_repair::pooled, .counts_parts = false, .counts_absence = true});
 #ifdef CHAPTER5_PCL
     const nearest_neighbor vfh(peers::vfh, scans), esf(peers::esf, scans);
     const nearest_neighbor vfh_once(peers::vfh, once), esf_once(peers::esf, once);
@@ -142,14 +139,15 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
                                            : std::vector<double>{0.0, 0.2, 0.4, 0.5, 0.6, 0.8};
     for (const double share : shares) {
         const scan_set tests = scans_of(models, n, {.occluded_share = share}, seed, purpose::test);
-        const view_set seen = views_of(tests), seen50 = views_of(tests, thesis_density);
+        const view_set seen = views_of(tests), seen50 = views_of(tests, thesis_density),
+                       seen15 = views_of(tests, repaired_density);
         const auto add = [&](const char* method, outcomes found) {
             rows.add({{"hidden", share}, {"method", method}}, std::move(found));
         };
         add("default", outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
         add("soft words", outcomes_of(soft, seen, soft.temperature()));
         add("thesis, as printed", outcomes_of(thesis, seen50, 1.0));
-        add("thesis, repaired", outcomes_of(repaired, seen50, 1.0));
+        add("thesis, repaired", outcomes_of(repaired, seen15, 1.0));
         add("height profile", outcomes_of_profiles(profiles, tests));
 #ifdef CHAPTER5_PCL
         add("VFH, nearest", vfh(tests));
