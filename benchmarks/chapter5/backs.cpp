@@ -92,8 +92,7 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
         add(mode, false, outcomes_of(without, test, 1.0));
     };
     add_thesis("thesis, as printed", thesis_density, {});
-    add_thesis("thesis, repaired", repaired_density,
-               {.repair = rec::covariance_repair::pooled, .counts_absence = true});
+    add_thesis("thesis, repaired", repaired_density, {.counts_absence = true});
 }
 
 json measure(const effort& much) {

@@ -128,7 +128,7 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     const rec::word_histograms repaired(
         training15.views, training15.classes, models.size(),
         rec::scaled_by_largest(rec::thesis_features, training15.views), rec::thesis_relations,
-        {.repair = rec::covariance_repair::pooled, .counts_parts = false, .counts_absence = true});
+        {.counts_parts = false, .counts_absence = true});
 #ifdef CHAPTER5_PCL
     const nearest_neighbor vfh(peers::vfh, scans), esf(peers::esf, scans);
     const nearest_neighbor vfh_once(peers::vfh, once), esf_once(peers::esf, once);

@@ -33,8 +33,8 @@ SECTIONS = [
      "Word histograms as in Secs. 5.2 to 5.4, rho 0.03 unless given: with parts from 50 neighbors and segments of 30 "
      "points and more, as in the thesis. Repairs are documented in [the notes on the thesis](../thesis-notes.md): "
      "relations that are missing count as evidence; each part votes for its nearest word only; covariances of words "
-     "are shrunk to that of all words. Repaired is the method with the first and the last one, on segments of 15 "
-     "points and more where given: on other seeds this was the most precise one at equal missed views. At rho 0 words have one part and more, and each part is a word. Precision at "
+     "are shrunk to that of all words. Repaired is the method with the first one, on segments of 15 points and "
+     "more where given: on other seeds this was the most precise one at equal missed views. At rho 0 words have one part and more, and each part is a word. Precision at "
      "30.4 % missed is that of the most certain 69.6 % of views, whatever their probability, so that methods are "
      "compared at the undecided views of the thesis."),
     ("default_mode", "The recommended mode",

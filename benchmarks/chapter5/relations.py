@@ -174,8 +174,7 @@ def relations_as_printed(tables):
 
 
 @relation("fig_5_8", "5.8.5", "so it is repaired", "Sec. 5.7.1",
-          "pairs of a part with many others are not independent, as the product of their shares takes them to be: "
-          "more views are decided, and some of these wrongly")
+          "absence counts relations, too: without them more is lost of one of both measures and less of the other")
 def relations_repaired(tables):
     text, lost = loses_little(tables, "repaired")
     return text, lost <= 0.005
