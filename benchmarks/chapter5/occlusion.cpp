@@ -55,8 +55,7 @@ outcomes outcomes_of_profiles(const profile_trees& trees, const scan_set& tests)
 
 #ifdef CHAPTER5_PCL
 
-/// Descriptors of views, compared by the sum of absolute differences, which on other seeds was
-/// better for both than the Euclidean distance and chi^2.
+/// Descriptors of views, compared by the sum of absolute differences.
 class nearest_neighbor {
   public:
     using descriptor = std::vector<float> (*)(const gnomon::scan&);
