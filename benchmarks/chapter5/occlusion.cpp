@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: BSL-1.0
+// Occluded objects, Fig. 5.11: a board in front of an object hides a share of its points. All
+// methods learn the same views; all but soft words, and the thesis as printed, also versions of
+// these of which a part is hidden.
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "outcomes.hpp"
+#include "peers.hpp"
+#include "views.hpp"
+#include <gnomon/core/error.hpp>
+#include <gnomon/recognition/height_profile.hpp>
+#include <gnomon/recognition/object_recognizer.hpp>
+#include <gnomon/recognition/part_features.hpp>
+#include <gnomon/recognition/part_kernels.hpp>
+#include <gnomon/recognition/part_relation.hpp>
+#include <gnomon/recognition/word_histograms.hpp>
+
+namespace {
+
+/// A view that is the height profile of all points, without parts.
+rec::view profile_of(const gnomon::scan& scan) {
+    rec::view v;
+    v.ground = gnomon::plane{};
+    for (const auto& p : scan.points) {
+        const Eigen::Vector3d d = p - scan.points.front();
+        v.rest.add(p.z(), d.x(), d.y());
+    }
+    return v;
+}
+
+view_set profiles_of(const scan_set& scans) {
+    view_set set{.views = {}, .classes = scans.classes, .parts = {}, .versions = scans.versions};
+    for (const auto& s : scans.scans) set.views.push_back(profile_of(s));
+    return set;
+}
+
+/// Trees on the profile alone. The feature of parts is never used, as there are none.
+using profile_trees = rec::object_recognizer<boost::hana::tuple<rec::box_edge<0>>,
+                                             std::remove_cv_t<decltype(rec::no_relations)>>;
+
+outcomes outcomes_of_profiles(const profile_trees& trees, const scan_set& tests) {
+    outcomes found =
+        outcomes_of(profiles_of(tests), [&](const rec::view& v) { return trees.decide(v); });
+    for (std::size_t i = 0; i < found.all.size(); ++i)
+        found.all[i].has_parts = tests.scans[i].size() >= default_density.min_points;
+    return found;
+}
+
+#ifdef CHAPTER5_PCL
+
+/// Descriptors of views, compared by the sum of absolute differences.
+class nearest_neighbor {
+  public:
+    using descriptor = std::vector<float> (*)(const gnomon::scan&);
+
+    nearest_neighbor(descriptor describe, const scan_set& training)
+        : describe_(describe), known_(all_of(training)), classes_(training.classes) {}
+
+    /// Certain of all answers, right or wrong.
+    [[nodiscard]] outcomes operator()(const scan_set& tests) const {
+        const auto described = all_of(tests);
+        outcomes found{std::vector<outcome>(described.size())};
+        gnomon::threads{}(described.size(), [&](std::size_t i) {
+            outcome& o = found.all[i];
+            o.truth = tests.classes[i];
+            if (described[i].empty()) return;
+            o.has_parts = true;
+            o.probability = 1.0;
+            o.best = classes_[nearest(described[i])];
+            o.is_right = o.best == o.truth;
+        });
+        return found;
+    }
+
+  private:
+    [[nodiscard]] std::vector<std::vector<float>> all_of(const scan_set& set) const {
+        std::vector<std::vector<float>> all(set.scans.size());
+        gnomon::threads{}(all.size(), [&](std::size_t i) { all[i] = describe_(set.scans[i]); });
+        return all;
+    }
+
+    [[nodiscard]] std::size_t nearest(const std::vector<float>& x) const {
+        std::size_t best = 0;
+        float least = std::numeric_limits<float>::infinity();
+        for (std::size_t i = 0; i < known_.size(); ++i) {
+            if (known_[i].empty()) continue;
+            float sum = 0.0f;
+            for (std::size_t k = 0; k < x.size(); ++k) sum += std::abs(x[k] - known_[i][k]);
+            if (sum >= least) continue;
+            least = sum;
+            best = i;
+        }
+        return best;
+    }
+
+    descriptor describe_;
+    std::vector<std::vector<float>> known_;
+    std::vector<std::uint32_t> classes_;
+};
+
+#endif
+
+void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
+    const auto models = sim::furniture_models();
+    const std::size_t n = views_per_model(much);
+    const scan_set once = scans_of(models, n, {}, seed, purpose::learning);
+    const scan_set scans = with_hidden_parts(once, seed);
+    const view_set training = views_of(scans), training15 = views_of(scans, repaired_density);
+
+    rec::object_recognizer model;
+    learn(model, training, names_of(models));
+    profile_trees profiles({}, boost::hana::make_tuple(rec::box_edge<0>{}), rec::no_relations);
+    learn(profiles, profiles_of(scans), names_of(models));
+    const view_set seen_once = views_of(once), once50 = views_of(once, thesis_density);
+    const rec::part_kernels soft(seen_once.views, seen_once.classes, models.size(),
+                                 rec::default_features, rec::default_relations);
+    const rec::word_histograms thesis(once50.views, once50.classes, models.size(),
+                                      rec::scaled_by_largest(rec::thesis_features, once50.views),
+                                      rec::thesis_relations);
+    const rec::word_histograms repaired(
+        training15.views, training15.classes, models.size(),
+        rec::scaled_by_largest(rec::thesis_features, training15.views), rec::thesis_relations,
+        {.counts_parts = false, .counts_absence = true});
+#ifdef CHAPTER5_PCL
+    const nearest_neighbor vfh(peers::vfh, scans), esf(peers::esf, scans);
+    const nearest_neighbor vfh_once(peers::vfh, once), esf_once(peers::esf, once);
+#endif
+
+    const std::vector<double> shares = much.quick
+                                           ? std::vector<double>{0.0, 0.5}
+                                           : std::vector<double>{0.0, 0.2, 0.4, 0.5, 0.6, 0.8};
+    for (const double share : shares) {
+        const scan_set tests = scans_of(models, n, {.occluded_share = share}, seed, purpose::test);
+        const view_set seen = views_of(tests), seen50 = views_of(tests, thesis_density),
+                       seen15 = views_of(tests, repaired_density);
+        const auto add = [&](const char* method, outcomes found) {
+            rows.add({{"hidden", share}, {"method", method}}, std::move(found));
+        };
+        add("default", outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
+        add("soft words", outcomes_of(soft, seen, soft.temperature()));
+        add("thesis, as printed", outcomes_of(thesis, seen50, 1.0));
+        add("thesis, repaired", outcomes_of(repaired, seen15, 1.0));
+        add("height profile", outcomes_of_profiles(profiles, tests));
+#ifdef CHAPTER5_PCL
+        add("VFH, nearest", vfh(tests));
+        add("ESF, nearest", esf(tests));
+        add("VFH, nearest, nothing hidden in training", vfh_once(tests));
+        add("ESF, nearest, nothing hidden in training", esf_once(tests));
+#endif
+        std::printf("seed %d, %.1f hidden\n", static_cast<int>(seed), share);
+        std::fflush(stdout);
+    }
+}
+
+json measure(const effort& much) {
+    outcomes_by_row rows;
+    for (std::uint64_t s = 0; s < much.seeds(); ++s) add_seed(rows, much, first_seed + s);
+    return {{"by hidden share", rows.table(usual_measures())}};
+}
+
+}  // namespace
+
+int main(int argc, char** argv) { return run_program(argc, argv, measure); }
