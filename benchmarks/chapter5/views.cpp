@@ -6,6 +6,7 @@
 
 #include <gnomon/gnomon.hpp>
 #include <gnomon/perception.hpp>
+#include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/view_augmentation.hpp>
 #include <gnomon/recognition/views_of.hpp>
 #include <gnomon/simulation.hpp>
@@ -70,20 +71,32 @@ seen perceived(const gnomon::scan& scan, double sigma, const density& how,
     seen result;
     result.view.ground = gnomon::plane{};
     if (scan.size() < std::max<std::size_t>(how.min_points, 3)) return result;
-    gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
-                       gnomon::smooth_surfaces>
-        chain{.neighborhood = {.k = how.k}, .noise = gnomon::constant_noise{sigma}};
-    chain.segmentation.surfaces.min_points = how.min_points;
-    const auto all = chain(scan);
-    auto views =
-        rec::views_of(scan, all.surface, all.surfaces,
-                      {.gap = rec::infinite_gap, .min_parts = 1, .ground = gnomon::plane{}});
+    std::vector<rec::view> views;
+    gnomon::segments parts;
+    if (how.k == default_density.k) {
+        auto found = rec::perceive_views(scan, {.ground = gnomon::plane{},
+                                                .noise = gnomon::constant_noise{sigma},
+                                                .gap = rec::infinite_gap,
+                                                .min_points = how.min_points,
+                                                .k = how.k});
+        views = std::move(found.views);
+        parts = std::move(found.parts);
+    } else {
+        gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
+                           gnomon::smooth_surfaces>
+            chain{.neighborhood = {.k = how.k}, .noise = gnomon::constant_noise{sigma}};
+        chain.segmentation.surfaces.min_points = how.min_points;
+        auto all = chain(scan);
+        views =
+            rec::views_of(scan, all.surface, all.surfaces,
+                          {.gap = rec::infinite_gap, .min_parts = 1, .ground = gnomon::plane{}});
+        parts = std::move(all.surfaces);
+    }
     if (views.empty()) return result;
     result.view = std::move(views.front());
     if (truth.empty()) return result;
     for (const rec::part& p : result.view.parts)
-        result.parts.push_back(
-            most_frequent(truth, all.surfaces[static_cast<std::size_t>(p.segment)]));
+        result.parts.push_back(most_frequent(truth, parts[static_cast<std::size_t>(p.segment)]));
     return result;
 }
 

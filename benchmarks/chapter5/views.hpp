@@ -52,7 +52,8 @@ struct scan_set {
 /// Each scan, followed by two versions of it of which a part is hidden.
 [[nodiscard]] scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed);
 
-/// Neighbors of a point, and the least number of points of a segment.
+/// Neighbors of a point, and the least number of points of a segment; with the default ones, those
+/// of a view that `perceive_views` sees.
 struct density {
     std::size_t k, min_points;
 };
