@@ -76,21 +76,19 @@ struct height_difference {
     }
 };
 
-/// The distance [m] of the centroid of the larger part from the plane of the smaller one through
-/// its centroid: how far a back stands from the middle of its seat.
+/// The distance [m] of the centroid of one part from the plane of the other through its centroid,
+/// the smaller of both: how far a back stands from the middle of its seat.
 struct plane_offset {
     static constexpr std::string_view name = "distance from the plane";
     double bin = 0.05;
     double mass = 0.10;
     double min_deviation = 0.02;
     [[nodiscard]] double operator()(const part& a, const part& b) const {
-        const auto extent = [](const part& p) { return p.shape.frame.spectrum.lambda[0]; };
         const Eigen::Vector3d way =
             gnomon::detail::difference(a.shape.frame.centroid, b.shape.frame.centroid);
         const double of_a = std::abs(gnomon::detail::dot(a.shape.normal, way));
         const double of_b = std::abs(gnomon::detail::dot(b.shape.normal, way));
-        if (extent(a) == extent(b)) return std::max(of_a, of_b);
-        return extent(a) < extent(b) ? of_a : of_b;
+        return std::min(of_a, of_b);
     }
 };
 

@@ -24,8 +24,12 @@ namespace gnomon::recognition {
 
 /// Options of extremely randomized trees.
 struct random_trees_options {
-    std::size_t trees = 200;    ///< more are better, and take longer
-    std::uint64_t seed = 1;     ///< the same one gives the same trees
+    std::size_t trees = 200;  ///< more are better, and take longer
+    std::uint64_t seed = 1;   ///< the same one gives the same trees
+    /// Features that are tried at each node; 0 stands for twice the square root of
+    /// their number: more than usual, as descriptions of views have features that are alike (chosen
+    /// on furniture_models(), seeds 1 and 2).
+    std::size_t features_per_split = 0;
     std::size_t min_split = 2;  ///< nodes of fewer samples are leaves
 };
 
@@ -153,7 +157,7 @@ class random_trees {
             return samples_.values[row * samples_.columns + feature];
         }
 
-        /// Splits the rows of a node by the best of sqrt(columns) features that vary, each with a
+        /// Splits the rows of a node by the best of some features that vary, each with a
         /// random threshold.
         /// @return where the upper rows begin; `end` if the node is a leaf
         std::size_t split(std::size_t begin, std::size_t end, node& at) {
@@ -164,8 +168,10 @@ class random_trees {
                                              [n](double count) { return count == n; });
             if (is_pure || end - begin < options_.min_split) return end;
 
-            const auto wanted = static_cast<std::size_t>(
-                std::max(1.0, std::round(std::sqrt(static_cast<double>(samples_.columns)))));
+            const auto root = std::sqrt(static_cast<double>(samples_.columns));
+            const std::size_t wanted = options_.features_per_split > 0
+                                           ? options_.features_per_split
+                                           : static_cast<std::size_t>(std::round(2.0 * root));
             double best = -1.0;
             std::size_t tried = 0;
             for (std::size_t k = 0; k < features_.size() && tried < wanted; ++k) {

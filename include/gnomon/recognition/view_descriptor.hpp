@@ -64,7 +64,7 @@ struct view_descriptor {
                                                std::span<const std::size_t> chosen,
                                                bool has_rest) const {
         std::vector<double> d;
-        d.reserve(1 + (3 + largest_parts) * features_per_part + 5 * relations_per_pair +
+        d.reserve(1 + (3 + largest_parts) * features_per_part + 3 * relations_per_pair +
                   2 * height_profile::count);
         d.push_back(static_cast<double>(chosen.size()));
         pool_parts(m, chosen, d);
@@ -110,12 +110,13 @@ struct view_descriptor {
         }
     }
 
-    /// Least, largest and mean value of each relation, weighted by the points of both parts, and
-    /// its values of the heaviest pair, and of the heaviest one of parts that are not parallel.
+    /// The mean of each relation, weighted by the points of both parts, and its values of the
+    /// heaviest pair, and of the heaviest one of parts that are not parallel.
     static void pool_pairs(const view& v, const measured& m, std::span<const std::size_t> chosen,
                            std::vector<double>& d) {
-        std::array<double, relations_per_pair> low, high, mean{}, heaviest, corner;
-        for (auto* values : {&low, &high, &heaviest, &corner}) values->fill(absent);
+        std::array<double, relations_per_pair> mean{}, heaviest, corner;
+        heaviest.fill(absent);
+        corner.fill(absent);
         double total = 0.0, largest = 0.0, largest_corner = 0.0;
         for (std::size_t b = 1; b < chosen.size(); ++b) {
             for (std::size_t a = 0; a < b; ++a) {
@@ -124,11 +125,7 @@ struct view_descriptor {
                 const auto& x = m.pairs[measured::pair(chosen[a], chosen[b])];
                 const double weight =
                     static_cast<double>(p.shape.points) * static_cast<double>(q.shape.points);
-                for (std::size_t r = 0; r < relations_per_pair; ++r) {
-                    low[r] = total == 0.0 ? x[r] : std::min(low[r], x[r]);
-                    high[r] = total == 0.0 ? x[r] : std::max(high[r], x[r]);
-                    mean[r] += weight * x[r];
-                }
+                for (std::size_t r = 0; r < relations_per_pair; ++r) mean[r] += weight * x[r];
                 total += weight;
                 if (weight > largest) {
                     largest = weight;
@@ -143,8 +140,7 @@ struct view_descriptor {
             }
         }
         for (std::size_t r = 0; r < relations_per_pair; ++r)
-            d.insert(d.end(), {low[r], high[r], total > 0.0 ? mean[r] / total : absent, heaviest[r],
-                               corner[r]});
+            d.insert(d.end(), {total > 0.0 ? mean[r] / total : absent, heaviest[r], corner[r]});
     }
 
     /// Shares of the points at each height, heights of quantiles, and horizontal extents of bands
