@@ -23,7 +23,9 @@
 
 namespace known_normals {
 
+#ifdef GNOMON_BENCHMARKS_ASSIMP
 namespace sim = gnomon::simulation;
+#endif
 
 /// All triangles of the file, brought to about the size of the other shapes, since some estimators
 /// have parameters in metres: by a power of two, which rounds nothing. Nothing if the file, or

@@ -47,7 +47,7 @@ struct word_detector {
         std::vector<std::size_t> found;
         if (one_word_per_part) {
             const auto nearest = words.nearest(sample);
-            if (nearest && nearest->distance <= words.max_distance) found = {nearest->word};
+            if (nearest && nearest->distance <= words.max_distance) found.push_back(nearest->word);
         } else {
             for (const detection& d : words.detections(sample)) found.push_back(d.word);
         }
