@@ -112,11 +112,12 @@ void recognize_scan(const options& o) {
     const stopwatch watch;
     const auto model = rec::read_model(o.model, o.threads);
     const gnomon::scan scan = seen_scan(gnomon::io::read(o.scan, {"*"}), o.scan, o.viewpoint);
-    const output_directory out(o.out, {"labeled.ply", "recognized.png", "objects.json"});
     const stopwatch recognizing;
     const scan_objects found = recognized(scan, model, o);
     const double seconds = recognizing.seconds();
 
+    // Not before: a scan without a floor is refused, and leaves no directory.
+    const output_directory out(o.out, {"labeled.ply", "recognized.png", "objects.json"});
     const std::string png = picture_of(scan, found, o.up, o.threads).png();
     json report = report_of(scan, found, model);
     report["seconds"] = seconds;

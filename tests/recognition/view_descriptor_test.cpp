@@ -133,7 +133,7 @@ TEST(view_descriptor, takes_features_and_relations_of_a_user) {
         boost::hana::append(rec::default_features, some_views::share_of_points{}),
         boost::hana::append(rec::default_relations, some_views::ratio_of_points{}), true};
     const auto& v = some_views::training().views.front();
-    EXPECT_EQ(own(v).size(), default_descriptor(v).size() + 7 + 5);
+    EXPECT_EQ(own(v).size(), default_descriptor(v).size() + 7 + 3);
 }
 
 TEST(view_descriptor, refuses_features_that_are_not_finite) {
