@@ -132,7 +132,7 @@ class study {
 
         // Smaller segments, and the parts of the default mode.
         add_repairs_at(repaired_density, "segments of 15 points", learning, testing);
-        add_repairs_at(default_density, "20 neighbors, segments of 10 points", learning, testing);
+        add_repairs_at({20, 10}, "20 neighbors, segments of 10 points", learning, testing);
     }
 
     void add_repairs_at(const density& how, const std::string& name, const scan_set& learning,

@@ -49,7 +49,7 @@ outcomes outcomes_of_profiles(const profile_trees& trees, const scan_set& tests)
     outcomes found =
         outcomes_of(profiles_of(tests), [&](const rec::view& v) { return trees.decide(v); });
     for (std::size_t i = 0; i < found.all.size(); ++i)
-        found.all[i].has_parts = tests.scans[i].size() >= default_density.min_points;
+        found.all[i].has_parts = tests.scans[i].size() >= fewest_cells;
     return found;
 }
 

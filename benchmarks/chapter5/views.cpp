@@ -66,26 +66,26 @@ struct seen {
 };
 
 /// @param truth  the part of each point, or empty
-seen perceived(const gnomon::scan& scan, double sigma, const density& how,
+seen perceived(const gnomon::scan& scan, double sigma, const std::optional<density>& thesis,
                const std::vector<std::string>& truth) {
     seen result;
     result.view.ground = gnomon::plane{};
-    if (scan.size() < std::max<std::size_t>(how.min_points, 3)) return result;
+    const std::size_t fewest = thesis ? thesis->min_points : fewest_cells;
+    if (scan.size() < std::max<std::size_t>(fewest, 3)) return result;
     std::vector<rec::view> views;
     gnomon::segments parts;
-    if (how.k == default_density.k) {
+    if (!thesis) {
         auto found = rec::perceive_views(scan, {.ground = gnomon::plane{},
                                                 .noise = gnomon::constant_noise{sigma},
                                                 .gap = rec::infinite_gap,
-                                                .min_points = how.min_points,
-                                                .k = how.k});
+                                                .min_points = fewest_cells});
         views = std::move(found.views);
         parts = std::move(found.parts);
     } else {
         gnomon::perception<gnomon::knn, gnomon::plane_pca, gnomon::conservative,
                            gnomon::smooth_surfaces>
-            chain{.neighborhood = {.k = how.k}, .noise = gnomon::constant_noise{sigma}};
-        chain.segmentation.surfaces.min_points = how.min_points;
+            chain{.neighborhood = {.k = thesis->k}, .noise = gnomon::constant_noise{sigma}};
+        chain.segmentation.surfaces.min_points = thesis->min_points;
         auto all = chain(scan);
         views =
             rec::views_of(scan, all.surface, all.surfaces,
@@ -146,18 +146,18 @@ scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed) {
     return all;
 }
 
-rec::view view_of(const gnomon::scan& scan, double sigma, const density& how) {
-    return perceived(scan, sigma, how, {}).view;
+rec::view view_of(const gnomon::scan& scan, double sigma, const std::optional<density>& thesis) {
+    return perceived(scan, sigma, thesis, {}).view;
 }
 
-view_set views_of(const scan_set& scans, const density& how) {
+view_set views_of(const scan_set& scans, const std::optional<density>& thesis) {
     const std::size_t n = scans.scans.size();
     view_set set{.views = std::vector<rec::view>(n),
                  .classes = scans.classes,
                  .parts = std::vector<std::vector<std::string>>(n),
                  .versions = scans.versions};
     gnomon::threads{}(n, [&](std::size_t i) {
-        auto [view, parts] = perceived(scans.scans[i], scans.sigma, how, scans.parts[i]);
+        auto [view, parts] = perceived(scans.scans[i], scans.sigma, thesis, scans.parts[i]);
         set.views[i] = std::move(view);
         set.parts[i] = std::move(parts);
     });

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <ctime>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -52,12 +53,10 @@ struct scan_set {
 /// Each scan, followed by two versions of it of which a part is hidden.
 [[nodiscard]] scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed);
 
-/// Neighbors of a point, and the least number of points of a segment; with the default ones, those
-/// of a view that `perceive_views` sees.
+/// The chain of the thesis: neighbors of a point, and the least number of points of a segment.
 struct density {
     std::size_t k, min_points;
 };
-inline constexpr density default_density{20, 10};
 inline constexpr density thesis_density{50, 30};
 /// With the repairs of the thesis's method; chosen on seed 1, as these were.
 inline constexpr density repaired_density{50, 15};
@@ -70,12 +69,17 @@ struct view_set {
     std::size_t versions = 1;
 };
 
+/// The least cells of a view of `perceive_views`.
+inline constexpr std::size_t fewest_cells = 10;
+
 /// The view of a scan of one object on the plane z = 0; without parts if there are hardly points.
+/// @param thesis  its chain; else views are those of `perceive_views`, as learn_objects learns them
 [[nodiscard]] rec::view view_of(const gnomon::scan& scan, double sigma,
-                                const density& how = default_density);
+                                const std::optional<density>& thesis = std::nullopt);
 
 /// The views of all scans.
-[[nodiscard]] view_set views_of(const scan_set& scans, const density& how = default_density);
+[[nodiscard]] view_set views_of(const scan_set& scans,
+                                const std::optional<density>& thesis = std::nullopt);
 
 /// The time of the processor [s]: of this thread, or of all threads.
 [[nodiscard]] inline double processor_time(clockid_t of = CLOCK_THREAD_CPUTIME_ID) {

@@ -130,6 +130,22 @@ TEST(json_model, round_trip_decides_the_same_to_the_last_bit) {
     }
 }
 
+TEST(json_model, keeps_all_options) {
+    const rec::object_recognizer_options all{
+        .trees = {.trees = 7, .seed = 5, .features_per_split = 3, .min_split = 4},
+        .max_word_distance = 0.75,
+        .min_probability = 0.8};
+    const auto model = taught(rec::object_recognizer<>(all));
+    const auto again = rec::read_model(gnomon::io::input{"m.json", text_of(model)});
+    const auto& o = again.learned().options;
+    EXPECT_EQ(o.trees.trees, 7u);
+    EXPECT_EQ(o.trees.seed, 5u);
+    EXPECT_EQ(o.trees.features_per_split, 3u);
+    EXPECT_EQ(o.trees.min_split, 4u);
+    EXPECT_EQ(o.max_word_distance, 0.75);
+    EXPECT_EQ(o.min_probability, 0.8);
+}
+
 TEST(json_model, learning_goes_on_as_if_it_had_not_been_interrupted) {
     auto model = small_model();
     auto again = rec::read_model(gnomon::io::input{"m.json", text_of(model)});

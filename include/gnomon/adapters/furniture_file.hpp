@@ -26,8 +26,8 @@ enum class up_axis : char { z, y };
 
 namespace detail {
 
-/// The sizes of furniture, from a small box to a wall unit [m]; a file in centimetres, millimetres
-/// or inches lies outside.
+/// The longest edges of furniture [m], chosen: from a small box to a wall unit; a file in
+/// centimetres, millimetres or inches lies outside.
 inline constexpr double smallest_furniture = 0.05;
 inline constexpr double largest_furniture = 5.0;
 

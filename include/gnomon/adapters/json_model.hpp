@@ -43,7 +43,7 @@ namespace detail {
 
 inline constexpr std::uint64_t model_version = 1;
 
-/// What restore() cannot know: that numbers fit to the descriptions, and to each other.
+/// The checks of restore(), and bounds of options, with the place in the file.
 template <class Recognizer>
 void require_usable(const json_place& file, const Recognizer& made,
                     const typename Recognizer::content& c) {

@@ -71,7 +71,7 @@ namespace detail {
 /// The standard deviations [m] of the horizontal positions along their principal axes, the larger
 /// one first; zero of less than three points.
 [[nodiscard]] inline std::array<double, 2> horizontal_extent(const height_profile::level& l) {
-    constexpr double fewest = 3.0;
+    constexpr double fewest = 3.0;  // formula: two points have no extent across their line
     if (l.points < fewest) return {0.0, 0.0};
     const double u = l.u / l.points, v = l.v / l.points;
     const double uu = l.uu / l.points - u * u, uv = l.uv / l.points - u * v,

@@ -37,8 +37,8 @@ struct learned_views {
     std::vector<std::string> names;            ///< of the classes
     std::vector<cluster_statistics<D>> words;  ///< of the parts of all views
     labeled_samples samples;                   ///< descriptions of all views
-    std::vector<std::uint32_t> sources;        ///< of each sample: the scan that it is of
-    double temperature = 1.0;                  ///< of calibrated probabilities
+    std::vector<std::uint32_t> sources;  ///< of each sample, ascending: the scan that it is of
+    double temperature = 1.0;            ///< of calibrated probabilities
 
     /// @throws std::invalid_argument  if numbers do not fit together, or are not finite
     void require_consistent() const {
@@ -47,6 +47,8 @@ struct learned_views {
         require(names.size() > 1 && n > 0 && sources.size() == n,
                 "object_recognizer: samples, classes and sources do not fit together");
         samples.require_valid(names.size());
+        require(std::is_sorted(sources.begin(), sources.end()),
+                "object_recognizer: sources must be ascending");
         require(options.min_probability >= 0.0 && options.min_probability <= 1.0,
                 "object_recognizer: min_probability must be in [0, 1]");
         for (std::size_t c = 0; c < names.size(); ++c)

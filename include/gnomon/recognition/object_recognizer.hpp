@@ -57,6 +57,7 @@ class object_recognizer {
 
     using content = learned_views<features_per_part>;
 
+    /// @param features  with their scales, which are 1 if another type is not given here
     /// @param relations  `no_relations` for parts alone
     /// @param uses_profile  whether the height profile of a view counts, which needs the ground
     explicit object_recognizer(options_type options = {}, Features features = make_features(),
@@ -109,7 +110,6 @@ class object_recognizer {
 
     [[nodiscard]] std::size_t classes() const { return learned_.names.size(); }
     [[nodiscard]] const std::vector<std::string>& names() const { return learned_.names; }
-    /// What was learned, for a file.
     [[nodiscard]] const content& learned() const { return learned_; }
     [[nodiscard]] const descriptor_type& descriptor() const { return descriptor_; }
     /// Temperature, P_d, and the class of other things.

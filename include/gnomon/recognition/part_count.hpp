@@ -19,7 +19,7 @@ struct part_count {
     /// The distribution of these numbers. The deviation is at least 0.5, so that a number that was
     /// always the same does not exclude its neighbors.
     [[nodiscard]] static part_count of(std::span<const double> numbers) {
-        constexpr double least = 0.5;
+        constexpr double least = 0.5;  // chosen; see docs/thesis-notes.md, A29
         const auto n = static_cast<double>(numbers.size());
         double sum = 0.0, squares = 0.0;
         for (const double x : numbers) sum += x;

@@ -43,7 +43,7 @@ struct term {
     term_kind kind = term_kind::prior;
     std::size_t first = none, second = none;  ///< numbers of parts of the view
     std::size_t word = none;                  ///< of the part or of the pair, by its number
-    std::vector<double> log_likelihood;       ///< of each class
+    std::vector<double> log_likelihood = {};  ///< of each class
 };
 
 /// l(view) gives the terms of a view, each with l.classes() log-likelihoods.

@@ -56,10 +56,6 @@ namespace detail {
     const auto& labeled, const segments& parts, std::span<const point_index> indices, double gap,
     const auto& run) {
     gnomon::detail::union_find groups(parts.size());
-    if (!(gap < infinite_gap)) {
-        for (std::size_t s = 1; s < parts.size(); ++s) groups.unite(0, static_cast<point_index>(s));
-        return groups;
-    }
     const segments clusters = euclidean_clusters(labeled, {.radius = gap, .min_points = 1}, run);
     for (std::size_t c = 0; c < clusters.size(); ++c) {
         const auto label = [&](point_index i) {
@@ -107,21 +103,32 @@ template <class R, normal_range Surface, execution X = sequential, class Proj = 
     const position_view<R, Proj> position(points, projection);
     const detail::labeled_points labeled(position, parts, shapes);
     if (labeled.indices.empty()) return {};
-    const spatial_index index(subset_view<R, Proj>(points, labeled.indices, projection), team);
-    auto groups = detail::linked_segments(index, parts, labeled.indices, options.gap, team);
+    const bool is_one_view = !(options.gap < infinite_gap);
+    spatial_index index;  // of the points with a part, if they are to be grouped
+    gnomon::detail::union_find groups(parts.size());
+    if (is_one_view) {
+        for (std::size_t s = 1; s < parts.size(); ++s) groups.unite(0, static_cast<point_index>(s));
+    } else {
+        index.rebuild(subset_view<R, Proj>(points, labeled.indices, projection), team);
+        groups = detail::linked_segments(index, parts, labeled.indices, options.gap, team);
+    }
 
     detail::view_builder builder(position, parts, options.ground);
     for (std::size_t s = 0; s < parts.size(); ++s) {
         if (shapes[s].is_surface())
             builder.add(groups.find(static_cast<point_index>(s)), s, shapes[s]);
     }
-    for (const point_index i : options.ground ? labeled.others : std::vector<point_index>{}) {
-        const auto nearest = options.gap < infinite_gap
-                                 ? index.nearest_within(position[i], 1, options.gap)
-                                 : index.nearest(position[i], 1);
-        if (nearest.empty()) continue;
-        const auto label = parts.labels()[labeled.indices[nearest.front().index]];
-        builder.add_rest(groups.find(static_cast<point_index>(label)), i);
+    if (options.ground) {
+        for (const point_index i : labeled.others) {
+            std::size_t nearest = 0;
+            if (!is_one_view) {
+                const auto found = index.nearest_within(position[i], 1, options.gap);
+                if (found.empty()) continue;
+                nearest = found.front().index;
+            }
+            const auto label = static_cast<point_index>(parts.labels()[labeled.indices[nearest]]);
+            builder.add_rest(groups.find(label), i);
+        }
     }
     return std::move(builder).views(options.min_parts);
 }

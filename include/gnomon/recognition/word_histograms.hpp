@@ -2,8 +2,8 @@
 /// @file
 /// Recognition as the thesis has it: views are bags of part words and relation words, and a class
 /// is a histogram of part words, and the share of pairs of words that are related. Klasing 2010,
-/// Secs. 5.2 to 5.4. For comparison: `object_recognizer` recognizes more
-/// objects with fewer errors, see docs/results/chapter5.md.
+/// Secs. 5.2 to 5.4. `object_recognizer` recognizes more objects with fewer errors; this is for
+/// comparison.
 ///
 ///     using namespace gnomon::recognition;
 ///     const auto features = scaled_by_largest(thesis_features, views);
@@ -54,7 +54,8 @@ template <class Features>
     });
 }
 
-/// Options of the thesis's method. The defaults are its text; the last four repair it.
+/// Options of the thesis's method. The defaults are those of its text; `repair`,
+/// `one_word_per_part` and `counts_absence` repair it.
 struct word_histogram_options {
     double max_distance = 0.03;        ///< rho_max of greedy means clustering
     std::size_t min_members = 4;       ///< n_min of a word, and of the values of a relation word
@@ -95,13 +96,10 @@ class word_histograms {
     word_histograms(std::span<const view> views, std::span<const std::uint32_t> of_view,
                     std::size_t classes, Features features, Relations relations,
                     const clustering<D>& clusters, const word_histogram_options& options)
-        : options_(options), detect_{std::move(features),
-                                     std::move(relations),
-                                     options.one_word_per_part,
-                                     {},
-                                     {},
-                                     {},
-                                     {}} {
+        : options_(options),
+          detect_{.features = std::move(features),
+                  .relations = std::move(relations),
+                  .one_word_per_part = options.one_word_per_part} {
         using gnomon::detail::require;
         require(views.size() == of_view.size(),
                 "word_histograms: views and classes differ in number");
@@ -128,8 +126,8 @@ class word_histograms {
     [[nodiscard]] const std::vector<recognition::relation_word>& relation_words() const {
         return detect_.relation_words;
     }
-    /// The share of pairs of parts of the two words that have the relation, of each class; 1 where
-    /// the words were never seen together.
+    /// [relation word][class]: the share of pairs of parts of the two words that have the relation.
+    /// Where the words were never seen together it is 1, or 0.5 if absence counts.
     [[nodiscard]] const std::vector<std::vector<double>>& relation_shares() const {
         return related_;
     }

@@ -25,10 +25,11 @@
 namespace gnomon::recognition::detail {
 
 template <>
-inline constexpr auto json_fields<random_trees_options> =
-    boost::hana::make_tuple(boost::hana::make_pair("trees", &random_trees_options::trees),
-                            boost::hana::make_pair("seed", &random_trees_options::seed),
-                            boost::hana::make_pair("min_split", &random_trees_options::min_split));
+inline constexpr auto json_fields<random_trees_options> = boost::hana::make_tuple(
+    boost::hana::make_pair("trees", &random_trees_options::trees),
+    boost::hana::make_pair("seed", &random_trees_options::seed),
+    boost::hana::make_pair("features_per_split", &random_trees_options::features_per_split),
+    boost::hana::make_pair("min_split", &random_trees_options::min_split));
 
 template <>
 inline constexpr auto json_fields<object_recognizer_options> = boost::hana::make_tuple(

@@ -36,11 +36,11 @@ struct word_detector {
     Features features;
     Relations relations;
     bool one_word_per_part = false;
-    vocabulary<feature_count<Features>> words;
+    vocabulary<feature_count<Features>> words = {};
     double max_deviations = 0.0;  ///< delta_r of relation words
-    std::vector<relation_word> relation_words;
+    std::vector<relation_word> relation_words = {};
     /// The relation words of each pair of part words.
-    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> words_of_pair;
+    std::map<std::pair<std::size_t, std::size_t>, std::vector<std::size_t>> words_of_pair = {};
 
     [[nodiscard]] std::vector<std::size_t> words_of(const part& p, const view& v) const {
         const auto sample = feature_vector(features, p, v);
