@@ -31,7 +31,7 @@ namespace {
 scan_objects recognized(const gnomon::scan& scan, const rec::object_recognizer<>& model,
                         const options& o) {
     const progress shown("recognizing");
-    rec::perceive_views_options how{.up = o.up};
+    rec::perceive_views_options how{.up = o.up, .divergence = o.divergence};
     if (o.floor) how.ground = gnomon::plane{o.up, *o.floor};
     if (o.sigma) how.noise = gnomon::constant_noise{*o.sigma};
     rec::decide_options decisions = model.decision_options();

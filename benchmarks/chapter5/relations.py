@@ -322,10 +322,11 @@ def skimmed(tables, learned, tested, mode="default"):
     return row(tables["skimmed points"], mode=mode, learned=learned, tested=tested)["right"]
 
 
-@relation("skimmed", "5.o.10", "skimmed points cost 8 points of right and decided at most if only thin beams were learned", OWN)
+@relation("skimmed", "5.o.10", "skimmed points cost 8 points of right and decided at most if only thin beams were learned, and "
+          "the width of the beam is given", OWN)
 def untrained(tables):
-    thin, wide = (skimmed(tables, "thin", tested) for tested in ("thin", "skimmed"))
-    return f"{thin:.3f}, {wide:.3f}", wide >= thin - 0.08
+    thin, wide, narrowed = (skimmed(tables, "thin", tested) for tested in ("thin", "skimmed", "skimmed, width given"))
+    return f"{thin:.3f}, {narrowed:.3f} (not given: {wide:.3f})", narrowed >= thin - 0.08
 
 
 @relation("skimmed", "5.o.11", "they cost 3 points at most if they were learned, too", OWN)

@@ -26,7 +26,7 @@ sim::object_view_options options_of(const view_kind& kind, std::uint64_t seed, p
     options.places.high.x() = kind.farthest;
     if (kind.skims) {
         options.beam.footprint = {
-            .divergence = gnomon::radians(0.010), .sub_rays = 9, .rule = sim::echo_rule::averaged};
+            .divergence = wide_beam, .sub_rays = 9, .rule = sim::echo_rule::averaged};
     }
     return options;
 }
@@ -66,8 +66,8 @@ struct seen {
 };
 
 /// @param truth  the part of each point, or empty
-seen perceived(const gnomon::scan& scan, double sigma, const std::optional<density>& thesis,
-               const std::vector<std::string>& truth) {
+seen perceived(const gnomon::scan& scan, double sigma, gnomon::angle divergence,
+               const std::optional<density>& thesis, const std::vector<std::string>& truth) {
     seen result;
     result.view.ground = gnomon::plane{};
     const std::size_t fewest = thesis ? thesis->min_points : fewest_cells;
@@ -77,6 +77,7 @@ seen perceived(const gnomon::scan& scan, double sigma, const std::optional<densi
     if (!thesis) {
         auto found = rec::perceive_views(scan, {.ground = gnomon::plane{},
                                                 .noise = gnomon::constant_noise{sigma},
+                                                .divergence = divergence,
                                                 .gap = rec::infinite_gap,
                                                 .min_points = fewest_cells});
         views = std::move(found.views);
@@ -147,7 +148,7 @@ scan_set with_hidden_parts(const scan_set& scans, std::uint64_t seed) {
 }
 
 rec::view view_of(const gnomon::scan& scan, double sigma, const std::optional<density>& thesis) {
-    return perceived(scan, sigma, thesis, {}).view;
+    return perceived(scan, sigma, gnomon::degrees(0.0), thesis, {}).view;
 }
 
 view_set views_of(const scan_set& scans, const std::optional<density>& thesis) {
@@ -157,7 +158,8 @@ view_set views_of(const scan_set& scans, const std::optional<density>& thesis) {
                  .parts = std::vector<std::vector<std::string>>(n),
                  .versions = scans.versions};
     gnomon::threads{}(n, [&](std::size_t i) {
-        auto [view, parts] = perceived(scans.scans[i], scans.sigma, thesis, scans.parts[i]);
+        auto [view, parts] =
+            perceived(scans.scans[i], scans.sigma, scans.divergence, thesis, scans.parts[i]);
         set.views[i] = std::move(view);
         set.parts[i] = std::move(parts);
     });

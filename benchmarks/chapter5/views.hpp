@@ -14,6 +14,7 @@
 #include <string>
 #include <vector>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/recognition/view.hpp>
@@ -28,12 +29,15 @@ inline constexpr std::uint64_t first_seed = 5001;
 /// What a set of views is for: the numbers enter their seeds, so that no two sets are alike.
 enum class purpose : std::uint64_t { learning, test };
 
+/// The full angle of a beam that skims: 10 mrad.
+inline constexpr gnomon::angle wide_beam = gnomon::radians(0.010);
+
 /// How views are scanned.
 struct view_kind {
     double duration = 8.0;        ///< t_s [s]
     double sigma = 0.005;         ///< of the noise along the rays [m]
     double occluded_share = 0.0;  ///< of the points, hidden by a board
-    bool skims = false;           ///< whether the beam is 10 mrad wide, and averages
+    bool skims = false;           ///< whether the beam is wide, and averages
     double farthest = 5.5;        ///< ahead of the sensor [m]
 };
 
@@ -44,6 +48,8 @@ struct scan_set {
     std::vector<std::vector<std::string>> parts;  ///< of each point of each scan, its true part
     std::size_t versions = 1;  ///< this number of consecutive scans shows one view
     double sigma = 0.005;
+    /// Of the beams, as perceive_views gets it; 0 if it does not.
+    gnomon::angle divergence = gnomon::radians(0.0);
 };
 
 /// The views of all models, model by model.

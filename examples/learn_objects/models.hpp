@@ -1,26 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The models to learn from, with their classes: the built-in ones, or mesh files where Assimp is
-/// available.
+/// The models to learn from, with their classes: the built-in ones or those of mesh files, and
+/// background.
 #pragma once
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
 #include <cstdint>
-#include <filesystem>
 #include <string>
-#include <system_error>
 #include <utility>
 #include <vector>
 
+#include "common/furniture_files.hpp"
 #include "learn_objects/options.hpp"
 #include <gnomon/core.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/simulation.hpp>
-#ifdef GNOMON_EXAMPLES_ASSIMP
-#include <gnomon/adapters/furniture_file.hpp>
-#endif
 
 namespace sim = gnomon::simulation;
 
@@ -76,72 +71,33 @@ inline std::vector<sim::furniture_model> clutter(std::size_t pieces, std::uint64
     return all;
 }
 
-inline std::vector<example> built_in(const options& o) {
-    constexpr std::size_t pieces_of_clutter = 24;
-    std::vector<example> all;
-    for (auto& model : sim::furniture_models()) all.push_back({model.name, model, o.views});
-    // In all the number of views of three models.
-    const std::size_t each = std::max<std::size_t>(1, 3 * o.views / pieces_of_clutter);
-    for (auto& model : clutter(pieces_of_clutter, o.seed))
+/// Adds the clutter as background, with the number of views that three models have.
+inline void add_background(std::vector<example>& all, const options& o) {
+    constexpr std::size_t pieces = 24;
+    const std::size_t each = std::max<std::size_t>(1, 3 * o.views / pieces);
+    for (auto& model : clutter(pieces, o.seed))
         all.push_back({std::string(gnomon::recognition::background_name), std::move(model), each});
-    return all;
 }
-
-#ifdef GNOMON_EXAMPLES_ASSIMP
-inline bool is_mesh_file(const std::filesystem::path& path) {
-    static const std::vector<std::string> kinds{".obj", ".stl",  ".ply", ".off",
-                                                ".dae", ".gltf", ".glb"};
-    std::string kind = path.extension().string();
-    for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return std::ranges::find(kinds, kind) != kinds.end() && !path.stem().string().starts_with(".");
-}
-
-/// What is in a directory, in the order of the names.
-inline std::vector<std::filesystem::path> sorted_entries(const std::filesystem::path& directory) {
-    std::error_code problem;
-    std::vector<std::filesystem::path> entries;
-    for (std::filesystem::directory_iterator entry(directory, problem), end;
-         !problem && entry != end; entry.increment(problem))
-        entries.push_back(entry->path());
-    if (problem) throw gnomon::error(directory.string(), "", problem.message());
-    std::ranges::sort(entries);
-    return entries;
-}
-
-inline std::vector<example> in_files(const options& o) {
-    const auto up = o.y_up ? sim::up_axis::y : sim::up_axis::z;
-    std::vector<example> all;
-    const auto add = [&](const std::filesystem::path& file, const std::string& name) {
-        if (is_mesh_file(file))
-            all.push_back({name, sim::read_furniture(file.string(), up), o.views});
-    };
-    for (const auto& entry : sorted_entries(o.models)) {
-        if (std::filesystem::is_directory(entry)) {
-            for (const auto& file : sorted_entries(entry)) add(file, entry.filename().string());
-        } else {
-            add(entry, entry.stem().string());
-        }
-    }
-    if (all.empty()) throw gnomon::error(o.models, "", "has no mesh files");
-    return all;
-}
-#endif
 
 }  // namespace detail
 
-/// The models that the options name, those of a class in one order for all runs.
-/// @throws gnomon::error  if a file cannot be read, or there are fewer than two classes
+/// The models that the options name, in one order for all runs, and background: the folder
+/// "background" of the files if there is one, else clutter.
+/// @throws gnomon::error  if a file cannot be read
+/// @throws usage_error    for mesh files, without Assimp
 inline std::vector<example> examples_of(const options& o) {
-    if (o.models.empty()) return detail::built_in(o);
-#ifdef GNOMON_EXAMPLES_ASSIMP
-    auto all = detail::in_files(o);
-    if (std::ranges::all_of(all, [&](const example& e) { return e.name == all.front().name; }))
-        throw gnomon::error(o.models, "",
-                            "has the class " + all.front().name +
-                                " only; two are required, such as a folder "
-                                "\"background\"");
+    std::vector<example> all;
+    if (o.models.empty()) {
+        for (auto& model : sim::furniture_models()) all.push_back({model.name, model, o.views});
+    } else {
+        for (auto& file : common::furniture_in("--models", o.models, o.y_up))
+            all.push_back({file.class_name, std::move(file.model), o.views});
+    }
+    const auto is_background = [](const example& e) {
+        return e.name == gnomon::recognition::background_name;
+    };
+    if (std::ranges::none_of(all, is_background)) detail::add_background(all, o);
+    if (std::ranges::all_of(all, is_background))
+        throw gnomon::error(o.models, "", "has background only");
     return all;
-#else
-    throw usage_error("--models: this program was built without Assimp, which reads mesh files");
-#endif
 }

@@ -19,12 +19,12 @@ Learns classes of objects from simulated scans of models, each model alone at ra
 in front of a range finder, and writes what recognize_scan and segment_scan need to know
 into the file MODEL (JSON).
 
-  --models DIR        mesh files (obj, stl, ply, off, dae, gltf, glb; metres) in place of the
-                      built-in twelve pieces of furniture. A file is a class of its own, with
-                      its name; the files in a folder of DIR are one class with the name of
-                      the folder. The class of the folder "background" stands for whatever is
-                      no object; the built-in models have cupboards, cartons, bins and pieces
-                      of walls in it
+  --models DIR        mesh files (obj, stl, ply, off, dae, gltf, glb; metres), or one of them,
+                      in place of the built-in twelve pieces of furniture. A file is a class
+                      of its own, with its name; the files in a folder of DIR are one class
+                      with the name of the folder. The class of the folder "background"
+                      stands for whatever is no object; without that folder it is learned
+                      from built-in cupboards, cartons, bins and pieces of walls
   --y-up              the y axis of the files points up, not z
   --views N           scans of each model (40)
   --seed N            of all that is random (1)
@@ -39,7 +39,7 @@ Exit status: 0; 1 if a file cannot be read or written; 2 for a wrong command lin
 
 struct options {
     std::string out;     ///< path of the model file
-    std::string models;  ///< directory, or empty for the built-in models
+    std::string models;  ///< directory or file; empty for the built-in models
     bool y_up = false;
     std::size_t views = 40;
     std::uint64_t seed = 1;

@@ -24,6 +24,8 @@ labeled.ply, recognized.png and objects.json into DIR.
   --floor H            height of the floor along --up [m], where SCAN does not show it
   --viewpoint X,Y,Z    position of the sensor (from SCAN, else 0,0,0)
   --noise M            standard deviation of the ranges (measured on SCAN)
+  --divergence MRAD    full angle of beams that are wide [mrad]: what they return at silhouettes
+                       of objects is left out (0)
   --min-probability P  views that are less certain are background (as learned, 0.9)
   --threads N          0 for all there are (0)
   --help               this text
@@ -45,6 +47,7 @@ struct options {
     std::optional<double> floor;        ///< [m]
     std::optional<Eigen::Vector3d> viewpoint;
     std::optional<double> sigma;  ///< [m]
+    gnomon::angle divergence = gnomon::degrees(0.0);
     std::optional<double> min_probability;
     gnomon::threads threads;
 };
@@ -66,6 +69,11 @@ inline constexpr option<options> known_options[] = {
          o.viewpoint = vector_of(name, value);
      }},
     {"--noise", true, common::sigma<options>.set},
+    {"--divergence", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         o.divergence =
+             gnomon::radians(1e-3 * number_within(name, value, 0.0, 100.0, "from 0 to 100"));
+     }},
     {"--min-probability", true,
      [](options& o, const std::string& name, const std::string& value) {
          o.min_probability = number_within(name, value, 0.0, 1.0, "from 0 to 1");

@@ -28,6 +28,8 @@ what is true of them (normal, object, part, surface, range, echo), scan.png and 
                        seat_armchair_table, furnished_room or street (of the seed), or a mesh file
                        such as FILE.obj, z up, in metres (kitchen)
   --openings           doors and windows in the walls of furnished_room
+  --furniture DIR      the furniture of furnished_room: mesh files, as --models of learn_objects
+  --y-up               the y axis of these files points up, not z
   --scanner NAME       range_finder; a depth camera with its own resolution and noise:
                        structured_light, time_of_flight or stereo; or one sweep of a spinning lidar:
                        velodyne_vlp_16, velodyne_hdl_32e or velodyne_hdl_64e (range_finder)
@@ -59,6 +61,8 @@ struct options {
     sim::beam beam{.sigma = 0.015};
     bool skimmed = false;
     bool openings = false;
+    std::string furniture;  ///< directory or file; empty for the built-in furniture
+    bool y_up = false;
     std::optional<Eigen::Vector3d> sensor;
     std::optional<gnomon::angle> yaw;
     std::optional<gnomon::angle> pitch;
@@ -122,6 +126,12 @@ inline const option<options> known_options[] = {
      }},
     {"--openings", false,
      [](options& o, const std::string&, const std::string&) { o.openings = true; }},
+    {"--furniture", true,
+     [](options& o, const std::string& name, const std::string& value) {
+         if (value.empty()) throw usage_error(name + ": its value is missing");
+         o.furniture = value;
+     }},
+    {"--y-up", false, [](options& o, const std::string&, const std::string&) { o.y_up = true; }},
     {"--skimmed", false,
      [](options& o, const std::string&, const std::string&) { o.skimmed = true; }},
     {"--seed", true,

@@ -5,9 +5,11 @@
 
 #include <map>
 #include <string>
+#include <utility>
 
 #include <Eigen/Core>
 
+#include "common/furniture_files.hpp"
 #include "simulate_scan/options.hpp"
 #include <gnomon/simulation.hpp>
 #ifdef GNOMON_EXAMPLES_ASSIMP
@@ -31,6 +33,15 @@ inline sim::scene scene_in_file(const std::string& path) {
 #endif
 }
 
+/// A room with the furniture of files, if the options name some.
+inline sim::scene furnished_room(const options& o) {
+    sim::scenes::room_options room{.seed = o.beam.seed, .openings = o.openings};
+    if (!o.furniture.empty())
+        for (auto& file : common::furniture_in("--furniture", o.furniture, o.y_up))
+            room.models.push_back(std::move(file.model));
+    return sim::scenes::furnished_room(room);
+}
+
 }  // namespace detail
 
 /// The scene that the options name, with the sensor where they want it.
@@ -44,17 +55,15 @@ inline sim::scene scene_of(const options& o) {
         {"boxes_and_bin", [](const options&) { return sim::scenes::boxes_and_bin(); }},
         {"two_chairs", [](const options&) { return sim::scenes::two_chairs(); }},
         {"seat_armchair_table", [](const options&) { return sim::scenes::seat_armchair_table(); }},
-        {"furnished_room",
-         [](const options& with) {
-             return sim::scenes::furnished_room(
-                 {.seed = with.beam.seed, .openings = with.openings});
-         }},
+        {"furnished_room", detail::furnished_room},
         {"street",
          [](const options& with) { return sim::scenes::street({.seed = with.beam.seed}); }}};
     const auto known = scenes.find(o.scene);
     if (known == scenes.end() && o.scene.find('.') == std::string::npos)
         throw usage_error("--scene: '" + o.scene + "' is neither a scene nor the name of a file");
 
+    if (!o.furniture.empty() && o.scene != "furnished_room")
+        throw usage_error("--furniture: only furnished_room takes furniture of files");
     sim::scene world = known != scenes.end() ? known->second(o) : detail::scene_in_file(o.scene);
     const Eigen::Vector3d place = o.sensor.value_or(world.sensor.position);
     if (o.pitch) world.sensor = sim::pitch(*o.pitch);

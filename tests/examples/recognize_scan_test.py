@@ -19,6 +19,22 @@ LEARN, RECOGNIZE, SEGMENT, SIMULATE = sys.argv[1:5]
 VIEW = ["name", "probability", "best", "second", "points", "center", "pose", "box", "log_ratio",
         "evidence"]
 BOARD = "v 0 0 {z}\nv 0.5 0 {z}\nv 0.5 0.5 {z}\nv 0 0.5 {z}\nf 1 2 3 4\nv 0.2 0.2 0\nf 1 2 5\n"
+
+
+def boxes(*extents):
+    """A mesh file of boxes, each of (x, y, z) from and to."""
+    text = ""
+    for number, (low, high) in enumerate(extents):
+        for corner in range(8):
+            text += "v" + "".join(f" {(high if corner >> a & 1 else low)[a]}" for a in range(3)) + "\n"
+        for face in ("1342", "5687", "1265", "3784", "1573", "2486"):
+            text += "f" + "".join(f" {int(c) + 8 * number}" for c in face) + "\n"
+    return text
+
+
+# A desk with a drawer unit, unlike all that is built in.
+STAND = boxes(((0, 0, 0.72), (1.1, 0.5, 0.76)), ((0, 0, 0), (0.04, 0.5, 0.72)),
+              ((0.7, 0.02, 0.2), (1.1, 0.48, 0.72)))
 TYPES = {"double": "d", "float": "f", "int": "i", "uint": "I", "uchar": "B"}
 
 
@@ -117,7 +133,32 @@ def check_files(directory):
     check_refusal(directory, "stand.obj", LEARN, "--models", models)
     (directory / "no_models").mkdir()
     check_refusal(directory, "no mesh files", LEARN, "--models", directory / "no_models")
-    check_refusal(directory, "only", LEARN, "--models", models / "background")
+    (directory / "only" / "background").mkdir(parents=True)
+    (directory / "only" / "background" / "a.obj").write_text(BOARD.format(z=1), encoding="utf-8")
+    check_refusal(directory, "only", LEARN, "--models", directory / "only")
+
+
+def check_own_file(directory):
+    """A mesh file of one's own is learned, put into a simulated room, and recognized there."""
+    stand = directory / "my_stand.obj"
+    stand.write_text(STAND, encoding="utf-8")
+    model, room, out = directory / "own.json", directory / "own_room", directory / "own_found"
+    result = run(LEARN, "--models", stand, "--views", 16, "--out", model)
+    if "without Assimp" in result.stderr:
+        return
+    check(result.returncode == 0, result.stderr)
+    learned = json.loads(model.read_text(encoding="utf-8"))
+    check(sorted(learned["classes"]) == ["background", "my_stand"], learned["classes"])
+    must(SIMULATE, "--scene", "furnished_room", "--furniture", stand, "--sigma", "0.005", "--out", room)
+    names = json.loads((room / "names.json").read_text(encoding="utf-8"))["objects"]
+    check(sum(n.startswith("my_stand") for n in names) >= 3, names)
+    must(RECOGNIZE, room / "scan.ply", "--model", model, "--out", out)
+    report = json.loads((out / "objects.json").read_text(encoding="utf-8"))
+    check("my_stand" in [v["name"] for v in report["views"]], report["views"])
+    result = run(SIMULATE, "--furniture", stand, "--out", directory / "no_room")
+    check(result.returncode == 2 and "furnished_room" in result.stderr, result.stderr)
+    check_refusal(directory, "nowhere.obj", SIMULATE, "--scene", "furnished_room", "--furniture",
+                  directory / "nowhere.obj")
 
 
 with tempfile.TemporaryDirectory() as name:
@@ -173,6 +214,7 @@ with tempfile.TemporaryDirectory() as name:
                     [scan, "--model", model, "--up", "0,0,0"],
                     [scan, "--model", model, "--floor", "low"],
                     [scan, "--model", model, "--min-probability", "1.5"],
+                    [scan, "--model", model, "--divergence", "-1"],
                     [scan, "--model", model, "--viewpoint", "1,2"]]:
         result = run(RECOGNIZE, *options, "--out", directory / "wrong")
         check(result.returncode == 2 and "usage: recognize_scan" in result.stderr, result.stderr)
@@ -188,3 +230,4 @@ with tempfile.TemporaryDirectory() as name:
     for program in (LEARN, RECOGNIZE):
         check("usage" in must(program, "--help"), program)
     check_files(directory)
+    check_own_file(directory)

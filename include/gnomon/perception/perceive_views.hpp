@@ -20,12 +20,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 
+#include <gnomon/core/angle.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
@@ -34,6 +36,7 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/crop_height.hpp>
+#include <gnomon/filters/remove_silhouettes.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/knn.hpp>
 #include <gnomon/normals/plane_pca.hpp>
@@ -58,6 +61,9 @@ struct perceive_views_options {
     /// Heights that are left out. Legs without a floor are cut as those on a floor.
     crop_height_options bands{};
     std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
+    /// Full angle of beams that are wide: points at silhouettes are removed, see
+    /// remove_silhouettes(). Of narrow beams it is 0.
+    angle divergence = degrees(0.0);
     double gap = 0.10;          ///< between nearest points of a view, at most [m]; Sec. 5.5.1
     std::size_t min_parts = 1;  ///< views of fewer parts are dropped
     /// Cells [m] to whose means dense scans are thinned first; chosen: finer than the parts of
@@ -74,10 +80,11 @@ struct perceive_views_options {
     /// furniture_models() is 1.8 m.
     double max_length = 2.2;
 
-    /// @throws std::invalid_argument  if k is below 3, reach not positive, or gap or max_length
-    ///                                negative or NaN
+    /// @throws std::invalid_argument  if k is below 3, reach not positive, gap or max_length
+    ///                                negative or NaN, or divergence not from 0 to 90 degrees
     void require_valid() const {
         using gnomon::detail::require;
+        silhouette_options{.divergence = divergence}.require_valid();
         require(k >= 3, "perceive_views: a normal requires 3 neighbors");
         require(reach > 0.0, "perceive_views: the reach must be positive");
         require(gap >= 0.0, "perceive_views: the gap must not be negative or NaN");
@@ -112,6 +119,19 @@ template <class R, class Proj>
     for (std::size_t i = 0; i < position.size(); ++i)
         if (is_finite(position[i])) finite.push_back(static_cast<point_index>(i));
     return finite;
+}
+
+/// Those of these points that are at no silhouette, if beams are wide.
+template <class R, execution X, class Proj>
+[[nodiscard]] std::vector<point_index> without_silhouettes(const R& points,
+                                                           std::vector<point_index> chosen,
+                                                           angle divergence, const X& run,
+                                                           Proj projection) {
+    if (divergence == degrees(0.0)) return chosen;
+    const auto seen = remove_silhouettes(points, {.divergence = divergence}, run, projection);
+    std::vector<point_index> both;
+    std::ranges::set_intersection(chosen, seen, std::back_inserter(both));
+    return both;
 }
 
 /// Surfaces of a group of cells.
@@ -161,7 +181,9 @@ template <class R, execution X = sequential, class Proj = std::identity>
     options.require_valid();
     const auto& team = gnomon::detail::staying(run);
     perceived_views result;
-    const auto kept = detail::between_floor_and_ceiling(points, options, result.ground, projection);
+    const auto kept = detail::without_silhouettes(
+        points, detail::between_floor_and_ceiling(points, options, result.ground, projection),
+        options.divergence, team, projection);
     const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                       {.edge = options.cell}, team);
     constexpr std::size_t fewest = 4;  // formula: a plane and a residual

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <stdexcept>
+#include <vector>
+
+#include <Eigen/Core>
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/scan.hpp>
+#include <gnomon/core/viewpoints.hpp>
+#include <gnomon/filters/remove_silhouettes.hpp>
+#include <gnomon/filters/subset.hpp>
+
+namespace {
+
+using gnomon::radians;
+using gnomon::remove_silhouettes;
+
+constexpr double beam = 0.010;     // [rad]
+constexpr double spacing = 0.004;  // of rays [rad]
+
+/// What wide beams from the origin return of boards that face it: the mean distance of those that a
+/// beam hits, of which the nearer one hides nothing but what is behind it.
+struct board {
+    double distance, half_width, half_height;  // [m]
+};
+
+/// The distance at which a thin ray hits the first of these boards, or infinity.
+double hit(const std::vector<board>& boards, double y, double z) {
+    for (const board& b : boards)
+        if (std::abs(y * b.distance) <= b.half_width && std::abs(z * b.distance) <= b.half_height)
+            return b.distance;
+    return clouds::infinity;
+}
+
+/// A raster of rays with slopes y and z, of beams that average over `width` [rad].
+gnomon::scan scan_of(const std::vector<board>& boards, double width, int lines = 60) {
+    gnomon::scan scan;
+    scan.viewpoints = Eigen::Vector3d(0, 0, 0);
+    for (int j = -lines; j <= lines; ++j) {
+        for (int i = -60; i <= 60; ++i) {
+            const double y = spacing * (i + 0.3), z = 1.5 * spacing * (j + 0.1);
+            double sum = 0.0, hits = 0.0;
+            for (int b = -2; b <= 2; ++b) {
+                for (int a = -2; a <= 2; ++a) {
+                    const double x = hit(boards, y + 0.25 * a * width, z + 0.25 * b * width);
+                    if (!std::isfinite(x)) continue;
+                    sum += x;
+                    hits += 1.0;
+                }
+            }
+            if (hits == 0.0) continue;
+            const double x = sum / hits;
+            scan.points.emplace_back(x, x * y, x * z);
+        }
+    }
+    return scan;
+}
+
+/// Half the width of the first board as these points show it [m].
+double half_width_of(const gnomon::scan& scan, const std::vector<gnomon::point_index>& kept) {
+    double widest = 0.0;
+    for (const gnomon::point_index i : kept) widest = std::max(widest, scan.points[i].y());
+    return widest;
+}
+
+std::vector<gnomon::point_index> all_of(const gnomon::scan& scan) {
+    std::vector<gnomon::point_index> all(scan.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = static_cast<gnomon::point_index>(i);
+    return all;
+}
+
+TEST(remove_silhouettes, a_board_is_as_wide_as_it_is) {
+    for (const double half : {0.1, 0.2, 0.33}) {
+        const gnomon::scan scan = scan_of({{3.0, half, 0.5}}, beam);
+        ASSERT_GT(half_width_of(scan, all_of(scan)), half + 0.25 * beam * 3.0);
+        const auto kept = remove_silhouettes(scan, {.divergence = radians(beam)});
+        EXPECT_NEAR(half_width_of(scan, kept), half, spacing * 3.0) << half;
+    }
+}
+
+TEST(remove_silhouettes, nothing_between_two_surfaces_is_left) {
+    const gnomon::scan scan = scan_of({{2.0, 0.15, 0.2}, {4.0, 0.8, 1.0}}, beam);
+    const auto is_between = [&](gnomon::point_index i) {
+        return scan.points[i].x() > 2.3 && scan.points[i].x() < 3.7;
+    };
+    ASSERT_GT(std::ranges::count_if(all_of(scan), is_between), 100);
+    const auto kept = remove_silhouettes(scan, {.divergence = radians(beam)});
+    EXPECT_EQ(std::ranges::count_if(kept, is_between), 0);
+    EXPECT_GT(kept.size(), scan.size() / 2);
+}
+
+TEST(remove_silhouettes, wider_beams_cost_more) {
+    const gnomon::scan scan = scan_of({{3.0, 0.3, 0.4}}, 0.0);
+    std::size_t last = scan.size();
+    std::vector<double> half;
+    for (const double width : {0.0, 0.02, 0.04}) {
+        const auto kept = remove_silhouettes(scan, {.divergence = radians(width)});
+        EXPECT_LT(kept.size(), last) << width;
+        last = kept.size();
+        half.push_back(half_width_of(scan, kept));
+    }
+    // The silhouette itself, and then half a beam, of which the silhouette is a part.
+    EXPECT_NEAR(half[0], 0.3 - 3.0 * spacing, 2.0 * 3.0 * spacing);
+    EXPECT_NEAR(half[1], 0.3 - 3.0 * 0.01, 2.0 * 3.0 * spacing);
+    EXPECT_NEAR(half[2], 0.3 - 3.0 * 0.02, 2.0 * 3.0 * spacing);
+}
+
+TEST(remove_silhouettes, small_jumps_are_one_surface) {
+    const gnomon::scan scan = scan_of({{3.0, 0.2, 0.4}, {3.2, 0.5, 0.7}}, 0.0);
+    const auto one = remove_silhouettes(scan, {.max_jump = 0.5});
+    const auto two = remove_silhouettes(scan, {.max_jump = 0.1});
+    EXPECT_LT(two.size(), one.size());
+    EXPECT_TRUE(std::ranges::includes(one, two));
+}
+
+TEST(remove_silhouettes, result_does_not_depend_on_threads_or_place) {
+    const gnomon::scan scan = scan_of({{2.0, 0.15, 0.2}, {4.0, 0.8, 1.0}}, beam);
+    const auto kept = remove_silhouettes(scan);
+    for (const unsigned n : {1u, 2u, 4u})
+        EXPECT_EQ(remove_silhouettes(scan, {}, gnomon::threads{n}), kept);
+    const Eigen::Vector3d shift(524288.0, 4194304.0, 128.0);  // at UTM coordinates
+    gnomon::scan far;
+    far.viewpoints = shift;
+    for (const Eigen::Vector3d& p : scan.points) far.points.push_back(p + shift);
+    EXPECT_EQ(remove_silhouettes(far), kept);
+}
+
+TEST(remove_silhouettes, scans_from_two_places_are_told_apart) {
+    const gnomon::scan scan = scan_of({{2.0, 0.15, 0.2}, {4.0, 0.8, 1.0}}, beam);
+    const auto kept = remove_silhouettes(scan);
+    const Eigen::Vector3d shift(0.0, 5.0, 0.0);
+    gnomon::scan both;
+    std::vector<gnomon::point_index> scan_of_point, expected = kept;
+    for (const gnomon::point_index i : kept)
+        expected.push_back(i + static_cast<gnomon::point_index>(scan.size()));
+    for (const gnomon::point_index s : {0u, 1u}) {
+        for (const Eigen::Vector3d& p : scan.points) {
+            both.points.push_back(p + (s == 1 ? shift : Eigen::Vector3d(0, 0, 0)));
+            scan_of_point.push_back(s);
+        }
+    }
+    both.viewpoints = gnomon::viewpoint_table({{0, 0, 0}, shift}, scan_of_point);
+    EXPECT_EQ(remove_silhouettes(both), expected);
+}
+
+TEST(remove_silhouettes, a_single_scan_line_is_kept) {
+    const gnomon::scan scan = scan_of({{2.0, 0.15, 0.2}, {4.0, 0.8, 1.0}}, beam, 0);
+    ASSERT_GT(scan.size(), 50u);
+    EXPECT_EQ(remove_silhouettes(scan), all_of(scan));
+}
+
+TEST(remove_silhouettes, points_without_a_ray_are_left_out) {
+    gnomon::scan scan = scan_of({{3.0, 0.3, 0.4}}, beam);
+    const auto kept = remove_silhouettes(scan);
+    for (const Eigen::Vector3d& p :
+         {Eigen::Vector3d(0, 0, 0), Eigen::Vector3d(clouds::nan, 0, 0),
+          Eigen::Vector3d(0, clouds::infinity, 0), Eigen::Vector3d(1e300, 1e300, 0)})
+        scan.points.push_back(p);
+    EXPECT_EQ(remove_silhouettes(scan), kept);
+}
+
+TEST(remove_silhouettes, few_points_and_echoes_of_one_ray) {
+    EXPECT_TRUE(remove_silhouettes(gnomon::scan{}).empty());
+    for (int n = 1; n < 5; ++n) {
+        gnomon::scan scan;
+        for (int i = 0; i < n; ++i) scan.points.emplace_back(3.0, 0.01 * i, 0.02 * i * i);
+        EXPECT_EQ(remove_silhouettes(scan), all_of(scan)) << n;
+        std::ranges::fill(scan.points, Eigen::Vector3d(3.0, 1.0, 1.0));
+        EXPECT_EQ(remove_silhouettes(scan), all_of(scan)) << n;
+    }
+}
+
+TEST(remove_silhouettes, options_are_checked) {
+    const gnomon::scan scan = scan_of({{3.0, 0.1, 0.1}}, beam);
+    EXPECT_THROW((void)remove_silhouettes(scan, {.divergence = radians(-1.0)}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)remove_silhouettes(scan, {.divergence = radians(clouds::nan)}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)remove_silhouettes(scan, {.divergence = gnomon::degrees(91)}),
+                 std::invalid_argument);
+    EXPECT_THROW((void)remove_silhouettes(scan, {.max_jump = -0.1}), std::invalid_argument);
+    EXPECT_THROW((void)remove_silhouettes(scan, {.max_jump = clouds::nan}), std::invalid_argument);
+}
+
+}  // namespace
