@@ -9,6 +9,7 @@
 # that a form cannot do without is missing.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
+. "$root/tools/setup.sh"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -42,7 +43,7 @@ consumer() {
     shift
     rm -rf "$work/consumer"
     run_quietly cmake -S "$src/tests/consumer/$project" -B "$work/consumer" "$@"
-    run_quietly cmake --build "$work/consumer"
+    run_quietly cmake --build "$work/consumer" --target consumer
     run "$work/consumer/consumer"
 }
 
@@ -60,19 +61,22 @@ test_vcpkg() {
     for port in "$src/packaging/vcpkg" "$work/ports"; do
         installed=$work/installed
         if has vcpkg; then
-            # shellcheck disable=SC2086  # an option of its own, or none
+            vcpkg_root=${VCPKG_ROOT:-$(dirname "$(command -v vcpkg)")}
             run_quietly vcpkg install 'gnomon[core]' --classic --overlay-ports="$port" \
                 --overlay-ports="$src/tests/packages/vcpkg" --x-install-root="$installed" \
                 --x-buildtrees-root="$work/buildtrees" --x-packages-root="$work/packages" \
-                --binarysource=clear --triplet=x64-linux ${VCPKG_ROOT:+--vcpkg-root="$VCPKG_ROOT"}
+                --binarysource=clear --triplet=x64-linux --vcpkg-root="$vcpkg_root"
+            set -- -D CMAKE_TOOLCHAIN_FILE="$vcpkg_root/scripts/buildsystems/vcpkg.cmake" \
+                -D VCPKG_MANIFEST_MODE=OFF -D VCPKG_INSTALLED_DIR="$installed"
             installed=$installed/x64-linux
             how="vcpkg itself, $(vcpkg version | sed -n '1s/.*version //p')"
         else
-            run cmake -D PORT_DIR="$port/gnomon" -D INSTALLED="$installed" -D WORK="$work/vcpkg" \
+            run_quietly cmake -D PORT_DIR="$port/gnomon" -D INSTALLED="$installed" -D WORK="$work/vcpkg" \
                 -P "$src/tests/packages/vcpkg/stand_in.cmake"
+            set -- -D CMAKE_PREFIX_PATH="$installed"
             how="a stand-in that runs the steps of the port, as vcpkg is not installed"
         fi
-        consumer find_package -D CMAKE_PREFIX_PATH="$installed"
+        consumer find_package "$@"
         [ -s "$installed/share/gnomon/copyright" ] && [ -s "$installed/share/gnomon/usage" ]
         rm -rf "$work/installed" "$work/packages" "$work/buildtrees"
     done
@@ -156,7 +160,10 @@ test_ros() {
     cp -r "$src/tests/packages/ros" "$work/workspace/src/gnomon_consumer"
     cp "$src/tests/consumer/main.cpp" "$work/workspace/src/gnomon_consumer"
     if has colcon && [ -d /usr/share/ament_cmake ]; then
-        (cd "$work/workspace" && run_quietly colcon build)
+        # The Python of the system, for which ament_cmake is installed.
+        (cd "$work/workspace" && run_quietly colcon build \
+            --cmake-args -D Python3_EXECUTABLE="$(python_with ament_package)")
+        [ ! -e "$work/workspace/build/gnomon/tests" ]  # by colcon.pkg
         run "$work/workspace/install/gnomon_consumer/lib/gnomon_consumer/consumer"
         outcome "colcon, with a package of ament_cmake that depends on gnomon"
     else

@@ -34,14 +34,13 @@ function(vcpkg_cmake_config_fixup)
     cmake_path(GET arg_CONFIG_PATH PARENT_PATH parent)
     file(REMOVE_RECURSE ${CURRENT_PACKAGES_DIR}/${parent})
     # One folder less between these files and the prefix.
+    set(up "get_filename_component(_IMPORT_PREFIX \"\${_IMPORT_PREFIX}\" PATH)\n")
     file(GLOB files ${CURRENT_PACKAGES_DIR}/share/${PORT}/*.cmake)
     foreach(file IN LISTS files)
         file(READ ${file} text)
-        string(REPLACE [[${CMAKE_CURRENT_LIST_DIR}/../../../]] [[${CMAKE_CURRENT_LIST_DIR}/../../]]
+        string(REPLACE "\${CMAKE_CURRENT_LIST_DIR}/../../../" "\${CMAKE_CURRENT_LIST_DIR}/../../"
                text "${text}")
-        string(REGEX REPLACE
-            "(get_filename_component\\(_IMPORT_PREFIX \"\\\${_IMPORT_PREFIX}\" PATH\\)\n)\\1\\1" "\\1\\1"
-            text "${text}")
+        string(REPLACE "${up}${up}${up}" "${up}${up}" text "${text}")
         file(WRITE ${file} "${text}")
     endforeach()
 endfunction()
