@@ -118,7 +118,7 @@ test_debian() {
     tar -x -f "$tarball" -C "$work/deb"
     cp -r "$src/packaging/debian" "$work/deb/gnomon-$version/debian"
     (cd "$work/deb/gnomon-$version" && run_quietly dpkg-buildpackage -us -uc)
-    run lintian --info --fail-on error,warning,info "$work"/deb/*.changes
+    run lintian --display-info --fail-on error,warning,info "$work"/deb/*.changes
     deb=$work/deb/libgnomon-dev_$version-1_all.deb
     cp -r "$src/tests/consumer" "$work/consumers"
 
