@@ -4,12 +4,13 @@
 #     sh packaging/test.sh [--tarball FILE] [FORM...]
 # FORM is vcpkg, conan, debian, cpack, ros, pkg-config or single-header; without one it is each of these.
 # The source is that tarball, or one of this tree (tools/release.sh --source). vcpkg, conan and colcon are
-# taken from the path; where one is missing, its steps are run without it, and the last line says so.
+# taken from the path; where one is missing, its steps are run without it, and the last line states it.
 # debian needs root, debhelper, lintian, mmdebstrap and a mirror of Debian. Exit status 77: something
 # that a form cannot do without is missing.
+# shellcheck disable=SC2016,SC2317  # functions are called by their names in variables
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-. "$root/tools/setup.sh"
+. "$root/tools/setup.sh"  # python_with
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
@@ -53,7 +54,7 @@ install_to() {
     run_quietly cmake --install "$work/build" --prefix "$1"
 }
 
-# From the tree that the port is in, and with the port elsewhere, the tarball beside it.
+# From the tree that the port is in, and with the port elsewhere, the tarball next to it.
 test_vcpkg() {
     mkdir "$work/ports"
     cp -r "$src/packaging/vcpkg/gnomon" "$work/ports"
@@ -77,7 +78,7 @@ test_vcpkg() {
             how="a stand-in that runs the steps of the port, as vcpkg is not installed"
         fi
         consumer find_package "$@"
-        [ -s "$installed/share/gnomon/copyright" ] && [ -s "$installed/share/gnomon/usage" ]
+        run test -s "$installed/share/gnomon/copyright" -a -s "$installed/share/gnomon/usage"
         rm -rf "$work/installed" "$work/packages" "$work/buildtrees"
     done
     outcome "$how"
@@ -111,7 +112,7 @@ test_conan() {
 
 test_debian() {
     for tool in dpkg-buildpackage dh lintian mmdebstrap; do
-        has $tool || { echo "debian: $tool is missing"; return 77; }
+        has "$tool" || { echo "debian: $tool is missing"; return 77; }
     done
     mkdir "$work/deb"
     cp "$tarball" "$work/deb/gnomon_$version.orig.tar.gz"
@@ -137,11 +138,11 @@ test ! -e /usr/include/gnomon
 EOF
     cp "$deb" "$work/libgnomon-dev.deb"
     sources=/etc/apt/sources.list.d/debian.sources
-    [ -e $sources ] || sources=/etc/apt/sources.list
+    [ -e "$sources" ] || sources=/etc/apt/sources.list
     run mmdebstrap --variant=apt --format=null --quiet \
         --customize-hook="copy-in $work/libgnomon-dev.deb $work/consumers $work/in_chroot.sh /tmp" \
         --customize-hook='chroot "$1" sh /tmp/in_chroot.sh' \
-        "$(. /etc/os-release && echo "$VERSION_CODENAME")" /dev/null $sources
+        "$(. /etc/os-release && echo "$VERSION_CODENAME")" /dev/null "$sources"
     outcome "dpkg-buildpackage, lintian, and apt in a new chroot"
 }
 

@@ -40,7 +40,7 @@ def rules(version, address):
         ("package.xml", r"<version>.*</version>", f"<version>{version}</version>"),
         ("package.xml", r"<maintainer .*</maintainer>",
          f'<maintainer email="{mail}">{maintainer}</maintainer>'),
-        ("package.xml", r"(  <url .*\n)?(?=  <license)",
+        ("package.xml", r"^(  <url .*\n)?(?=  <license)",
          homepage and f'  <url type="website">{homepage}</url>\n'),
         ("packaging/vcpkg/gnomon/vcpkg.json", r'^  "version": .*\n', f'  "version": "{version}",\n'),
         ("packaging/vcpkg/gnomon/vcpkg.json", r'^(  "homepage": .*\n)?(?=  "license")',

@@ -41,7 +41,7 @@ SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
 export SOURCE_DATE_EPOCH
 [ -z "$(git status --porcelain)" ] || echo "Changes that are not committed are left out"
 
-# release WORK OUT: everything but the tarball of the source is made of what is unpacked from it.
+# release WORK OUT: makes the tarball of the source, unpacks it, and makes all other files from that.
 release() {
     mkdir -p "$1" "$2"
     source_tarball HEAD "$2"

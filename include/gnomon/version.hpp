@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The version, in one place: CMake reads these three numbers, and tools/packages.py writes them into
-/// the files of packages.
+/// The version, in one place: CMake reads these three numbers, and tools/packages.py writes them
+/// into the files of packages.
 #pragma once
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-"""The source is, in this sequence: the tree that this recipe is in, the tarball of the release beside
+"""The source is, in this sequence: the tree that this recipe is in, the tarball of the release next to
 this file, or that tarball at the public address of conandata.yml."""
 
 import os
@@ -78,7 +78,7 @@ class GnomonConan(ConanFile):
         source = self.conan_data["sources"][self.version]
         if not source["releases"]:
             raise ConanInvalidConfiguration(
-                f"gnomon has no public address yet: put {self._tarball} beside conanfile.py")
+                f"gnomon has no public address yet: put {self._tarball} next to conanfile.py")
         get(self, f"{source['releases']}/{self.version}/{self._tarball}", sha256=source["sha256"],
             strip_root=True)
 

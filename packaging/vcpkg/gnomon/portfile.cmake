@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: BSL-1.0
-# The source is, in this sequence: the tree that this port is in, the tarball of the release beside
+# The source is, in this sequence: the tree that this port is in, the tarball of the release next to
 # this file, or that tarball at the public address. tools/packages.py writes the address,
 # tools/release.sh the hash.
 set(releases "")
