@@ -1,19 +1,24 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
 # Makes a package, installs it as its users do, and builds and runs a program with it:
-#     sh packaging/test.sh [--tarball FILE] [FORM...]
+#     sh packaging/test.sh [--stand-in] [--tarball FILE] [FORM...]
 # FORM is vcpkg, conan, debian, cpack, ros, pkg-config or single-header; without one it is each of these.
 # The source is that tarball, or one of this tree (tools/release.sh --source). vcpkg, conan and colcon are
-# taken from the path; where one is missing, its steps are run without it, and the last line states it.
-# debian needs root, debhelper, lintian, mmdebstrap and a mirror of Debian. Exit status 77: something
-# that a form cannot do without is missing.
+# taken from the path; where one is missing, and with --stand-in, its steps are run without it, and the
+# last line states it. debian needs root and a mirror of Debian, and installs what it runs. Exit status
+# 77: something that a form cannot do without is missing.
 # shellcheck disable=SC2016,SC2317  # functions are called by their names in variables
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
-. "$root/tools/setup.sh"  # python_with
+. "$root/tools/setup.sh"  # python_with, set_up
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 
+stand_in=''
+if [ "${1-}" = --stand-in ]; then
+    stand_in=yes
+    shift
+fi
 tarball=''
 if [ "${1-}" = --tarball ]; then
     tarball=$(realpath "$2")
@@ -37,6 +42,7 @@ run_quietly() {
     "$@" >"$work/log" 2>&1 || { cat "$work/log"; return 1; }
 }
 has() { command -v "$1" >/dev/null; }
+has_client() { [ -z "$stand_in" ] && has "$1"; }
 
 # consumer FOLDER [option of cmake...]: configures, builds and runs a project of tests/consumer.
 consumer() {
@@ -61,7 +67,7 @@ test_vcpkg() {
     cp "$tarball" "$work/ports/gnomon/gnomon-$version.tar.gz"
     for port in "$src/packaging/vcpkg" "$work/ports"; do
         installed=$work/installed
-        if has vcpkg; then
+        if has_client vcpkg; then
             vcpkg_root=${VCPKG_ROOT:-$(dirname "$(command -v vcpkg)")}
             run_quietly vcpkg install 'gnomon[core]' --classic --overlay-ports="$port" \
                 --overlay-ports="$src/tests/packages/vcpkg" --x-install-root="$installed" \
@@ -88,7 +94,7 @@ test_conan() {
     mkdir "$work/recipe"
     cp -r "$src/packaging/conan" "$work/recipe/gnomon"
     cp "$tarball" "$work/recipe/gnomon/gnomon-$version.tar.gz"
-    if has conan; then
+    if has_client conan; then
         export CONAN_HOME="$work/conan"
         run_quietly conan profile detect
         for library in boost eigen nlohmann_json; do
@@ -111,6 +117,7 @@ test_conan() {
 }
 
 test_debian() {
+    set_up dpkg-dev debhelper lintian mmdebstrap libeigen3-dev
     for tool in dpkg-buildpackage dh lintian mmdebstrap; do
         has "$tool" || { echo "debian: $tool is missing"; return 77; }
     done
@@ -160,7 +167,7 @@ test_ros() {
     cp -r "$src" "$work/workspace/src/gnomon"
     cp -r "$src/tests/packages/ros" "$work/workspace/src/gnomon_consumer"
     cp "$src/tests/consumer/main.cpp" "$work/workspace/src/gnomon_consumer"
-    if has colcon && [ -d /usr/share/ament_cmake ]; then
+    if has_client colcon && [ -d /usr/share/ament_cmake ]; then
         # The Python of the system, for which ament_cmake is installed.
         (cd "$work/workspace" && run_quietly colcon build \
             --cmake-args -D Python3_EXECUTABLE="$(python_with ament_package)")

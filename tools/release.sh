@@ -20,7 +20,7 @@ pack() {
 
 # source_tarball COMMIT DIR: outside of a clone, of the tree as it is.
 source_tarball() {
-    if git rev-parse --git-dir >/dev/null 2>&1; then
+    if [ -z "$(git rev-parse --show-prefix 2>/dev/null || echo none)" ]; then
         git archive --format=tar --prefix="$name/" "$1" | gzip -9n >"$2/$name.tar.gz"
     else
         mkdir "$work/$name"
