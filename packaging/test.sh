@@ -73,6 +73,7 @@ test_vcpkg() {
                 --overlay-ports="$src/tests/packages/vcpkg" --x-install-root="$installed" \
                 --x-buildtrees-root="$work/buildtrees" --x-packages-root="$work/packages" \
                 --binarysource=clear --triplet=x64-linux --vcpkg-root="$vcpkg_root"
+            if grep 'gnomon/portfile.cmake: warning' "$work/log"; then return 1; fi
             set -- -D CMAKE_TOOLCHAIN_FILE="$vcpkg_root/scripts/buildsystems/vcpkg.cmake" \
                 -D VCPKG_MANIFEST_MODE=OFF -D VCPKG_INSTALLED_DIR="$installed"
             installed=$installed/x64-linux

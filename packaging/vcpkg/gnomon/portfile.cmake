@@ -31,6 +31,8 @@ vcpkg_cmake_configure(
         -DGNOMON_INSTALL=ON)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/gnomon)
+file(MAKE_DIRECTORY "${CURRENT_PACKAGES_DIR}/lib")  # where vcpkg wants them
+file(RENAME "${CURRENT_PACKAGES_DIR}/share/pkgconfig" "${CURRENT_PACKAGES_DIR}/lib/pkgconfig")
 vcpkg_fixup_pkgconfig()
 
 file(REMOVE_RECURSE "${CURRENT_PACKAGES_DIR}/share/licenses")

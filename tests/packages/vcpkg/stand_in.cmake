@@ -46,8 +46,8 @@ function(vcpkg_cmake_config_fixup)
 endfunction()
 
 function(vcpkg_fixup_pkgconfig)
-    if(NOT EXISTS ${CURRENT_PACKAGES_DIR}/share/pkgconfig/${PORT}.pc)
-        message(FATAL_ERROR "${PORT}.pc is not in share/pkgconfig")
+    if(NOT EXISTS ${CURRENT_PACKAGES_DIR}/lib/pkgconfig/${PORT}.pc)
+        message(FATAL_ERROR "${PORT}.pc is not in lib/pkgconfig")
     endif()
 endfunction()
 
