@@ -55,7 +55,7 @@ class GnomonConan(ConanFile):
         if self.options.assimp:
             self.requires("assimp/[>=5.2 <6]", transitive_headers=True, transitive_libs=True)
         if self.options.embree:
-            self.requires("embree3/[>=3.13 <4]", transitive_headers=True, transitive_libs=True)
+            self.requires("embree/[>=4.0 <5]", transitive_headers=True, transitive_libs=True)
         if self.options.json:
             self.requires("nlohmann_json/[>=3.10 <4]", transitive_headers=True)
         if self._with_boost:
@@ -91,7 +91,7 @@ class GnomonConan(ConanFile):
 
     def package_info(self):
         self.cpp_info.set_property("cmake_file_name", "gnomon")
-        adapters = {"assimp": "assimp::assimp", "embree": "embree3::embree3",
+        adapters = {"assimp": "assimp::assimp", "embree": "embree::embree",
                     "json": "nlohmann_json::nlohmann_json"}
         adapters = {name: needed for name, needed in adapters.items() if self.options.get_safe(name)}
         core = self.cpp_info
