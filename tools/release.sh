@@ -18,10 +18,10 @@ pack() {
         --format=ustar -C "$(dirname "$1")" -c "$(basename "$1")" | gzip -9n >"$2"
 }
 
-# source_tarball COMMIT DIR: outside of a clone, of the tree as it is.
+# source_tarball COMMIT DIR [LEVEL of gzip]: outside of a clone, of the tree as it is.
 source_tarball() {
     if [ -z "$(git rev-parse --show-prefix 2>/dev/null || echo none)" ]; then
-        git archive --format=tar --prefix="$name/" "$1" | gzip -9n >"$2/$name.tar.gz"
+        git archive --format=tar --prefix="$name/" "$1" | gzip -n "${3:--9}" >"$2/$name.tar.gz"
     else
         mkdir "$work/$name"
         tar --exclude=./build --exclude=__pycache__ -c . | tar -x -C "$work/$name"
@@ -33,7 +33,7 @@ if [ "${1-}" = --source ]; then
     SOURCE_DATE_EPOCH=0
     changed=$(git stash create 2>/dev/null || true)
     mkdir -p "$2"
-    source_tarball "${changed:-HEAD}" "$2"
+    source_tarball "${changed:-HEAD}" "$2" -1
     exit 0
 fi
 

@@ -31,7 +31,7 @@ vcpkg_cmake_configure(
         -DGNOMON_INSTALL=ON)
 vcpkg_cmake_install()
 vcpkg_cmake_config_fixup(CONFIG_PATH share/cmake/gnomon)
-file(MAKE_DIRECTORY "${CURRENT_PACKAGES_DIR}/lib")  # where vcpkg wants them
+file(MAKE_DIRECTORY "${CURRENT_PACKAGES_DIR}/lib")  # where vcpkg expects it
 file(RENAME "${CURRENT_PACKAGES_DIR}/share/pkgconfig" "${CURRENT_PACKAGES_DIR}/lib/pkgconfig")
 vcpkg_fixup_pkgconfig()
 
