@@ -82,7 +82,7 @@ test_vcpkg() {
             run_quietly cmake -D PORT_DIR="$port/gnomon" -D INSTALLED="$installed" -D WORK="$work/vcpkg" \
                 -P "$src/tests/packages/vcpkg/stand_in.cmake"
             set -- -D CMAKE_PREFIX_PATH="$installed"
-            how="a stand-in that runs the steps of the port, as vcpkg is not installed"
+            how="a stand-in for vcpkg, which runs the steps of the port"
         fi
         consumer find_package "$@"
         run test -s "$installed/share/gnomon/copyright" -a -s "$installed/share/gnomon/usage"
@@ -113,7 +113,7 @@ test_conan() {
     else
         run python3 "$src/tests/packages/conan/stand_in.py" "$src/packaging/conan" "$work/conan"
         consumer single_header -D GNOMON_SINGLE_INCLUDE="$work/conan/include"
-        outcome "a stand-in that runs the methods of the recipe, as Conan is not installed"
+        outcome "a stand-in for Conan, which runs the methods of the recipe"
     fi
 }
 
@@ -179,7 +179,7 @@ test_ros() {
         install_to "$work/workspace/install/gnomon"
         [ -e "$work/workspace/install/gnomon/share/gnomon/package.xml" ]
         consumer find_package -D CMAKE_PREFIX_PATH="$work/workspace/install/gnomon"
-        outcome "the steps of colcon, as it is not installed"
+        outcome "the steps of colcon without it"
     fi
 }
 
