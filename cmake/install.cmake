@@ -33,3 +33,13 @@ configure_file(cmake/gnomon.pc.in ${PROJECT_BINARY_DIR}/gnomon.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/gnomon.pc DESTINATION ${pkgconfig_dir})
 
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DATADIR}/licenses/gnomon)
+install(FILES package.xml DESTINATION ${CMAKE_INSTALL_DATADIR}/gnomon)  # ROS finds packages by it
+
+# `cpack`, in the build folder: what is installed, as a tarball for any machine.
+set(CPACK_GENERATOR TGZ)
+set(CPACK_PACKAGE_FILE_NAME gnomon-${PROJECT_VERSION}-headers)
+set(CPACK_PACKAGE_VENDOR "The gnomon developers")
+set(CPACK_RESOURCE_FILE_LICENSE ${PROJECT_SOURCE_DIR}/LICENSE)
+set(CPACK_ARCHIVE_THREADS 1)
+set(CPACK_VERBATIM_VARIABLES ON)
+include(CPack)

@@ -12,6 +12,7 @@ function(add_style_test name)
 endfunction()
 
 add_style_test(single_header_is_fresh Python3::Interpreter ${tools}/amalgamate.py --check)
+add_style_test(one_version Python3::Interpreter ${tools}/packages.py --check)
 add_style_test(floors Python3::Interpreter ${tools}/check_floors.py)
 add_style_test(mirror Python3::Interpreter ${tools}/check_mirror.py)
 add_style_test(public_names Python3::Interpreter ${tools}/public_names.py)
@@ -71,3 +72,11 @@ if(GNOMON_INSTALL)
     set_tests_properties(package.pkg_config PROPERTIES
         LABELS package FIXTURES_REQUIRED prefix SKIP_RETURN_CODE 77)
 endif()
+
+# Forms of packages, each made from a tarball of this tree, installed and used. Not all: pkg-config and
+# the single header are tested above, and Debian's needs a mirror (sh packaging/test.sh debian).
+foreach(form IN ITEMS vcpkg conan cpack ros)
+    add_test(NAME package.form.${form} COMMAND sh ${PROJECT_SOURCE_DIR}/packaging/test.sh ${form})
+    set_tests_properties(package.form.${form} PROPERTIES LABELS package TIMEOUT 600
+        ENVIRONMENT CXX=${CMAKE_CXX_COMPILER})
+endforeach()

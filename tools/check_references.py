@@ -48,11 +48,11 @@ FOREIGN_SPACES = ("std", "Eigen", "boost", "nanoflann", "pcl", "CGAL", "open3d",
 PLACEHOLDERS = ("--name", "--name=VALUE")
 CAPITALS = re.compile(r"(?<![A-Za-z])(?!README|CHANGELOG|LICENSE|CITATION)[A-Z]{2,}(?![A-Za-z])")
 # Programs with which commands begin; those of others have options that are not ours.
-FOREIGN_COMMANDS = ("cmake", "ctest", "g++", "git", "valgrind", "apt-get", "perf")
+FOREIGN_COMMANDS = ("cmake", "ctest", "g++", "git", "valgrind", "apt-get", "perf", "vcpkg", "conan")
 COMMANDS = ("sh", "python3", *FOREIGN_COMMANDS)
 
 FILE = re.compile(r"(?<![\w./:<-])(?:[\w*.-]+/)*[\w*-]+\.(?:hpp|cpp|py|sh|md|cmake|txt|json|cff)(?![\w/])")
-FOLDER = re.compile(r"(?<![\w./-])(?:include|tests|examples|benchmarks|docs|tools|cmake)/(?:[\w-]+/)*")
+FOLDER = re.compile(r"(?<![\w./-])(?:include|tests|examples|benchmarks|docs|tools|cmake|packaging)/(?:[\w-]+/)*")
 NUMBERED = {"Eq": "Eqs?|Equations?", "Sec": "Secs?|Sections?|Apps?|Appendix|Chapters?",
             "Fig": "Figs?|Figures?", "Table": "Tabs?|Tables?", "Alg": "Algs?|Algorithms?"}
 NUMBER = r"\(?((?:[1-9]|A(?=\.))(?:\.\d+)*)\)?(?:\s+\([a-f]\))?"

@@ -18,8 +18,9 @@ PAGES = ["README.md", "CHANGELOG.md", "docs/**/*.md"]
 GENERATED_PAGES = "docs/results/"
 WITH_MESSAGES = ("include/", "examples/", "benchmarks/")
 CPP = [f"{tree}/**/*.[ch]pp" for tree in ("include", "tests", "examples", "benchmarks")]
-PYTHON = [f"{tree}/**/*.py" for tree in ("tests", "examples", "benchmarks", "tools")]
-SHELL = [f"{tree}/**/{name}" for tree in ("tests", "examples", "benchmarks", "cmake", "tools")
+PYTHON = [f"{tree}/**/*.py" for tree in ("tests", "examples", "benchmarks", "tools", "packaging")]
+SHELL = [f"{tree}/**/{name}" for tree in ("tests", "examples", "benchmarks", "cmake", "tools",
+                                                  "packaging")
          for name in ("*.sh", "*.cmake", "CMakeLists.txt")]
 
 # In a source, a comment with one of these words alone is for tools: "// namespace gnomon", markers

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// The version, in one place: CMake (and later Conan and vcpkg) read these three numbers.
+/// The version, in one place: CMake reads these three numbers, and tools/packages.py writes them
+/// into the files of packages.
 #pragma once
 
 #if defined(_MSVC_LANG) ? _MSVC_LANG < 202002L : __cplusplus < 202002L
@@ -8,5 +9,5 @@
 #endif
 
 #define GNOMON_VERSION_MAJOR 0
-#define GNOMON_VERSION_MINOR 1
+#define GNOMON_VERSION_MINOR 2
 #define GNOMON_VERSION_PATCH 0
