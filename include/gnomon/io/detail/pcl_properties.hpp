@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Properties under the names that PCL and ROS have for them.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <gnomon/io/ply_format.hpp>
+#include <gnomon/io/property.hpp>
+
+namespace gnomon::io::detail {
+
+/// The same columns with nx, ny, nz as normal_x, normal_y, normal_z, and with red, green, blue, if
+/// all are there in eight bits, as one column "rgb", the last one.
+/// @param color  the type of the packed color, uint32 or float32 of the same bits
+template <class = void>  // a template, so that unused writers cost no compile time
+[[nodiscard]] properties pcl_properties(const properties& columns, field_type color) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> renamed = {
+        {{"nx", "normal_x"}, {"ny", "normal_y"}, {"nz", "normal_z"}}};
+    constexpr std::array<std::string_view, 3> channels = {"red", "green", "blue"};
+
+    std::vector<const property*> packed;
+    for (const std::string_view channel : channels)
+        for (const property& column : columns)
+            if (column.name == channel && column.type == field_type::uint8)
+                packed.push_back(&column);
+    const bool has_color = packed.size() == channels.size();
+
+    std::vector<property> result;
+    for (const property& column : columns) {
+        if (has_color && std::find(packed.begin(), packed.end(), &column) != packed.end()) continue;
+        result.push_back(column);
+        for (const auto& [from, to] : renamed)
+            if (column.name == from) result.back().name = to;
+    }
+    if (has_color) {
+        const auto bits = [red = packed[0]->value, green = packed[1]->value,
+                           blue = packed[2]->value, color](std::size_t i) {
+            const auto all = (static_cast<std::uint32_t>(red(i)) << 16U) |
+                             (static_cast<std::uint32_t>(green(i)) << 8U) |
+                             static_cast<std::uint32_t>(blue(i));
+            return color == field_type::uint32 ? static_cast<double>(all)
+                                               : static_cast<double>(std::bit_cast<float>(all));
+        };
+        result.push_back({"rgb", color, packed[0]->size, bits});
+    }
+    return properties(std::move(result));
+}
+
+}  // namespace gnomon::io::detail
