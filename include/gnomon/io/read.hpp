@@ -1,19 +1,21 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file. The format is detected from the contents,
-/// not from the file name.
+/// Reads a scan from a PLY, PCD, LAS, legacy VTK or XYZ file. The format is detected from the
+/// contents, not from the file name.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/number.hpp>
 #include <gnomon/io/detail/pcd_header.hpp>
 #include <gnomon/io/detail/splitter.hpp>
 #include <gnomon/io/detail/text_cursor.hpp>
 #include <gnomon/io/input.hpp>
+#include <gnomon/io/read_las.hpp>
 #include <gnomon/io/read_pcd.hpp>
 #include <gnomon/io/read_ply.hpp>
 #include <gnomon/io/read_vtk.hpp>
@@ -39,19 +41,26 @@ namespace detail {
 
 }  // namespace detail
 
-/// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
+/// Parses a PLY, PCD, LAS, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_las`,
+/// `read_vtk`, `read_xyz`.
 /// @param file    name and contents of the file
 /// @param fields  names of further columns that become fields of the scan, in this order; "*"
 ///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
-/// @throws gnomon::error  if the file is damaged or a field is missing; the message lists the
-///                        fields of the file
+/// @throws gnomon::error  if the file is damaged or a field is missing (the message lists the
+///                        fields of the file), and for LAZ and E57 files (the message names a tool
+///                        that converts them)
 /// Complexity: O(bytes).
 template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
     if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
+    if (first_line.starts_with("LASF")) return read_las(file, fields);
+    if (first_line.starts_with("ASTM-E57"))
+        throw error(file.name, "byte 0",
+                    "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
+                    "a.las\" or CloudCompare");
     if (detail::looks_like_pcd(file)) return read_pcd(file, fields);
     return read_xyz(file, fields);
 }

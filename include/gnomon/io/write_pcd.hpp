@@ -105,8 +105,9 @@ void write_pcd_rows(const std::string& path, std::size_t points, std::size_t wid
 }  // namespace detail
 
 /// Writes points and properties to the PCD file `path` atomically: an existing file is replaced or
-/// stays unchanged. Names are those of PCL: nx, ny, nz become normal_x, normal_y, normal_z, and
-/// red, green, blue of eight bits become one field "rgb", which `read_pcd` takes apart again.
+/// stays unchanged. Fields are those of PCL: nx, ny, nz become normal_x, normal_y, normal_z; an
+/// int32 "label" becomes uint32, with 4294967295 for -1 (`labels_of` reads both); red, green, blue
+/// of eight bits become one field "rgb", which `read_pcd` takes apart again.
 /// @param path        name of the file
 /// @param points      any point range [m]; NaN is written. The member `width` of an organized image
 ///                    (`scan`) is kept. A single viewpoint becomes VIEWPOINT; several become fields

@@ -17,8 +17,9 @@
 
 namespace gnomon::io::detail {
 
-/// The same columns with nx, ny, nz as normal_x, normal_y, normal_z, and with red, green, blue, if
-/// all are there in eight bits, as one column "rgb", the last one.
+/// The same columns with nx, ny, nz as normal_x, normal_y, normal_z, an int32 "label" as uint32 (-1
+/// is 4294967295), and with red, green, blue, if all are there in eight bits, as one column "rgb",
+/// the last one.
 /// @param color  the type of the packed color, uint32 or float32 of the same bits
 template <class = void>  // a template, so that unused writers cost no compile time
 [[nodiscard]] properties pcl_properties(const properties& columns, field_type color) {
@@ -39,6 +40,12 @@ template <class = void>  // a template, so that unused writers cost no compile t
         result.push_back(column);
         for (const auto& [from, to] : renamed)
             if (column.name == from) result.back().name = to;
+        if (column.name == "label" && column.type == field_type::int32) {
+            result.back().type = field_type::uint32;
+            result.back().value = [label = column.value](std::size_t i) -> double {
+                return static_cast<std::uint32_t>(static_cast<std::int32_t>(label(i)));
+            };
+        }
     }
     if (has_color) {
         const auto bits = [red = packed[0]->value, green = packed[1]->value,
