@@ -74,9 +74,10 @@ struct las_file {
 }
 
 /// A description of extra bytes.
-[[nodiscard]] inline std::string las_extra_description(
-    unsigned type, unsigned options, const std::string& name,
-    const std::vector<double>& scale = {}, const std::vector<double>& offset = {}) {
+[[nodiscard]] inline std::string las_extra_description(unsigned type, unsigned options,
+                                                       const std::string& name,
+                                                       const std::vector<double>& scale = {},
+                                                       const std::vector<double>& offset = {}) {
     las_buffer d(192);
     d.put(2, static_cast<std::uint8_t>(type));
     d.put(3, static_cast<std::uint8_t>(options));
@@ -117,8 +118,8 @@ struct las_file {
         b.put(next, p.time);
         next += 8;
     }
-    const bool has_color = format == 2 || format == 3 || format == 5 || format == 7 ||
-                           format == 8 || format == 10;
+    const bool has_color =
+        format == 2 || format == 3 || format == 5 || format == 7 || format == 8 || format == 10;
     if (has_color) {
         b.put(next, p.red);
         b.put(next + 2, p.green);
@@ -131,8 +132,10 @@ struct las_file {
 
 /// The bytes of a file.
 [[nodiscard]] inline std::string las_bytes(const las_file& f) {
-    const std::size_t header_size =
-        (f.minor < 3 ? 227U : f.minor == 3 ? 235U : 375U) + f.longer_header;
+    const std::size_t header_size = (f.minor < 3    ? 227U
+                                     : f.minor == 3 ? 235U
+                                                    : 375U) +
+                                    f.longer_header;
     std::string records, points, long_records;
     for (const std::string& r : f.records) records += r;
     for (const std::string& r : f.long_records) long_records += r;

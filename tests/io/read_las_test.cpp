@@ -33,7 +33,9 @@ gnomon::scan parse_las(const std::string& bytes, const std::vector<std::string>&
 
 /// A random point whose attributes fit a point format.
 las_point random_las_point(gnomon::random_stream& random, unsigned format) {
-    const auto below = [&random](std::uint64_t n) { return static_cast<unsigned>(random.bits() % n); };
+    const auto below = [&random](std::uint64_t n) {
+        return static_cast<unsigned>(random.bits() % n);
+    };
     const bool old = format < 6;
     las_point p;
     p.x = static_cast<std::int32_t>(random.bits());
@@ -64,24 +66,20 @@ las_point random_las_point(gnomon::random_stream& random, unsigned format) {
 las_file random_las_file(unsigned minor, unsigned format, std::size_t points) {
     gnomon::random_stream random(1000 + 16 * minor + format);
     las_file file{.minor = minor, .format = format};
-    for (std::size_t i = 0; i < points; ++i) file.points.push_back(random_las_point(random, format));
+    for (std::size_t i = 0; i < points; ++i)
+        file.points.push_back(random_las_point(random, format));
     return file;
 }
 
 /// The values that a reader has to find, by name.
 std::map<std::string, double> values_of(unsigned format, const las_point& p) {
-    std::map<std::string, double> all{{"intensity", p.intensity},
-                                      {"return_number", p.return_number},
-                                      {"number_of_returns", p.returns},
-                                      {"scan_direction_flag", p.direction},
-                                      {"edge_of_flight_line", p.edge},
-                                      {"classification", p.classification},
-                                      {"synthetic", p.synthetic},
-                                      {"key_point", p.key_point},
-                                      {"withheld", p.withheld},
-                                      {"scan_angle", format < 6 ? p.angle : 0.006 * p.angle},
-                                      {"user_data", p.user_data},
-                                      {"point_source_id", p.source}};
+    std::map<std::string, double> all{
+        {"intensity", p.intensity},       {"return_number", p.return_number},
+        {"number_of_returns", p.returns}, {"scan_direction_flag", p.direction},
+        {"edge_of_flight_line", p.edge},  {"classification", p.classification},
+        {"synthetic", p.synthetic},       {"key_point", p.key_point},
+        {"withheld", p.withheld},         {"scan_angle", format < 6 ? p.angle : 0.006 * p.angle},
+        {"user_data", p.user_data},       {"point_source_id", p.source}};
     if (format >= 6) {
         all["overlap"] = p.overlap;
         all["scanner_channel"] = p.channel;
@@ -133,8 +131,9 @@ TEST(io_read_las, keeps_the_types_of_the_file) {
                                                {"scan_angle", type::float64},
                                                {"gps_time", type::float64},
                                                {"nir", type::uint16}};
-    const gnomon::scan s = parse_las(las_bytes(random_las_file(4, 8, 1)),
-                                     {"intensity", "classification", "scan_angle", "gps_time", "nir"});
+    const gnomon::scan s =
+        parse_las(las_bytes(random_las_file(4, 8, 1)),
+                  {"intensity", "classification", "scan_angle", "gps_time", "nir"});
     for (const auto& field : s.fields) EXPECT_EQ(field.type, expected.at(field.name)) << field.name;
 }
 
@@ -147,9 +146,8 @@ TEST(io_read_las, reads_fields_by_name_and_none_without) {
     const gnomon::scan none = parse_las(las_bytes(file), {});
     EXPECT_TRUE(none.fields.empty());
     expect_points_of(file, none);
-    io_test::expect_error([](const auto& f) { return io::read_las(f, {"label"}); },
-                          las_bytes(file), "byte 227",
-                          "there is no field \"label\"; there are: x, y, z, intensity");
+    io_test::expect_error([](const auto& f) { return io::read_las(f, {"label"}); }, las_bytes(file),
+                          "byte 227", "there is no field \"label\"; there are: x, y, z, intensity");
 }
 
 TEST(io_read_las, finds_points_after_longer_headers_records_and_gaps) {
@@ -178,7 +176,8 @@ TEST(io_read_las, reads_the_old_count_where_the_new_one_is_empty) {
 las_file file_of_extra_bytes(bool in_long_record) {
     las_file file = random_las_file(4, 6, 2);
     std::string descriptions;
-    const char* const names[] = {"u8", "i8", "u16", "i16", "u32", "i32", "u64", "i64", "f32", "f64"};
+    const char* const names[] = {"u8",  "i8",  "u16", "i16", "u32",
+                                 "i32", "u64", "i64", "f32", "f64"};
     const std::size_t sizes[] = {1, 1, 2, 2, 4, 4, 8, 8, 4, 8};
     for (unsigned k = 0; k < 10; ++k)
         descriptions += io_test::las_extra_description(k + 1, 0, names[k]);
@@ -283,13 +282,13 @@ TEST(io_read_las, refuses_damaged_descriptions_of_extra_bytes) {
     las_file file = random_las_file(4, 6, 1);
     file.extra_size = 4;
     for (const unsigned type : {31U, 255U}) {
-        file.records = {io_test::las_record_bytes(
-            "LASF_Spec", 4, io_test::las_extra_description(type, 0, "a"))};
+        file.records = {io_test::las_record_bytes("LASF_Spec", 4,
+                                                  io_test::las_extra_description(type, 0, "a"))};
         io_test::expect_error(las_parser, las_bytes(file), "byte 431", "of extra bytes");
     }
     for (const unsigned type : {10U, 15U}) {  // of eight bytes
-        file.records = {io_test::las_record_bytes(
-            "LASF_Spec", 4, io_test::las_extra_description(type, 0, "a"))};
+        file.records = {io_test::las_record_bytes("LASF_Spec", 4,
+                                                  io_test::las_extra_description(type, 0, "a"))};
         io_test::expect_error(las_parser, las_bytes(file), "byte 429", "longer than a point");
     }
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
@@ -15,6 +16,7 @@
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/read.hpp>
+#include <gnomon/io/read_las.hpp>  // where included, LAS files are read
 
 namespace {
 
@@ -67,6 +69,10 @@ TEST(io_read, names_a_tool_for_what_it_does_not_read) {
     std::string laz = one_cloud.back();
     laz[104] = '\x80';
     io_test::expect_error(any_parser, laz, "byte 104", "laszip -i a.laz -o a.las");
+    // As in a program that does not include the reader.
+    const auto reader = std::exchange(gnomon::io::detail::las_reader, nullptr);
+    io_test::expect_error(any_parser, one_cloud.back(), "byte 0", "<gnomon/io/read_las.hpp>");
+    gnomon::io::detail::las_reader = reader;
 }
 
 TEST(io_read, survives_any_bytes) {

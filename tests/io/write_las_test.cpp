@@ -98,9 +98,10 @@ TEST(io_write_las, writes_this_header) {
     const std::vector<Eigen::Vector3d> points = {{1, 2, 3}, {3, 2, 1.5}};
     const std::vector<std::uint8_t> returns = {1, 3};
     const std::vector<std::int32_t> labels = {-1, 70000};
-    io::write_las(path, points,
-                  {io::scalar_property("return_number", returns), io::scalar_property("label", labels)},
-                  {.resolution = 0.5});
+    io::write_las(
+        path, points,
+        {io::scalar_property("return_number", returns), io::scalar_property("label", labels)},
+        {.resolution = 0.5});
     const std::string b = io::load(path).bytes;
     EXPECT_EQ(b.substr(0, 4), "LASF");
     EXPECT_EQ(number_at<std::uint16_t>(b, 6), 16U);  // well-known text
@@ -196,7 +197,8 @@ TEST(io_write_las, widens_colors_and_rounds_angles) {
     const std::vector<Eigen::Vector3d> points = {{1, 2, 3}, {4, 5, 6}};
     const std::vector<std::array<std::uint8_t, 3>> colors = {{0, 128, 255}, {1, 2, 3}};
     const std::vector<double> angles = {-17, 30.0001};
-    io::write_las(path, points, {io::color_properties(colors), io::scalar_property("scan_angle", angles)});
+    io::write_las(path, points,
+                  {io::color_properties(colors), io::scalar_property("scan_angle", angles)});
     EXPECT_EQ(io::load(path).bytes[104], 7);
     const gnomon::scan again = las_again(path);
     EXPECT_EQ(las_field(again, "green"), (std::vector<double>{257 * 128, 514}));
@@ -254,14 +256,16 @@ TEST(io_write_las, copies_the_frame_of_a_source) {
             p.x = static_cast<std::int32_t>(random.bits() >> 2U);
             p.y = static_cast<std::int32_t>(random.bits());
             p.z = static_cast<std::int32_t>(random.bits());
-            if (std::abs(static_cast<double>(p.x)) > 2e9 || std::abs(static_cast<double>(p.y)) > 2e9 ||
+            if (std::abs(static_cast<double>(p.x)) > 2e9 ||
+                std::abs(static_cast<double>(p.y)) > 2e9 ||
                 std::abs(static_cast<double>(p.z)) > 2e9)
                 continue;
             p.classification = static_cast<unsigned>(i);
             file.points.push_back(p);
         }
-        file.records = {io_test::las_record_bytes("LASF_Projection", as_text ? 2112 : 34735, "A CRS"),
-                        io_test::las_record_bytes("someone", 1, "else")};
+        file.records = {
+            io_test::las_record_bytes("LASF_Projection", as_text ? 2112 : 34735, "A CRS"),
+            io_test::las_record_bytes("someone", 1, "else")};
         std::string bytes = las_bytes(file);
         bytes[6] = as_text ? 17 : 1;
         const io::input source{"some.las", bytes};
@@ -280,7 +284,8 @@ TEST(io_write_las, copies_the_frame_of_a_source) {
         EXPECT_EQ(las_again(path).points, far_away);
     }
     const io::input other{"some.ply", "ply\n"};
-    EXPECT_THROW(io::write_las(path, las_cloud(1, {0, 0, 0}, 1), {}, {.source = &other}), gnomon::error);
+    EXPECT_THROW(io::write_las(path, las_cloud(1, {0, 0, 0}, 1), {}, {.source = &other}),
+                 gnomon::error);
 }
 
 TEST(io_write_las, refuses_impossible_arguments_and_leaves_nothing) {

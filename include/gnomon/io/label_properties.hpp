@@ -77,8 +77,9 @@ template <class = void>  // a template, so that unused readers cost no compile t
         }
         return result;
     }
-    throw error("scan", "", "there is no field \"" + name + "\": read the file with {\"" + name +
-                                "\"} or {\"*\"}");
+    throw error(
+        "scan", "",
+        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}");
 }
 
 }  // namespace gnomon::io

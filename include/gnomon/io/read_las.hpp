@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Reads LAS files of airborne and terrestrial laser scanners (ASPRS): versions 1.0 to 1.4, point
-/// formats 0 to 10, not compressed.
+/// formats 0 to 10, not compressed. Where this header is included, `read` reads LAS files too.
 #pragma once
 
 #include <algorithm>
@@ -18,6 +18,7 @@
 #include <gnomon/io/detail/byte_cursor.hpp>
 #include <gnomon/io/detail/las_columns.hpp>
 #include <gnomon/io/detail/las_header.hpp>
+#include <gnomon/io/detail/las_reader.hpp>
 #include <gnomon/io/detail/scan_builder.hpp>
 #include <gnomon/io/input.hpp>
 
@@ -78,5 +79,12 @@ template <class = void>  // a template, so that unused readers cost no compile t
     }
     return std::move(builder).finish(detail::las_viewpoint(header));
 }
+
+namespace detail {
+
+/// Enters the reader before main.
+inline const bool las_is_read = (las_reader = &read_las<void>) != nullptr;
+
+}  // namespace detail
 
 }  // namespace gnomon::io

@@ -60,21 +60,6 @@ template <class = void>  // templates, so that unused writers cost no compile ti
     return text + (options.ascii ? "ascii\n" : "binary\n");
 }
 
-/// Appends a coordinate.
-/// @throws std::invalid_argument  if a float moves it by more than `max_shift`
-template <class = void>
-void append_pcd_coordinate(std::string& bytes, double value, field_type type, ply_format format) {
-    constexpr double max_shift = 1e-3;  // [m], below the noise of range finders
-    double shift = 0.0;
-    if (type == field_type::float32)
-        shift = std::abs(static_cast<double>(narrowed<float>(value)) - value);
-    gnomon::detail::require(
-        !(shift > max_shift),
-        "write_pcd: float32 moves a coordinate by more than 1 mm: write float64, or subtract an "
-        "origin");
-    append_value(bytes, value, type, format);
-}
-
 /// Writes the file. Independent of the type of the points, so that it is compiled once.
 template <class = void>
 void write_pcd_rows(const std::string& path, std::size_t points, std::size_t width,
@@ -94,7 +79,7 @@ void write_pcd_rows(const std::string& path, std::size_t points, std::size_t wid
     write_rows(file, pcd_header_text(points, width, viewpoints, columns, options), points,
                [&](std::string& bytes, std::size_t i) {
                    for (const double coordinate : position_of(i))
-                       append_pcd_coordinate(bytes, coordinate, options.coordinates, format);
+                       append_coordinate(bytes, coordinate, options.coordinates, format);
                    for (const property& column : columns)
                        append_value(bytes, column.value(i), column.type, format);
                    if (options.ascii) bytes.back() = '\n';

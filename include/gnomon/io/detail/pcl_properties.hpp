@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Properties under the names that PCL and ROS have for them.
+/// Properties under the names that PCL and ROS have for them, and coordinates as floats.
 #pragma once
 
 #include <algorithm>
@@ -8,10 +8,14 @@
 #include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/io/detail/encode_columns.hpp>
 #include <gnomon/io/ply_format.hpp>
 #include <gnomon/io/property.hpp>
 
@@ -59,6 +63,20 @@ template <class = void>  // a template, so that unused writers cost no compile t
         result.push_back({"rgb", color, packed[0]->size, bits});
     }
     return properties(std::move(result));
+}
+
+/// Appends a coordinate, of which PCL and ROS expect a float.
+/// @throws std::invalid_argument  if a float moves it by more than 1 mm
+template <class = void>
+void append_coordinate(std::string& bytes, double value, field_type type, ply_format format) {
+    constexpr double max_shift = 1e-3;  // [m], below the noise of range finders
+    double shift = 0.0;
+    if (type == field_type::float32)
+        shift = std::abs(static_cast<double>(narrowed<float>(value)) - value);
+    gnomon::detail::require(!(shift > max_shift),
+                            "float32 moves a coordinate by more than 1 mm: write float64, or "
+                            "subtract an origin");
+    append_value(bytes, value, type, format);
 }
 
 }  // namespace gnomon::io::detail
