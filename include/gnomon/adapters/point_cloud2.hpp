@@ -47,6 +47,7 @@ class point_cloud2_view {
     ///                        shorter than it declares; see `point_cloud2_points`
     template <detail::point_cloud2_message M>
     explicit point_cloud2_view(const M& message) : layout_(message) {
+        if (detail::is_blank(message)) return;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::string name(1, "xyz"[k]);
             const auto& field = detail::cloud2_field(message, name);
@@ -91,7 +92,7 @@ class point_cloud2_view {
 
 /// The points of a message, without a copy: a point range for every algorithm. Points are in the
 /// frame of the message; if that is not the frame of the sensor, add `with_viewpoint(points, v)`.
-/// The message must outlive the view. O(fields).
+/// The message must outlive the view. A message without fields and points has no points. O(fields).
 /// @throws gnomon::error  if a field x, y or z is missing, is not a single FLOAT32 or FLOAT64 or
 ///                        reaches beyond `point_step`; if `row_step` is shorter than its points;
 ///                        or if `data` is shorter than all rows
@@ -111,6 +112,7 @@ void point_cloud2_points(const M&& message) = delete;
 template <detail::point_cloud2_message M>
 [[nodiscard]] scan point_cloud2_scan(const M& message,
                                      const std::vector<std::string>& fields = {}) {
+    if (detail::is_blank(message)) return {};
     const point_cloud2_view points(message);
     const detail::cloud2_layout layout(message);
     io::detail::pcd_header header;
@@ -118,7 +120,7 @@ template <detail::point_cloud2_message M>
     for (const auto& field : message.fields) {
         const io::detail::scalar_layout type = detail::cloud2_type(field);
         const std::size_t count = detail::cloud2_count(field);
-        layout.require_in_point(field, type.size * count);
+        layout.require_in_point(field, std::uint64_t{type.size} * count);
         header.fields.push_back({std::string(field.name), type, count});
         for (std::size_t k = 0; k < count; ++k)
             places.push_back({type, field.offset + k * type.size, 0});

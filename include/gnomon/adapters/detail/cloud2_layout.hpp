@@ -32,6 +32,7 @@ template <class M>
 concept point_cloud2_message = requires(M m) {
     { m.height } -> std::convertible_to<std::uint32_t>;
     { m.width } -> std::convertible_to<std::uint32_t>;
+    { m.fields.empty() } -> std::convertible_to<bool>;
     { m.fields[0].name } -> std::convertible_to<std::string>;
     { m.fields[0].offset } -> std::convertible_to<std::uint32_t>;
     { m.fields[0].datatype } -> std::convertible_to<std::uint8_t>;
@@ -66,6 +67,11 @@ struct cloud2_errors {
 /// The number of values of a field; some drivers write 0 for one.
 [[nodiscard]] std::size_t cloud2_count(const auto& field) {
     return field.count == 0 ? 1 : static_cast<std::size_t>(field.count);
+}
+
+/// Whether a message was never filled: without fields, and without points.
+[[nodiscard]] bool is_blank(const point_cloud2_message auto& m) {
+    return m.fields.empty() && (m.width == 0 || m.height == 0);
 }
 
 /// The places of the points of a message; refers to its data.
@@ -106,8 +112,8 @@ struct cloud2_layout {
     }
 
     /// @throws gnomon::error  if a field reaches beyond its point
-    void require_in_point(const auto& field, std::size_t size) const {
-        if (width != 0 && (field.offset > point_step || size > point_step - field.offset))
+    void require_in_point(const auto& field, std::uint64_t size) const {
+        if (field.offset > point_step || size > point_step - field.offset)
             fail_cloud2(field.name,
                         "reaches beyond point_step, which is " + std::to_string(point_step));
     }

@@ -105,7 +105,7 @@ void read_las_records(const las_bytes& bytes, std::uint64_t at, std::uint64_t en
     }
 }
 
-/// Refuses what is not read.
+/// Refuses compressed points and unknown point formats.
 template <class = void>
 void require_plain_las(const las_bytes& bytes, const las_header& header, unsigned format) {
     bool compressed = (format & 0xC0U) != 0;  // the bits that LASzip sets
