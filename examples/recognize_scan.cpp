@@ -24,8 +24,8 @@
 #include "recognize_scan/reasons.hpp"
 #include <gnomon/adapters/json_model.hpp>
 #include <gnomon/gnomon.hpp>
-#include <gnomon/io/read_las.hpp>
 #include <gnomon/io.hpp>
+#include <gnomon/io/read_las.hpp>
 
 namespace {
 

@@ -23,7 +23,7 @@ namespace gnomon {
 template <class Matrix = Eigen::Matrix<double, Eigen::Dynamic, 3>, class R,
           class Proj = std::identity>
     requires point_range<R, Proj>
-[[nodiscard]] Matrix point_rows(const R& points, Proj projection = {}) {
+[[nodiscard]] auto point_rows(const R& points, Proj projection = {}) -> Matrix {
     const position_view<R, Proj> positions(points, std::move(projection));
     Matrix result(static_cast<Eigen::Index>(positions.size()), 3);
     for (std::size_t i = 0; i < positions.size(); ++i)
@@ -37,7 +37,7 @@ template <class Matrix = Eigen::Matrix<double, Eigen::Dynamic, 3>, class R,
 /// @tparam Matrix  as above
 /// @param surface  the result of `estimate_normals`, or any other range with normals
 template <class Matrix = Eigen::Matrix<double, Eigen::Dynamic, 3>, normal_range S>
-[[nodiscard]] Matrix normal_rows(const S& surface) {
+[[nodiscard]] auto normal_rows(const S& surface) -> Matrix {
     const auto n = static_cast<std::size_t>(std::ranges::size(surface));
     Matrix result(static_cast<Eigen::Index>(n), 3);
     for (std::size_t i = 0; i < n; ++i)

@@ -40,7 +40,8 @@ namespace detail {
     return false;
 }
 
-/// Refuses the formats that are not read here, with the name of a header or tool that reads or converts them.
+/// Refuses the formats that are not read here, with the name of a header or tool that does or that
+/// converts them.
 template <class = void>
 void refuse_unread(const input& file) {
     const std::string_view bytes = file.bytes;
