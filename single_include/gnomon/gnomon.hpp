@@ -17978,6 +17978,20 @@ void color_properties(const R&& range, Proj projection = {}) = delete;
 
 }  // namespace gnomon::io
 
+// -------- gnomon/io/detail/las_reader.hpp --------------------------------------------------------
+
+/// @file
+/// How `read` finds the reader of LAS files, which is not compiled into every program: the header
+/// of the reader enters it here.
+
+namespace gnomon::io::detail {
+
+/// `read_las`, in programs of which a file includes <gnomon/io/read_las.hpp>; else null. Set before
+/// main.
+inline scan (*las_reader)(const input& file, const std::vector<std::string>& fields) = nullptr;
+
+}  // namespace gnomon::io::detail
+
 // -------- gnomon/io/detail/double_from_chars.hpp -------------------------------------------------
 
 /// @file
@@ -19267,8 +19281,9 @@ template <class = void>
 // -------- gnomon/io/read.hpp ---------------------------------------------------------------------
 
 /// @file
-/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file. The format is detected from the contents,
-/// not from the file name.
+/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file, and in programs that include
+/// <gnomon/io/read_las.hpp> from a LAS file. The format is detected from the contents, not from the
+/// file name.
 
 namespace gnomon::io {
 namespace detail {
@@ -19288,21 +19303,39 @@ namespace detail {
     return false;
 }
 
+/// Refuses the formats that are not read here, with the name of a header or tool that does or that
+/// converts them.
+template <class = void>
+void refuse_unread(const input& file) {
+    const std::string_view bytes = file.bytes;
+    if (bytes.starts_with("LASF"))
+        throw error(file.name, "byte 0", "a LAS file: include <gnomon/io/read_las.hpp> to read it");
+    if (bytes.starts_with("ASTM-E57"))
+        throw error(file.name, "byte 0",
+                    "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
+                    "a.las\" or CloudCompare");
+}
+
 }  // namespace detail
 
 /// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
+/// LAS files are parsed by `read_las`, if a file of the program includes <gnomon/io/read_las.hpp>.
 /// @param file    name and contents of the file
 /// @param fields  names of further columns that become fields of the scan, in this order; "*"
 ///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
-/// @throws gnomon::error  if the file is damaged or a field is missing; the message lists the
-///                        fields of the file
+/// @throws gnomon::error  if the file is damaged or a field is missing (the message lists the
+///                        fields of the file), and for LAZ and E57 files (the message names a tool
+///                        that converts them)
 /// Complexity: O(bytes).
 template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
     if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
+    if (first_line.starts_with("LASF") && detail::las_reader != nullptr)
+        return detail::las_reader(file, fields);
+    detail::refuse_unread(file);
     if (detail::looks_like_pcd(file)) return read_pcd(file, fields);
     return read_xyz(file, fields);
 }
@@ -19317,20 +19350,13 @@ template <class = void>  // a template, so that unused readers cost no compile t
 
 }  // namespace gnomon::io
 
-// -------- gnomon/io/write_ply.hpp ----------------------------------------------------------------
+// -------- gnomon/io/detail/encode_columns.hpp ----------------------------------------------------
 
 /// @file
-/// Writes points and their properties to a PLY file (Turk 1994).
+/// Points and their properties as rows of a file, for all writers: checks of the properties, and
+/// the encoding of numbers.
 
-namespace gnomon::io {
-
-/// Options of `write_ply`.
-struct ply_options {
-    ply_format format = ply_format::binary_little_endian;  ///< encoding of the file
-    field_type coordinates = field_type::float64;          ///< type of x, y, z; or float32
-};
-
-namespace detail {
+namespace gnomon::io::detail {
 
 /// Appends `value` and a blank. Floating-point numbers have the fewest digits that are read back
 /// exactly.
@@ -19357,7 +19383,7 @@ template <class T>
     } else {
         fits = !(std::isfinite(value) && std::abs(value) > static_cast<double>(limits::max()));
     }
-    gnomon::detail::require(fits, "write_ply: a value does not fit the type of its property");
+    gnomon::detail::require(fits, "properties: a value does not fit the type of its property");
     return static_cast<T>(value);
 }
 
@@ -19374,6 +19400,64 @@ void append_value(std::string& bytes, double value, field_type type, ply_format 
                 format == ply_format::binary_big_endian ? std::endian::big : std::endian::little);
     });
 }
+
+/// Checks properties in addition to x, y, z.
+/// @throws std::invalid_argument  for a property for another number of points, or whose name is
+///                                used twice or is not one word
+template <class = void>
+void require_columns(const properties& columns, std::size_t points) {
+    using gnomon::detail::require;
+    std::vector<std::string> names{"x", "y", "z"};
+    for (const property& column : columns) {
+        require(std::find(names.begin(), names.end(), column.name) == names.end(),
+                "properties: two of one name");
+        names.push_back(column.name);
+        require(column.size == points, "properties: one is for another number of points");
+        require(!column.name.empty() && column.name.find_first_of(blanks) == std::string::npos,
+                "properties: a name must be one word");
+    }
+}
+
+/// Appends several viewpoints as properties viewpoint_x, viewpoint_y, viewpoint_z. Refers to the
+/// table.
+template <class = void>
+[[nodiscard]] properties with_viewpoint_columns(const properties& columns,
+                                                const viewpoint_table& viewpoints,
+                                                std::size_t points) {
+    if (viewpoints.positions().size() <= 1) return columns;
+    return {columns,
+            three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"}, field_type::float64,
+                             points, [&viewpoints](std::size_t i) { return viewpoints[i]; })};
+}
+
+/// Writes the rows of n points, appended by append(bytes, i), after `bytes`.
+void write_rows(output_file& file, std::string bytes, std::size_t points, const auto& append) {
+    constexpr std::size_t chunk = 1 << 16;
+    for (std::size_t i = 0; i < points; ++i) {
+        append(bytes, i);
+        if (bytes.size() < chunk) continue;
+        file.write(bytes);
+        bytes.clear();
+    }
+    file.write(bytes);
+}
+
+}  // namespace gnomon::io::detail
+
+// -------- gnomon/io/write_ply.hpp ----------------------------------------------------------------
+
+/// @file
+/// Writes points and their properties to a PLY file (Turk 1994).
+
+namespace gnomon::io {
+
+/// Options of `write_ply`.
+struct ply_options {
+    ply_format format = ply_format::binary_little_endian;  ///< encoding of the file
+    field_type coordinates = field_type::float64;          ///< type of x, y, z; or float32
+};
+
+namespace detail {
 
 /// The header of the file. A single viewpoint is written as a comment.
 template <class = void>
@@ -19407,31 +19491,17 @@ void write_ply_rows(const std::string& path, std::size_t points,
     require(
         options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
         "write_ply: coordinates must be float32 or float64");
-    std::vector<std::string> names{"x", "y", "z"};
-    for (const property& column : columns) {
-        require(std::find(names.begin(), names.end(), column.name) == names.end(),
-                "write_ply: two properties of one name");
-        names.push_back(column.name);
-        require(column.size == points, "write_ply: a property is for another number of points");
-        require(!column.name.empty() && column.name.find_first_of(blanks) == std::string::npos,
-                "write_ply: the name of a property must be one word");
-    }
+    require_columns(columns, points);
 
     output_file file(path);
-    std::string bytes = ply_header_text(points, viewpoints, columns, options);
-    constexpr std::size_t chunk = 1 << 16;
-    for (std::size_t i = 0; i < points; ++i) {
-        for (const double coordinate : position_of(i))
-            append_value(bytes, coordinate, options.coordinates, options.format);
-        for (const property& column : columns)
-            append_value(bytes, column.value(i), column.type, options.format);
-        if (options.format == ply_format::ascii) bytes.back() = '\n';
-        if (bytes.size() >= chunk) {
-            file.write(bytes);
-            bytes.clear();
-        }
-    }
-    file.write(bytes);
+    write_rows(file, ply_header_text(points, viewpoints, columns, options), points,
+               [&](std::string& bytes, std::size_t i) {
+                   for (const double coordinate : position_of(i))
+                       append_value(bytes, coordinate, options.coordinates, options.format);
+                   for (const property& column : columns)
+                       append_value(bytes, column.value(i), column.type, options.format);
+                   if (options.format == ply_format::ascii) bytes.back() = '\n';
+               });
     file.commit();
 }
 
@@ -19458,15 +19528,9 @@ void write_ply(const std::string& path, const R& points, const properties& colum
                ply_options options = {}, Proj projection = {}) {
     const position_view<R, Proj> positions(points, std::move(projection));
     const viewpoint_table viewpoints = gnomon::detail::viewpoints_of(points);
-    properties all = columns;
-    if (viewpoints.positions().size() > 1) {
-        all = {columns, detail::three_properties({"viewpoint_x", "viewpoint_y", "viewpoint_z"},
-                                                 field_type::float64, positions.size(),
-                                                 [&](std::size_t i) { return viewpoints[i]; })};
-    }
     detail::write_ply_rows(
         path, positions.size(), [&positions](std::size_t i) { return positions[i]; }, viewpoints,
-        all, options);
+        detail::with_viewpoint_columns(columns, viewpoints, positions.size()), options);
 }
 
 }  // namespace gnomon::io
@@ -26113,6 +26177,1043 @@ template <class R, surfel_range Surface, execution X = sequential, class Proj = 
 }
 
 }  // namespace gnomon
+
+// -------- gnomon/io/detail/las_header.hpp --------------------------------------------------------
+
+/// @file
+/// The public header block of a LAS file and its variable length records (ASPRS, LAS Specification
+/// 1.4 - R15, 2019; versions 1.0 to 1.3 are beginnings of it).
+
+namespace gnomon::io::detail {
+
+/// A variable length record, of either length of its header.
+struct las_record {
+    std::string_view user;  // without the zeros that fill it
+    std::uint16_t id;
+    std::string_view data;
+};
+
+/// What of the header is used, with the records. Refers to the input.
+struct las_header {
+    unsigned minor = 0;  // of version 1.minor
+    std::uint16_t encoding = 0;
+    unsigned format = 0;  // of the points
+    std::size_t stride = 0;
+    std::size_t points_at = 0;  // byte of the first point
+    std::uint64_t points = 0;
+    std::array<double, 3> scale{}, offset{};
+    std::vector<las_record> records;
+};
+
+/// The records in which writers of this library keep a single viewpoint: x, y, z as doubles.
+inline constexpr std::string_view las_own_user = "gnomon";
+inline constexpr std::uint16_t las_viewpoint_id = 1;
+
+/// The sizes of the header by minor version, of the headers of the two kinds of records, and of a
+/// point by its format; without extra bytes.
+inline constexpr std::array<std::size_t, 5> las_header_sizes = {227, 227, 227, 235, 375};
+inline constexpr std::size_t las_record_header = 54, las_long_record_header = 60;
+inline constexpr std::array<std::size_t, 11> las_point_sizes = {20, 28, 26, 34, 57, 63,
+                                                                30, 36, 38, 59, 67};
+
+/// Reads little-endian numbers at given places. Refers to the input.
+class las_bytes {
+  public:
+    explicit las_bytes(const input& file) : file_(&file) {}
+
+    /// The number at byte `at`.
+    /// @throws gnomon::error  if the file ends before
+    template <class T>
+    [[nodiscard]] T number(std::size_t at) const {
+        T value{};
+        const std::string_view bytes = text(at, sizeof value);
+        std::array<char, sizeof value> copy;
+        for (std::size_t k = 0; k < copy.size(); ++k)
+            copy[std::endian::native == std::endian::little ? k : copy.size() - 1 - k] = bytes[k];
+        return std::bit_cast<T>(copy);
+    }
+
+    /// The bytes from `at` on.
+    /// @throws gnomon::error  if the file ends before
+    [[nodiscard]] std::string_view text(std::uint64_t at, std::uint64_t size) const {
+        const std::string_view all = file_->bytes;
+        if (at > all.size() || size > all.size() - at) fail(all.size(), "the file ends too early");
+        return all.substr(static_cast<std::size_t>(at), static_cast<std::size_t>(size));
+    }
+
+    [[noreturn]] void fail(std::size_t at, const std::string& message) const {
+        byte_cursor(*file_, at).fail(message);
+    }
+
+  private:
+    const input* file_;
+};
+
+/// Appends `count` records from byte `at` on.
+/// @param is_long  whether they are extended ones, whose length has eight bytes
+/// @throws gnomon::error  if one of them ends after byte `end`
+template <class = void>  // templates, so that unused readers cost no compile time
+void read_las_records(const las_bytes& bytes, std::uint64_t at, std::uint64_t end,
+                      std::uint64_t count, bool is_long, std::vector<las_record>& records) {
+    const std::size_t header = is_long ? las_long_record_header : las_record_header;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        if (at > end || end - at < header)
+            bytes.fail(static_cast<std::size_t>(end),
+                       std::to_string(count) + " variable length records are declared, but only " +
+                           std::to_string(i) + " are there");
+        const auto place = static_cast<std::size_t>(at);
+        const std::string_view user = bytes.text(place + 2, 16);
+        const std::uint64_t size = is_long ? bytes.number<std::uint64_t>(place + 20)
+                                           : bytes.number<std::uint16_t>(place + 20);
+        if (size > end - at - header)
+            bytes.fail(place, "a variable length record is longer than its place");
+        records.push_back({user.substr(0, user.find('\0')), bytes.number<std::uint16_t>(place + 18),
+                           bytes.text(place + header, size)});
+        at += header + size;
+    }
+}
+
+/// Refuses compressed points and unknown point formats.
+template <class = void>
+void require_plain_las(const las_bytes& bytes, const las_header& header, unsigned format) {
+    bool compressed = (format & 0xC0U) != 0;  // the bits that LASzip sets
+    for (const las_record& record : header.records)
+        compressed = compressed || (record.user == "laszip encoded" && record.id == 22204);
+    if (compressed)
+        bytes.fail(104,
+                   "the points are compressed (LAZ), which is not read: convert the file, e.g. by "
+                   "\"laszip -i a.laz -o a.las\" or \"pdal translate a.laz a.las\"");
+    if (format >= las_point_sizes.size())
+        bytes.fail(104, "there is no point format " + std::to_string(format));
+    if (header.stride < las_point_sizes[format])
+        bytes.fail(105, "points of " + std::to_string(header.stride) + " bytes, but format " +
+                            std::to_string(format) + " needs " +
+                            std::to_string(las_point_sizes[format]));
+}
+
+/// Reads the header and the records, and checks that the file holds the points.
+/// @throws gnomon::error  if the header is damaged, or if the file is compressed or of a later
+///                        version
+template <class = void>
+[[nodiscard]] las_header read_las_header(const input& file) {
+    const las_bytes bytes(file);
+    if (bytes.text(0, 4) != "LASF") bytes.fail(0, "not a LAS file");
+    las_header header;
+    header.minor = bytes.number<std::uint8_t>(25);
+    if (bytes.number<std::uint8_t>(24) != 1 || header.minor >= las_header_sizes.size())
+        bytes.fail(24, "versions 1.0 to 1.4 of LAS are read");
+    const std::size_t size = bytes.number<std::uint16_t>(94);
+    if (size < las_header_sizes[header.minor]) bytes.fail(94, "the header is too short");
+    static_cast<void>(bytes.text(0, size));
+    header.encoding = bytes.number<std::uint16_t>(6);
+    header.points_at = bytes.number<std::uint32_t>(96);
+    header.stride = bytes.number<std::uint16_t>(105);
+    header.points = bytes.number<std::uint32_t>(107);
+    if (header.points_at < size || header.points_at > file.bytes.size())
+        bytes.fail(96, "the points begin at byte " + std::to_string(header.points_at) +
+                           ", outside the file or in its header");
+    read_las_records(bytes, size, header.points_at, bytes.number<std::uint32_t>(100), false,
+                     header.records);
+    const unsigned format = bytes.number<std::uint8_t>(104);
+    require_plain_las(bytes, header, format);
+    header.format = format;
+    if (header.minor >= 4) {
+        // Writers of old formats may fill the old count only.
+        const auto points = bytes.number<std::uint64_t>(247);
+        if (points != 0) header.points = points;
+        const auto records = bytes.number<std::uint32_t>(243);
+        if (records != 0)
+            read_las_records(bytes, bytes.number<std::uint64_t>(235), file.bytes.size(), records,
+                             true, header.records);
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+        header.scale[k] = bytes.number<double>(131 + 8 * k);
+        header.offset[k] = bytes.number<double>(155 + 8 * k);
+        if (!std::isfinite(header.scale[k]) || header.scale[k] == 0.0)
+            bytes.fail(131 + 8 * k, "the scale is 0 or not finite");
+        if (!std::isfinite(header.offset[k])) bytes.fail(155 + 8 * k, "the offset is not finite");
+    }
+    byte_cursor(file, header.points_at).require_rows(header.points, header.stride);
+    return header;
+}
+
+}  // namespace gnomon::io::detail
+
+// -------- gnomon/io/detail/las_columns.hpp -------------------------------------------------------
+
+/// @file
+/// The columns of the points of a LAS file: the attributes of its point format, and the extra bytes
+/// that a record of the file describes.
+
+namespace gnomon::io::detail {
+
+/// The place of a value in a point: offset + scale * number, of a number or of some of its bits.
+struct las_place {
+    scalar_layout type;
+    std::size_t first;       // byte in the point
+    unsigned shift = 0;      // of the bits
+    unsigned bits = 0;       // 0: all
+    bool is_scaled = false;  // else scale and offset are not applied
+    double scale = 1.0;
+    double offset = 0.0;
+};
+
+/// An attribute of the point formats.
+struct las_attribute {
+    std::string_view name;
+    las_place place;
+};
+
+/// A column of a file.
+struct las_column {
+    std::string name;  // "_" is padding
+    field_type type;
+    bool in_all;
+    las_place place;
+};
+
+/// The attributes of formats 0 to 5 but for times and colors. The scan angle is in degrees.
+inline constexpr std::array<las_attribute, 12> las_old_attributes = {{
+    {"intensity", {{'U', 2}, 12}},
+    {"return_number", {{'U', 1}, 14, 0, 3}},
+    {"number_of_returns", {{'U', 1}, 14, 3, 3}},
+    {"scan_direction_flag", {{'U', 1}, 14, 6, 1}},
+    {"edge_of_flight_line", {{'U', 1}, 14, 7, 1}},
+    {"classification", {{'U', 1}, 15, 0, 5}},
+    {"synthetic", {{'U', 1}, 15, 5, 1}},
+    {"key_point", {{'U', 1}, 15, 6, 1}},
+    {"withheld", {{'U', 1}, 15, 7, 1}},
+    {"scan_angle", {{'I', 1}, 16}},
+    {"user_data", {{'U', 1}, 17}},
+    {"point_source_id", {{'U', 2}, 18}},
+}};
+
+/// The attributes of formats 6 to 10 but for colors. The scan angle is in degrees.
+inline constexpr std::array<las_attribute, 15> las_new_attributes = {{
+    {"intensity", {{'U', 2}, 12}},
+    {"return_number", {{'U', 1}, 14, 0, 4}},
+    {"number_of_returns", {{'U', 1}, 14, 4, 4}},
+    {"scan_direction_flag", {{'U', 1}, 15, 6, 1}},
+    {"edge_of_flight_line", {{'U', 1}, 15, 7, 1}},
+    {"classification", {{'U', 1}, 16}},
+    {"synthetic", {{'U', 1}, 15, 0, 1}},
+    {"key_point", {{'U', 1}, 15, 1, 1}},
+    {"withheld", {{'U', 1}, 15, 2, 1}},
+    {"overlap", {{'U', 1}, 15, 3, 1}},
+    {"scanner_channel", {{'U', 1}, 15, 4, 2}},
+    {"scan_angle", {{'I', 2}, 18, 0, 0, true, 0.006}},
+    {"user_data", {{'U', 1}, 17}},
+    {"point_source_id", {{'U', 2}, 20}},
+    {"gps_time", {{'F', 8}, 22}},
+}};
+
+/// Bytes of the time of formats below 6, and of the first color; 0 where a format has none.
+inline constexpr std::array<std::size_t, 11> las_times = {0, 20, 0, 20, 20, 20};
+inline constexpr std::array<std::size_t, 11> las_colors = {0, 0, 20, 28, 0, 28, 0, 30, 30, 0, 30};
+
+/// The names of the colors, each of 16 bits; the last one is infrared, of formats 8 and 10.
+inline constexpr std::array<std::string_view, 4> las_color_names = {"red", "green", "blue", "nir"};
+
+/// The types of extra bytes, 1 to 10. (11 to 30 are arrays of two and three of these.)
+inline constexpr std::array<scalar_layout, 10> las_extra_types = {{{'U', 1},
+                                                                   {'I', 1},
+                                                                   {'U', 2},
+                                                                   {'I', 2},
+                                                                   {'U', 4},
+                                                                   {'I', 4},
+                                                                   {'U', 8},
+                                                                   {'I', 8},
+                                                                   {'F', 4},
+                                                                   {'F', 8}}};
+
+/// The attributes of a point format in addition to the coordinates.
+template <class = void>  // templates, so that unused readers cost no compile time
+[[nodiscard]] std::vector<las_attribute> las_attributes(unsigned format) {
+    std::vector<las_attribute> result;
+    if (format < 6)
+        result.assign(las_old_attributes.begin(), las_old_attributes.end());
+    else
+        result.assign(las_new_attributes.begin(), las_new_attributes.end());
+    if (las_times[format] != 0) result.push_back({"gps_time", {{'F', 8}, las_times[format]}});
+    const std::size_t colors = las_colors[format] == 0 ? 0 : format == 8 || format == 10 ? 4 : 3;
+    for (std::size_t k = 0; k < colors; ++k)
+        result.push_back({las_color_names[k], {{'U', 2}, las_colors[format] + 2 * k}});
+    return result;
+}
+
+/// The column of a place.
+template <class = void>
+[[nodiscard]] las_column las_column_of(std::string name, const las_place& place) {
+    const field_type type = place.is_scaled ? field_type::float64 : field_type_of(place.type);
+    return {std::move(name), type, true, place};
+}
+
+/// Appends the columns of the extra bytes that a record of the file describes.
+/// @throws gnomon::error  if they are longer than a point, or of an unknown type
+template <class = void>
+void add_las_extra_columns(const input& file, const las_header& header,
+                           std::vector<las_column>& columns) {
+    constexpr std::size_t description = 192;
+    const auto found =
+        std::find_if(header.records.begin(), header.records.end(),
+                     [](const las_record& r) { return r.user == "LASF_Spec" && r.id == 4; });
+    if (found == header.records.end()) return;
+    const las_bytes bytes(file);
+    const auto start = static_cast<std::size_t>(found->data.data() - file.bytes.data());
+    std::size_t place = las_point_sizes[header.format];
+    for (std::size_t k = 0; k < found->data.size() / description; ++k) {
+        const std::size_t at = start + k * description;
+        const std::size_t code = bytes.number<std::uint8_t>(at + 2);
+        const unsigned options = bytes.number<std::uint8_t>(at + 3);
+        if (code > 3 * las_extra_types.size())
+            bytes.fail(at + 2, "there is no type " + std::to_string(code) + " of extra bytes");
+        const std::string_view text = bytes.text(at + 4, 32);
+        const std::string name(text.substr(0, text.find('\0')));
+        // Type 0: bytes without a meaning, as many as the options.
+        const scalar_layout type = code == 0 ? scalar_layout{'U', 1}
+                                             : las_extra_types[(code - 1) % las_extra_types.size()];
+        const std::size_t count = code == 0 ? options : (code - 1) / las_extra_types.size() + 1;
+        if (count * type.size > header.stride - place)
+            bytes.fail(at, "the extra bytes are longer than a point");
+        for (std::size_t i = 0; i < count && code != 0; ++i) {
+            const bool scaled = (options & 8U) != 0, moved = (options & 16U) != 0;
+            columns.push_back(
+                las_column_of(name.empty() ? "_"
+                              : count == 1 ? name
+                                           : name + "[" + std::to_string(i) + "]",
+                              {type, place + i * type.size, 0, 0, scaled || moved,
+                               scaled ? bytes.number<double>(at + 112 + 8 * i) : 1.0,
+                               moved ? bytes.number<double>(at + 136 + 8 * i) : 0.0}));
+        }
+        place += count * type.size;
+    }
+}
+
+/// All columns of a file: first x, y and z.
+template <class = void>
+[[nodiscard]] std::vector<las_column> las_columns(const input& file, const las_header& header) {
+    std::vector<las_column> result;
+    for (std::size_t k = 0; k < 3; ++k)
+        result.push_back(
+            las_column_of(std::string(1, "xyz"[k]),
+                          {{'I', 4}, 4 * k, 0, 0, true, header.scale[k], header.offset[k]}));
+    for (const las_attribute& a : las_attributes(header.format))
+        result.push_back(las_column_of(std::string(a.name), a.place));
+    add_las_extra_columns(file, header, result);
+    return result;
+}
+
+/// The value of a column in a point.
+[[nodiscard]] inline double las_value(const char* point, const las_place& place) {
+    const double number = decode(point + place.first, place.type, std::endian::little);
+    if (place.bits != 0) {
+        const unsigned all = static_cast<unsigned>(number) >> place.shift;
+        return all & ((1U << place.bits) - 1U);
+    }
+    return place.is_scaled ? place.scale * number + place.offset : number;
+}
+
+}  // namespace gnomon::io::detail
+
+// -------- gnomon/io/read_las.hpp -----------------------------------------------------------------
+
+/// @file
+/// Reads LAS files of airborne and terrestrial laser scanners (ASPRS): versions 1.0 to 1.4, point
+/// formats 0 to 10, not compressed. Where this header is included, `read` reads LAS files too.
+
+namespace gnomon::io {
+namespace detail {
+
+/// The viewpoint in the record that `write_las` writes; none without it.
+template <class = void>
+[[nodiscard]] viewpoint_table las_viewpoint(const las_header& header) {
+    constexpr std::size_t size = sizeof(double);
+    for (const las_record& r : header.records) {
+        if (r.user != las_own_user || r.id != las_viewpoint_id || r.data.size() != 3 * size)
+            continue;
+        Eigen::Vector3d position;
+        for (std::size_t k = 0; k < 3; ++k)
+            position[static_cast<Eigen::Index>(k)] =
+                decode(r.data.data() + k * size, {'F', size}, std::endian::little);
+        return position;
+    }
+    return {};
+}
+
+}  // namespace detail
+
+/// Parses a LAS file. Coordinates are offset + scale * number, in double. Further columns, of those
+/// that the point format has: "intensity", "return_number", "number_of_returns",
+/// "scan_direction_flag", "edge_of_flight_line", "classification", "synthetic", "key_point",
+/// "withheld", "overlap", "scanner_channel", "scan_angle" [degrees], "user_data",
+/// "point_source_id", "gps_time" [s], "red", "green", "blue", "nir" (16 bits each), and the extra
+/// bytes by their names, scaled. Withheld points are points. Waveforms (formats 4, 5, 9 and 10) are
+/// left out, and so are coordinate reference systems; `write_las` can copy these.
+/// @param file    name and contents of the file
+/// @param fields  names of further columns that become fields; "*" stands for all
+/// @return the points in the order of the file, in its unit of length, with fields, and with the
+///         viewpoints of files that `write_las` wrote
+/// @throws gnomon::error  if the file is damaged, compressed (LAZ) or of a later version, or if a
+///                        field is missing
+/// Complexity: O(bytes).
+template <class = void>  // a template, so that unused readers cost no compile time
+[[nodiscard]] scan read_las(const input& file, const std::vector<std::string>& fields = {}) {
+    const auto header = detail::read_las_header(file);
+    auto columns = detail::las_columns(file, header);
+    detail::byte_cursor bytes(file, header.points_at);
+    detail::scan_builder builder(columns, fields, bytes);
+
+    // Without fields, attributes are not decoded; extra bytes can be viewpoints.
+    const std::size_t standard = 3 + detail::las_attributes(header.format).size();
+    if (fields.empty() && columns.size() == standard) columns.resize(3);
+    const auto points = static_cast<std::size_t>(header.points);
+    builder.reserve(points);
+    std::vector<double> row(columns.size());
+    for (std::size_t i = 0; i < points; ++i) {
+        const char* const point = bytes.take(header.stride).data();
+        std::transform(columns.begin(), columns.end(), row.begin(), [point](const auto& column) {
+            return detail::las_value(point, column.place);
+        });
+        builder.add(row);
+    }
+    return std::move(builder).finish(detail::las_viewpoint(header));
+}
+
+namespace detail {
+
+/// Enters the reader before main.
+inline const bool las_is_read = (las_reader = &read_las<void>) != nullptr;
+
+}  // namespace detail
+
+}  // namespace gnomon::io
+
+// -------- gnomon/io/detail/las_writer.hpp --------------------------------------------------------
+
+/// @file
+/// The bytes of a LAS 1.4 file: its header, its records and its points (ASPRS, LAS Specification
+/// 1.4 - R15, 2019).
+
+namespace gnomon::io::detail {
+
+/// Appends little-endian numbers.
+template <class... T>
+void append_numbers(std::string& bytes, T... numbers) {
+    (encode(bytes, numbers, std::endian::little), ...);
+}
+
+/// Appends a text and zeros up to `size` bytes.
+template <class = void>  // templates, so that unused writers cost no compile time
+void append_filled(std::string& bytes, std::string_view text, std::size_t size) {
+    bytes += text;
+    bytes.append(size - text.size(), '\0');
+}
+
+/// Appends a variable length record.
+/// @throws std::invalid_argument  if it is too long for one
+template <class = void>
+void append_las_record(std::string& bytes, std::string_view user, std::uint16_t id,
+                       std::string_view data) {
+    gnomon::detail::require(data.size() <= 0xffffU,
+                            "write_las: more data than a variable length record can hold");
+    append_numbers(bytes, std::uint16_t{0});
+    append_filled(bytes, user, 16);
+    append_numbers(bytes, id, static_cast<std::uint16_t>(data.size()));
+    append_filled(bytes, "", 32);
+    bytes += data;
+}
+
+/// Replaces a value of a point, scaled and rounded.
+/// @throws std::invalid_argument  if it does not fit its place
+template <class = void>
+void put_las_value(std::string& point, double value, const las_place& place) {
+    const double number =
+        place.is_scaled ? std::round((value - place.offset) / place.scale) : value;
+    if (place.bits != 0) {
+        const auto n = narrowed<std::uint8_t>(number);
+        const unsigned mask = (1U << place.bits) - 1U;
+        gnomon::detail::require(n <= mask,
+                                "properties: a value does not fit the bits that LAS has for it");
+        const auto others = static_cast<unsigned char>(point[place.first]) & ~(mask << place.shift);
+        point[place.first] = static_cast<char>(others | (unsigned{n} << place.shift));
+        return;
+    }
+    std::string bytes;
+    visit_type(place.type, [&](auto zero) {
+        encode(bytes, narrowed<decltype(zero)>(number), std::endian::little);
+    });
+    point.replace(place.first, bytes.size(), bytes);
+}
+
+/// The columns of the file: places of the coordinates, and of each property.
+struct las_table {
+    struct written {
+        const property* column;
+        las_place place;
+        double factor;  // 257 for colors of eight bits, which have sixteen in LAS
+    };
+
+    unsigned format = 6;
+    std::array<las_place, 3> axes;
+    std::vector<written> columns;
+    std::size_t stride = 0;
+    std::string extra_bytes;  // the record that describes them
+};
+
+/// Finds the places of properties: attributes of the point format by their names, the others as
+/// extra bytes. Refers to the properties.
+/// @throws std::invalid_argument  if there are too many, or a name is too long
+template <class = void>
+[[nodiscard]] las_table las_table_of(const properties& columns, const std::array<double, 3>& scale,
+                                     const std::array<double, 3>& offset) {
+    las_table result;
+    for (const property& column : columns)
+        for (std::size_t k = 0; k < las_color_names.size(); ++k)
+            if (column.name == las_color_names[k])
+                result.format = std::max(result.format, k == 3 ? 8U : 7U);
+    for (std::size_t k = 0; k < 3; ++k)
+        result.axes[k] = {{'I', 4}, 4 * k, 0, 0, true, scale[k], offset[k]};
+    result.stride = las_point_sizes[result.format];
+
+    const std::vector<las_attribute> attributes = las_attributes(result.format);
+    for (const property& column : columns) {
+        const auto found = std::find_if(
+            attributes.begin(), attributes.end(),
+            [&column](const las_attribute& attribute) { return attribute.name == column.name; });
+        if (found != attributes.end()) {
+            const bool is_color = std::find(las_color_names.begin(), las_color_names.end(),
+                                            column.name) != las_color_names.end();
+            const bool widened = is_color && column.type == field_type::uint8;
+            result.columns.push_back({&column, found->place, widened ? 257.0 : 1.0});
+            continue;
+        }
+        const scalar_layout type = ply_type_of(column.type).layout;
+        const auto code = std::find(las_extra_types.begin(), las_extra_types.end(), type) -
+                          las_extra_types.begin() + 1;
+        gnomon::detail::require(column.name.size() <= 32,
+                                "write_las: the name of a property has more than 32 bytes");
+        append_numbers(result.extra_bytes, std::uint16_t{0}, static_cast<std::uint8_t>(code),
+                       std::uint8_t{0});
+        append_filled(result.extra_bytes, column.name, 32);
+        append_filled(result.extra_bytes, "", 156);  // no limits, no scale, no description
+        result.columns.push_back({&column, {type, result.stride}, 1.0});
+        result.stride += type.size;
+    }
+    gnomon::detail::require(result.stride <= 0xffffU, "write_las: too many properties");
+    return result;
+}
+
+/// What the points have in common, of those that are written.
+struct las_summary {
+    std::uint64_t points = 0;
+    std::array<std::uint64_t, 15> by_return{};
+    Eigen::Vector3d lowest = Eigen::Vector3d::Zero(), highest = Eigen::Vector3d::Zero();
+};
+
+/// The header and its records.
+/// @param records   encoded
+/// @param count     number of records
+/// @param encoding  the global encoding
+template <class = void>
+[[nodiscard]] std::string las_header_bytes(const las_table& table, const las_summary& all,
+                                           const std::string& records, std::uint32_t count,
+                                           std::uint16_t encoding) {
+    constexpr std::uint16_t size = las_header_sizes[4];
+    std::string bytes = "LASF";
+    append_numbers(bytes, std::uint16_t{0}, encoding);
+    append_filled(bytes, "", 16);
+    append_numbers(bytes, std::uint8_t{1}, std::uint8_t{4});
+    append_filled(bytes, "OTHER", 32);
+    append_filled(bytes, "gnomon", 32);
+    // Without a date: the same points give the same bytes.
+    append_numbers(bytes, std::uint16_t{0}, std::uint16_t{0}, size,
+                   static_cast<std::uint32_t>(size + records.size()), count,
+                   static_cast<std::uint8_t>(table.format),
+                   static_cast<std::uint16_t>(table.stride));
+    append_filled(bytes, "", 24);  // the counts of old versions
+    for (const las_place& axis : table.axes) append_numbers(bytes, axis.scale);
+    for (const las_place& axis : table.axes) append_numbers(bytes, axis.offset);
+    for (Eigen::Index k = 0; k < 3; ++k) append_numbers(bytes, all.highest[k], all.lowest[k]);
+    // No waveforms, no extended records.
+    append_numbers(bytes, std::uint64_t{0}, std::uint64_t{0}, std::uint32_t{0}, all.points);
+    for (const std::uint64_t n : all.by_return) append_numbers(bytes, n);
+    return bytes + records;
+}
+
+}  // namespace gnomon::io::detail
+
+// -------- gnomon/io/write_las.hpp ----------------------------------------------------------------
+
+/// @file
+/// Writes points and their properties to a LAS 1.4 file, not compressed. Labels become extra bytes,
+/// which every reader of LAS 1.4 finds by their name.
+
+namespace gnomon::io {
+
+/// Options of `write_las`.
+struct las_options {
+    /// Distance of neighboring coordinates [m], which are integers in a LAS file. It is multiplied
+    /// by powers of ten for points that are too far apart for 32 bits: at 0.1 mm more than 429 km.
+    double resolution = 1e-4;
+    /// Leave out points that are not finite, which LAS cannot hold; else they are refused.
+    bool drop_missing = false;
+    /// A LAS file whose coordinate reference system and kind of GPS time are copied, and its scale
+    /// and offset where the points fit them: its own coordinates are then written exactly. Null:
+    /// none.
+    const input* source = nullptr;
+};
+
+namespace detail {
+
+/// The points that are written, and their bounds.
+struct las_selection {
+    std::vector<std::size_t> points;
+    Eigen::Vector3d lowest = Eigen::Vector3d::Zero(), highest = Eigen::Vector3d::Zero();
+};
+
+/// @throws std::invalid_argument  for a point that is not finite, unless these are dropped
+template <class = void>  // templates, so that unused writers cost no compile time
+[[nodiscard]] las_selection las_points_of(
+    std::size_t points, const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+    bool drop_missing) {
+    las_selection result;
+    for (std::size_t i = 0; i < points; ++i) {
+        const Eigen::Vector3d p = position_of(i);
+        if (!is_finite(p)) {
+            gnomon::detail::require(drop_missing,
+                                    "write_las: a point is not finite, which LAS cannot hold: set "
+                                    "drop_missing to leave out such points");
+            continue;
+        }
+        result.lowest = result.points.empty() ? p : Eigen::Vector3d(result.lowest.cwiseMin(p));
+        result.highest = result.points.empty() ? p : Eigen::Vector3d(result.highest.cwiseMax(p));
+        result.points.push_back(i);
+    }
+    return result;
+}
+
+/// The scale and the offset of one axis, for coordinates from `lowest` to `highest`: the offset is
+/// a whole number in their middle.
+template <class = void>
+[[nodiscard]] std::array<double, 2> las_scale(double lowest, double highest, double resolution) {
+    constexpr double most = 2147483647.0;  // of 32 bits
+    const double offset = std::round(lowest / 2 + highest / 2);
+    const double reach = std::max(highest - offset, offset - lowest);
+    double scale = resolution;
+    while (reach / scale > most - 1) scale *= 10;
+    return {scale, offset};
+}
+
+/// Whether numbers of 32 bits reach from `lowest` to `highest`.
+[[nodiscard]] inline bool fits_las(double lowest, double highest, double scale, double offset) {
+    constexpr double most = 2147483647.0;
+    return std::abs((lowest - offset) / scale) < most - 1 &&
+           std::abs((highest - offset) / scale) < most - 1;
+}
+
+/// The records of the file, and what of the source is not a record.
+struct las_frame {
+    std::array<double, 3> scale{}, offset{};
+    std::uint16_t encoding = 0x10;  // coordinate reference systems are well-known text
+    std::string records;
+    std::uint32_t count = 0;
+
+    void add(std::string_view user, std::uint16_t id, std::string_view data) {
+        append_las_record(records, user, id, data);
+        ++count;
+    }
+};
+
+/// The frame of points within bounds.
+/// @throws gnomon::error  if the source is not a LAS file
+template <class = void>
+[[nodiscard]] las_frame las_frame_of(const las_selection& chosen, const las_options& options) {
+    las_frame result;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        const auto [scale, offset] =
+            las_scale(chosen.lowest[axis], chosen.highest[axis], options.resolution);
+        result.scale[k] = scale;
+        result.offset[k] = offset;
+    }
+    if (options.source == nullptr) return result;
+    const las_header source = read_las_header(*options.source);
+    bool fits = true;
+    for (std::size_t k = 0; k < 3; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        fits = fits && fits_las(chosen.lowest[axis], chosen.highest[axis], source.scale[k],
+                                source.offset[k]);
+    }
+    if (fits) {
+        result.scale = source.scale;
+        result.offset = source.offset;
+    }
+    bool has_geotiff = false;
+    for (const las_record& record : source.records) {
+        if (record.user != "LASF_Projection") continue;
+        result.add(record.user, record.id, record.data);
+        has_geotiff = has_geotiff || record.id == 34735;
+    }
+    constexpr std::uint16_t gps_time = 1, text = 0x10;
+    result.encoding = static_cast<std::uint16_t>((source.encoding & (gps_time | text)) |
+                                                 (has_geotiff ? 0 : text));
+    return result;
+}
+
+/// Encodes point i.
+template <class = void>
+void put_las_point(std::string& point, const las_table& table, const Eigen::Vector3d& position,
+                   std::size_t i) {
+    point.assign(table.stride, '\0');
+    point[14] = 0x11;  // the first of one return
+    for (std::size_t k = 0; k < 3; ++k)
+        put_las_value(point, position[static_cast<Eigen::Index>(k)], table.axes[k]);
+    for (const las_table::written& w : table.columns)
+        put_las_value(point, w.factor * w.column->value(i), w.place);
+}
+
+/// What the header contains about the points, as they are encoded.
+template <class = void>
+[[nodiscard]] las_summary las_summary_of(const las_table& table, const las_selection& chosen,
+                                         const properties& columns) {
+    las_summary result;
+    result.points = chosen.points.size();
+    const auto returns = std::find_if(columns.begin(), columns.end(), [](const property& column) {
+        return column.name == "return_number";
+    });
+    for (const std::size_t i : chosen.points) {
+        const double number = returns == columns.end() ? 1.0 : returns->value(i);
+        if (number >= 1.0 && number <= 15.0)
+            ++result.by_return[static_cast<std::size_t>(number) - 1];
+    }
+    for (std::size_t k = 0; k < 3 && result.points > 0; ++k) {
+        const auto axis = static_cast<Eigen::Index>(k);
+        const las_place& place = table.axes[k];
+        const auto encoded = [&place](double value) {
+            return place.scale * std::round((value - place.offset) / place.scale) + place.offset;
+        };
+        result.lowest[axis] = encoded(chosen.lowest[axis]);
+        result.highest[axis] = encoded(chosen.highest[axis]);
+    }
+    return result;
+}
+
+/// Writes the file. Independent of the type of the points, so that it is compiled once.
+template <class = void>
+void write_las_rows(const std::string& path, std::size_t points,
+                    const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+                    const viewpoint_table& viewpoints, const properties& columns,
+                    const las_options& options) {
+    gnomon::detail::require(options.resolution > 0.0 && std::isfinite(options.resolution),
+                            "write_las: the resolution must be positive");
+    require_columns(columns, points);
+    const las_selection chosen = las_points_of(points, position_of, options.drop_missing);
+    las_frame frame = las_frame_of(chosen, options);
+    const las_table table = las_table_of(columns, frame.scale, frame.offset);
+    if (!table.extra_bytes.empty()) frame.add("LASF_Spec", 4, table.extra_bytes);
+    if (viewpoints.positions().size() == 1) {
+        std::string position;
+        for (const double coordinate : viewpoints.positions().front())
+            append_numbers(position, coordinate);
+        frame.add(las_own_user, las_viewpoint_id, position);
+    }
+
+    output_file file(path);
+    const las_summary all = las_summary_of(table, chosen, columns);
+    std::string point;
+    write_rows(file, las_header_bytes(table, all, frame.records, frame.count, frame.encoding),
+               chosen.points.size(), [&](std::string& bytes, std::size_t k) {
+                   const std::size_t i = chosen.points[k];
+                   put_las_point(point, table, position_of(i), i);
+                   bytes += point;
+               });
+    file.commit();
+}
+
+}  // namespace detail
+
+/// Writes points and properties to the LAS file `path` atomically: an existing file is replaced or
+/// stays unchanged. Properties of the names that `read_las` lists become the attributes of the
+/// points, "classification" among them; all others, such as "label", "nx" or "ny", become extra
+/// bytes of their type. Colors of eight bits are widened to sixteen. The point format is 6, with
+/// colors 7, with infrared 8.
+/// @param path        name of the file
+/// @param points      any point range [m]. A single viewpoint becomes a record of the file, several
+///                    become extra bytes viewpoint_x, viewpoint_y, viewpoint_z; `read_las` reads
+///                    both
+/// @param columns     properties of the points in addition to x, y, z
+/// @param options     resolution, points that are not finite, and a file to copy the coordinate
+///                    reference system from
+/// @param projection  maps an element of the range to a point
+/// @throws gnomon::error          with the operating system's message, or if options.source is not
+///                                a plain LAS file
+/// @throws std::invalid_argument  for a point that is not finite, unless these are dropped; if the
+///                                resolution is not positive; if a property is for another number
+///                                of points, its name is used twice, is not one word or has more
+///                                than 32 bytes, or a value does not fit its type or attribute
+/// Complexity: O(points * properties).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+void write_las(const std::string& path, const R& points, const properties& columns = {},
+               const las_options& options = {}, Proj projection = {}) {
+    const position_view<R, Proj> positions(points, std::move(projection));
+    const viewpoint_table viewpoints = gnomon::detail::viewpoints_of(points);
+    detail::write_las_rows(
+        path, positions.size(), [&positions](std::size_t i) { return positions[i]; }, viewpoints,
+        detail::with_viewpoint_columns(columns, viewpoints, positions.size()), options);
+}
+
+}  // namespace gnomon::io
+
+// -------- gnomon/io/detail/pcl_properties.hpp ----------------------------------------------------
+
+/// @file
+/// Properties under the names that PCL and ROS have for them, and coordinates as floats.
+
+namespace gnomon::io::detail {
+
+/// The same columns with nx, ny, nz as normal_x, normal_y, normal_z, an int32 "label" as uint32 (-1
+/// is 4294967295), and with red, green, blue, if all are there in eight bits, as one column "rgb",
+/// the last one.
+/// @param color  the type of the packed color, uint32 or float32 of the same bits
+template <class = void>  // a template, so that unused writers cost no compile time
+[[nodiscard]] properties pcl_properties(const properties& columns, field_type color) {
+    constexpr std::array<std::array<std::string_view, 2>, 3> renamed = {
+        {{"nx", "normal_x"}, {"ny", "normal_y"}, {"nz", "normal_z"}}};
+    constexpr std::array<std::string_view, 3> channels = {"red", "green", "blue"};
+
+    std::vector<const property*> packed;
+    for (const std::string_view channel : channels)
+        for (const property& column : columns)
+            if (column.name == channel && column.type == field_type::uint8)
+                packed.push_back(&column);
+    const bool has_color = packed.size() == channels.size();
+
+    std::vector<property> result;
+    for (const property& column : columns) {
+        if (has_color && std::find(packed.begin(), packed.end(), &column) != packed.end()) continue;
+        result.push_back(column);
+        for (const auto& [from, to] : renamed)
+            if (column.name == from) result.back().name = to;
+        if (column.name == "label" && column.type == field_type::int32) {
+            result.back().type = field_type::uint32;
+            result.back().value = [label = column.value](std::size_t i) -> double {
+                return static_cast<std::uint32_t>(static_cast<std::int32_t>(label(i)));
+            };
+        }
+    }
+    if (has_color) {
+        const auto bits = [red = packed[0]->value, green = packed[1]->value,
+                           blue = packed[2]->value, color](std::size_t i) {
+            const auto all = (static_cast<std::uint32_t>(red(i)) << 16U) |
+                             (static_cast<std::uint32_t>(green(i)) << 8U) |
+                             static_cast<std::uint32_t>(blue(i));
+            return color == field_type::uint32 ? static_cast<double>(all)
+                                               : static_cast<double>(std::bit_cast<float>(all));
+        };
+        result.push_back({"rgb", color, packed[0]->size, bits});
+    }
+    return properties(std::move(result));
+}
+
+/// Appends a coordinate, of which PCL and ROS expect a float.
+/// @throws std::invalid_argument  if a float moves it by more than 1 mm
+template <class = void>
+void append_coordinate(std::string& bytes, double value, field_type type, ply_format format) {
+    constexpr double max_shift = 1e-3;  // [m], below the noise of range finders
+    double shift = 0.0;
+    if (type == field_type::float32)
+        shift = std::abs(static_cast<double>(narrowed<float>(value)) - value);
+    gnomon::detail::require(!(shift > max_shift),
+                            "float32 moves a coordinate by more than 1 mm: write float64, or "
+                            "subtract an origin");
+    append_value(bytes, value, type, format);
+}
+
+}  // namespace gnomon::io::detail
+
+// -------- gnomon/io/write_pcd.hpp ----------------------------------------------------------------
+
+/// @file
+/// Writes points and their properties to a PCD file (version 0.7) that PCL reads.
+
+namespace gnomon::io {
+
+/// Options of `write_pcd`.
+struct pcd_options {
+    bool ascii = false;  ///< text instead of binary data
+    /// Type of x, y, z: float32, which the point types of PCL have, or float64.
+    field_type coordinates = field_type::float32;
+};
+
+namespace detail {
+
+/// The header of the file.
+/// @param width  of an organized image; 0 for a list of points
+template <class = void>  // templates, so that unused writers cost no compile time
+[[nodiscard]] std::string pcd_header_text(std::size_t points, std::size_t width,
+                                          const viewpoint_table& viewpoints,
+                                          const properties& columns, const pcd_options& options) {
+    std::string fields = "FIELDS", sizes = "SIZE", types = "TYPE", counts = "COUNT";
+    const auto declare = [&](field_type type, const std::string& name) {
+        const scalar_layout layout = ply_type_of(type).layout;
+        fields += " " + name;
+        sizes += " " + std::to_string(layout.size);
+        (types += " ") += layout.kind;
+        counts += " 1";
+    };
+    for (const char* const axis : {"x", "y", "z"}) declare(options.coordinates, axis);
+    for (const property& column : columns) declare(column.type, column.name);
+
+    const bool has_one = viewpoints.positions().size() == 1;
+    const Eigen::Vector3d viewpoint =
+        has_one ? viewpoints.positions().front() : Eigen::Vector3d(0.0, 0.0, 0.0);
+    std::string text = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + fields + "\n" +
+                       sizes + "\n" + types + "\n" + counts + "\n";
+    text += "WIDTH " + std::to_string(width == 0 ? points : width) + "\n";
+    text += "HEIGHT " + std::to_string(width == 0 ? 1 : points / width) + "\nVIEWPOINT ";
+    for (const double coordinate : viewpoint) append_text(text, coordinate);
+    text += "1 0 0 0\nPOINTS " + std::to_string(points) + "\nDATA ";
+    return text + (options.ascii ? "ascii\n" : "binary\n");
+}
+
+/// Writes the file. Independent of the type of the points, so that it is compiled once.
+template <class = void>
+void write_pcd_rows(const std::string& path, std::size_t points, std::size_t width,
+                    const std::function<Eigen::Vector3d(std::size_t)>& position_of,
+                    const viewpoint_table& viewpoints, const properties& columns,
+                    const pcd_options& options) {
+    using gnomon::detail::require;
+    require(
+        options.coordinates == field_type::float32 || options.coordinates == field_type::float64,
+        "write_pcd: coordinates must be float32 or float64");
+    require(width == 0 || points % width == 0,
+            "write_pcd: the points are not whole rows of the width");
+    require_columns(columns, points);
+
+    const ply_format format = options.ascii ? ply_format::ascii : ply_format::binary_little_endian;
+    output_file file(path);
+    write_rows(file, pcd_header_text(points, width, viewpoints, columns, options), points,
+               [&](std::string& bytes, std::size_t i) {
+                   for (const double coordinate : position_of(i))
+                       append_coordinate(bytes, coordinate, options.coordinates, format);
+                   for (const property& column : columns)
+                       append_value(bytes, column.value(i), column.type, format);
+                   if (options.ascii) bytes.back() = '\n';
+               });
+    file.commit();
+}
+
+}  // namespace detail
+
+/// Writes points and properties to the PCD file `path` atomically: an existing file is replaced or
+/// stays unchanged. Fields are those of PCL: nx, ny, nz become normal_x, normal_y, normal_z; an
+/// int32 "label" becomes uint32, with 4294967295 for -1 (`labels_of` reads both); red, green, blue
+/// of eight bits become one field "rgb", which `read_pcd` takes apart again.
+/// @param path        name of the file
+/// @param points      any point range [m]; NaN is written. The member `width` of an organized image
+///                    (`scan`) is kept. A single viewpoint becomes VIEWPOINT; several become fields
+///                    viewpoint_x, viewpoint_y, viewpoint_z
+/// @param columns     properties of the points in addition to x, y, z
+/// @param options     encoding, and type of the coordinates
+/// @param projection  maps an element of the range to a point
+/// @throws gnomon::error          with the operating system's message, e.g. if the disk is full
+/// @throws std::invalid_argument  if float32 coordinates, which the default is, would be off by
+///                                more than 1 mm (beyond 16 km); if the points are not whole rows
+///                                of their width; and as `write_ply`
+/// Complexity: O(points * properties).
+template <class R, class Proj = std::identity>
+    requires point_range<R, Proj>
+void write_pcd(const std::string& path, const R& points, const properties& columns = {},
+               const pcd_options& options = {}, Proj projection = {}) {
+    const position_view<R, Proj> positions(points, std::move(projection));
+    const viewpoint_table viewpoints = gnomon::detail::viewpoints_of(points);
+    std::size_t width = 0;
+    if constexpr (requires { static_cast<std::size_t>(points.width); })
+        width = static_cast<std::size_t>(points.width);
+    detail::write_pcd_rows(
+        path, positions.size(), width, [&positions](std::size_t i) { return positions[i]; },
+        viewpoints,
+        detail::pcl_properties(
+            detail::with_viewpoint_columns(columns, viewpoints, positions.size()),
+            field_type::uint32),
+        options);
+}
+
+}  // namespace gnomon::io
+
+// -------- gnomon/io/label_properties.hpp ---------------------------------------------------------
+
+/// @file
+/// Labels in files: as a column, as colors that viewers show, and read back.
+
+namespace gnomon::io {
+
+/// The color of a label, as red, green, blue: twenty colors, ordered so that the first ones, those
+/// of the largest segments, differ most; for labels from 20 and 40 on the same ones lighter, then
+/// from the start. Grey for labels below 0, which are unlabeled.
+[[nodiscard]] inline std::array<std::uint8_t, 3> label_color(std::int32_t label) {
+    using color = std::array<std::uint8_t, 3>;
+    constexpr color unlabeled{150, 152, 156};
+    constexpr std::array<color, 20> palette{{
+        {66, 133, 200},  {240, 140, 45},  {70, 165, 90},   {214, 65, 70},   {145, 105, 190},
+        {64, 190, 200},  {225, 105, 175}, {190, 185, 50},  {155, 100, 70},  {95, 95, 215},
+        {245, 195, 60},  {25, 130, 130},  {250, 130, 115}, {135, 200, 75},  {165, 45, 115},
+        {120, 180, 240}, {200, 130, 20},  {110, 125, 50},  {205, 140, 225}, {70, 85, 130},
+    }};
+    if (label < 0) return unlabeled;
+    const auto number = static_cast<std::size_t>(label);
+    const double white = 0.25 * static_cast<double>((number / palette.size()) % 3);  // its share
+    color result = palette[number % palette.size()];
+    for (std::uint8_t& channel : result)
+        channel = static_cast<std::uint8_t>((1.0 - white) * channel + white * 255.0 + 0.5);
+    return result;
+}
+
+/// The columns red, green, blue and label (int32), for `write_ply`, `write_pcd` and `write_las`:
+///
+///     write_ply("surfaces.ply", scan, label_properties(segments.labels()));
+///
+/// @param labels  any random-access range of integers of at most 32 bits; must outlive the result
+template <gnomon::detail::indexed_range R>
+    requires detail::scalar<gnomon::detail::projected_element_t<R, std::identity>>
+[[nodiscard]] properties label_properties(const R& labels) {
+    const auto number = [](auto label) { return static_cast<std::int32_t>(label); };
+    return {color_properties(labels, [=](auto label) { return label_color(number(label)); }),
+            scalar_property("label", labels, number)};
+}
+template <gnomon::detail::indexed_range R>
+    requires detail::scalar<gnomon::detail::projected_element_t<R, std::identity>>
+void label_properties(const R&& labels) = delete;
+
+/// The labels of a scan that was read with the field `name`, as the constructor of `segments` takes
+/// them: -1 for unlabeled points, which are 4294967295 in the files and messages of PCL.
+/// @throws gnomon::error  if there is no such field, or if a value is not a label
+/// Complexity: O(points).
+template <class = void>  // a template, so that unused readers cost no compile time
+[[nodiscard]] std::vector<std::int32_t> labels_of(const scan& points,
+                                                  const std::string& name = "label") {
+    constexpr double most = std::numeric_limits<std::int32_t>::max();
+    constexpr double unsigned_unlabeled = std::numeric_limits<std::uint32_t>::max();
+    for (const scan::scalar_field& field : points.fields) {
+        if (field.name != name) continue;
+        std::vector<std::int32_t> result;
+        result.reserve(field.values.size());
+        for (const double value : field.values) {
+            if (!((value >= -1.0 && value <= most && value == std::trunc(value)) ||
+                  value == unsigned_unlabeled))
+                throw error("scan", "point " + std::to_string(result.size()),
+                            "field \"" + name + "\" is not a label: " + std::to_string(value));
+            result.push_back(value > most ? -1 : static_cast<std::int32_t>(value));
+        }
+        return result;
+    }
+    throw error(
+        "scan", "",
+        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}");
+}
+
+}  // namespace gnomon::io
 
 // -------- gnomon/core/detail/memory_pool.hpp -----------------------------------------------------
 
