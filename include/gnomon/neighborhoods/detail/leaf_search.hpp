@@ -124,7 +124,8 @@ class leaf_search {
         for (;;) {
             if (list_.collect(p, limit) >= k_) {
                 const float d2 = kth(limit);
-                const auto [below, above] = list_.doubt_about(std::sqrt(d2));
+                const auto doubt = list_.doubt_about(std::sqrt(d2));
+                const float below = doubt.first, above = doubt.second;
                 if (above <= limit || limit == most) {
                     const auto [nearer, all] = with_widest(
                         [&](auto instructions) { return list_.count(instructions, below, above); });
