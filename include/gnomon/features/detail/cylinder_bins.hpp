@@ -82,11 +82,11 @@ struct cylinder_bins {
         }
 
       private:
-        [[gnu::always_inline]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
-                                                          const Eigen::Vector3d& n,
-                                                          const Eigen::Vector3d* first,
-                                                          std::size_t l, double most_alpha2,
-                                                          double most_beta) {
+        [[GNOMON_ALWAYS_INLINE]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
+                                                            const Eigen::Vector3d& n,
+                                                            const Eigen::Vector3d* first,
+                                                            std::size_t l, double most_alpha2,
+                                                            double most_beta) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
             const slim_pack x = slim_pack(at, stride) - p[0];

@@ -183,7 +183,7 @@ class leaf_search {
         float kth;                  // itself, if at most `lane_count` candidates are between
     };
 
-    [[nodiscard, gnu::always_inline]] enclosure enclosure_of_kth(auto instructions, float high) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] enclosure enclosure_of_kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {
