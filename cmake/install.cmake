@@ -5,8 +5,8 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/gnomon)
 
-# The include directory is named besides the file sets: a CMake before 3.23 that finds the package
-# does not read these.
+# The include directory is named in addition to the file sets, which a CMake before 3.23 that finds
+# the package does not read.
 set(file_sets)
 if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
     set(file_sets FILE_SET HEADERS FILE_SET adapters)

@@ -1,11 +1,11 @@
 #!/bin/sh
 # SPDX-License-Identifier: BSL-1.0
 # Compiles the headers, programs and tests with every compiler, standard library and target of
-# docs/platforms.md that is installed here, with warnings as errors, runs them, and prints what
-# became of each row:
+# docs/platforms.md that is installed here, with warnings as errors, runs them, and prints the
+# outcome of each row:
 #     sh tests/matrix.sh [--install] [ROW...]      --install: first installs the compilers with apt
 # The variable `steps`, e.g. steps="headers core", limits what is run of each row. Ends with 1 if a
-# row failed. What compilers and programs said is in build/matrix/ROW.
+# row failed. The messages of compilers and programs are in build/matrix/ROW.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
 cd "$root"
@@ -18,7 +18,7 @@ if [ "${1-}" = --install ]; then
         libc++abi-16-dev-wasm32 nodejs g++-mingw-w64-x86-64-posix wine wine64 g++-aarch64-linux-gnu qemu-user
 fi
 
-# Header-only libraries from the system's include directory, without the rest of what is in there.
+# Header-only libraries from the system's include directory, without its other headers.
 out=$root/build/matrix
 mkdir -p "$out/libraries"
 for library in boost nanoflann.hpp; do
@@ -49,7 +49,7 @@ program() {
         $compile "$out/$row/$1.o" $objects -o "$out/$row/$1.exe" && $run "$out/$row/$1.exe"
 }
 
-# The tests of a floor as one file: without those of CGAL, and those of what the row does not have.
+# The tests of a floor as one file, without those that need CGAL or match $without.
 unity() {
     for test in tests/"$1"/*_test.cpp; do
         if ! grep -qE "CGAL$without" "$test"; then echo "#include \"${test#tests/}\""; fi

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// Selects the vector instructions of this translation unit: those that the compiler flags enable,
-/// or, if GNOMON_PORTABLE_LANES is defined, what the compiler makes of its built-in vectors. Plain
-/// numbers, one after the other, are what remains for compilers without built-in vectors, and if
+/// or, if GNOMON_PORTABLE_LANES is defined, those that the compiler chooses for its built-in
+/// vectors. Compilers without built-in vectors compute with single numbers, as all do if
 /// GNOMON_SCALAR_LANES is defined. If the flags enable only the SSE2 of every x86-64, some loops
 /// are compiled for AVX2 as well and chosen at run time by the processor's features, unless
 /// GNOMON_COMPILED_LANES is defined.

@@ -124,11 +124,10 @@ class leaf_search {
         for (;;) {
             if (list_.collect(p, limit) >= k_) {
                 const float d2 = kth(limit);
-                const auto doubt = list_.doubt_about(std::sqrt(d2));
-                const float below = doubt.first, above = doubt.second;
+                const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
                     const auto [nearer, all] = with_widest(
-                        [&](auto instructions) { return list_.count(instructions, below, above); });
+                        [&, b = below, a = above](auto set) { return list_.count(set, b, a); });
                     selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
                                                  : list_.take_within(d2);
                     if (radius_ < unlimited) drop_farther(p);

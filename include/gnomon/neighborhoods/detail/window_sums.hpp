@@ -60,6 +60,33 @@ template <class Vectors>
     return r;
 }
 
+#if defined(GNOMON_SCALAR_LANES)
+/// The sums over the window of a pixel, in the order of the vectors.
+/// @param count  of its neighbors
+template <class Vectors>
+[[nodiscard]] neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                          std::size_t count) {
+    typename Vectors::numbers all[10] = {};
+    const auto column = windows.column_of(center);
+    for (std::size_t q = column.begin; q <= column.last; q += column.step) {
+        if (!windows.links().has_return(q)) continue;
+        const auto [begin, end] = windows.row_of(q, column.radius);
+        for (std::size_t l = begin; l < end; ++l) {
+            double d[3];
+            for (std::size_t i = 0; i < 3; ++i)
+                d[i] = windows.links().at(i)[l] - windows.links().at(i)[center];
+            if (std::isnan(d[0])) continue;  // no return
+            const std::size_t lane = (l - begin) % Vectors::size;
+            for (std::size_t i = 0, s = 3; i < 3; ++i) {
+                all[i][lane] += d[i];
+                for (std::size_t j = i; j < 3; ++j) all[s++][lane] += d[i] * d[j];
+            }
+            all[9][lane] += std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+    }
+    return reduced<Vectors>(all, count);
+}
+#else
 /// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
 /// three numbers longer than the image. (One loop without calls, so that all sums stay in
 /// registers: performance only.)
@@ -78,24 +105,6 @@ template <class Vectors>
     for (std::size_t q = column.begin; q <= column.last; q += column.step) {
         if (!windows.links().has_return(q)) continue;
         const auto [begin, end] = windows.row_of(q, column.radius);
-#if defined(GNOMON_SCALAR_LANES)
-        for (std::size_t l = begin; l < end; ++l) {
-            if (std::isnan(at_x[l])) continue;  // no return
-            const std::size_t v = (l - begin) % size;
-            const double dx = at_x[l] - px, dy = at_y[l] - py, dz = at_z[l] - pz;
-            const double dxdx = dx * dx, dydy = dy * dy, dzdz = dz * dz;
-            distance[v] += std::sqrt(dxdx + dydy + dzdz);
-            x[v] += dx;
-            y[v] += dy;
-            z[v] += dz;
-            xx[v] += dxdx;
-            xy[v] += dx * dy;
-            xz[v] += dx * dz;
-            yy[v] += dydy;
-            yz[v] += dy * dz;
-            zz[v] += dzdz;
-        }
-#else
         using bits = typename Vectors::bits;
         for (std::size_t l = begin; l < end; l += size) {
             bits mask;
@@ -123,11 +132,11 @@ template <class Vectors>
             yz += dy * dz;
             zz += dzdz;
         }
-#endif
     }
     const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
     return reduced<Vectors>(all, count);
 }
+#endif
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
