@@ -41,7 +41,7 @@ namespace detail {
 /// Checks an argument of a public function. O(1).
 /// @throws std::invalid_argument  with `message` unless `condition` holds
 constexpr void require(bool condition, const char* message) {
-    if (!condition) raise(std::invalid_argument(message));
+    if (!condition) GNOMON_THROW(std::invalid_argument(message));
 }
 
 }  // namespace detail

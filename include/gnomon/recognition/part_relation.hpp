@@ -117,8 +117,8 @@ template <class Relations>
     const auto value = [&]<part_relation R>(const R& r) {
         const double x = r(a, b);
         if (!std::isfinite(x))
-            gnomon::detail::raise(std::invalid_argument("the relation " + std::string(R::name) +
-                                                        " of two parts is not finite"));
+            GNOMON_THROW(std::invalid_argument("the relation " + std::string(R::name) +
+                                               " of two parts is not finite"));
         return x;
     };
     return boost::hana::unpack(relations, [&](const auto&... r) {

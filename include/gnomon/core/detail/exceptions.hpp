@@ -10,18 +10,22 @@
 #include <cstdlib>
 #endif
 
+/// Throws an exception. (A macro for compile time only.)
+#if defined(GNOMON_NO_EXCEPTIONS)
+#define GNOMON_THROW(...) ::gnomon::detail::end_with(__VA_ARGS__)
+#else
+#define GNOMON_THROW(...) throw __VA_ARGS__
+#endif
+
 namespace gnomon::detail {
 
-/// Throws `problem`.
-template <class Problem>
-[[noreturn]] void raise(const Problem& problem) {
 #if defined(GNOMON_NO_EXCEPTIONS)
+template <class Problem>
+[[noreturn]] void end_with(const Problem& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
     std::abort();
-#else
-    throw problem;
-#endif
 }
+#endif
 
 /// Calls work(). If it throws, calls otherwise(), where the exception is std::current_exception().
 template <class Work, class Otherwise>

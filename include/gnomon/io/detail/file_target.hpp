@@ -25,7 +25,7 @@ namespace gnomon::io::detail {
 #else
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return path;
-    if (!S_ISREG(status.st_mode)) gnomon::detail::raise(error(path, "", "not a regular file"));
+    if (!S_ISREG(status.st_mode)) GNOMON_THROW(error(path, "", "not a regular file"));
 #ifdef __wasi__
     return path;
 #else
