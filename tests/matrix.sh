@@ -135,8 +135,10 @@ row wasm32-wasi "headers corner refused $floors" clang++-16 --target=wasm32-wasi
 export WINEDEBUG=-all
 without='|unistd' run=wine
 row mingw-w64 "headers corner $examples $floors" x86_64-w64-mingw32-g++-posix -static
+row mingw-w64-windows.h headers x86_64-w64-mingw32-g++-posix -DNOMINMAX -include windows.h
 without='' run="qemu-aarch64 -L /usr/aarch64-linux-gnu"
-row aarch64 "headers corner $examples $floors" aarch64-linux-gnu-g++ -pthread
+# g++ notes that some arguments are passed in another way since its version 10.
+row aarch64 "headers corner $examples $floors" aarch64-linux-gnu-g++ -Wno-psabi -pthread
 
 run='' without=''
 as_32_bit="-m32 -idirafter /usr/include/x86_64-linux-gnu"  # of which is <asm/errno.h>

@@ -25,9 +25,9 @@
 #include <mutex>
 #include <thread>  // has the clocks of <chrono> without its calendars, which take long to read
 #include <vector>
+#endif
 
 #include <gnomon/core/detail/exceptions.hpp>
-#endif
 
 namespace gnomon::detail {
 
