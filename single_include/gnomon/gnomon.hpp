@@ -62,12 +62,58 @@
 /// include guard, so each #include reads its two thousand lines again. This costs compile time in
 /// every translation unit.
 
+// -------- gnomon/core/detail/exceptions.hpp ------------------------------------------------------
+
+/// @file
+/// Throwing and catching in one place, for programs compiled without exceptions (-fno-exceptions):
+/// there, an error prints its message on stderr and aborts the program.
+
+#if !defined(__cpp_exceptions) && !defined(_CPPUNWIND)
+#define GNOMON_NO_EXCEPTIONS
+#include <cstdio>
+#include <cstdlib>
+#endif
+
+/// Throws an exception. (A macro for compile time only.)
+#if defined(GNOMON_NO_EXCEPTIONS)
+#define GNOMON_THROW(...) ::gnomon::detail::end_with(__VA_ARGS__)
+#else
+#define GNOMON_THROW(...) throw __VA_ARGS__
+#endif
+
+namespace gnomon::detail {
+
+#if defined(GNOMON_NO_EXCEPTIONS)
+template <class Problem>
+[[noreturn]] void end_with(const Problem& problem) {
+    std::fprintf(stderr, "%s\n", problem.what());
+    std::abort();
+}
+#endif
+
+/// Calls work(). If it throws, calls otherwise(), where the exception is std::current_exception().
+template <class Work, class Otherwise>
+void attempt(const Work& work, [[maybe_unused]] const Otherwise& otherwise) {
+#if defined(GNOMON_NO_EXCEPTIONS)
+    work();
+#else
+    try {
+        work();
+    } catch (...) {
+        otherwise();
+    }
+#endif
+}
+
+}  // namespace gnomon::detail
+
 // -------- gnomon/core/error.hpp ------------------------------------------------------------------
 
 /// @file
 /// Error reporting. Bad data gives results whose `trust` is not usable; a broken file throws
 /// `gnomon::error`; an invalid argument (k = 0, a negative radius) throws `std::invalid_argument`.
-/// The library prints nothing.
+/// The library prints nothing, except where exceptions are turned off (-fno-exceptions): there,
+/// what would be thrown prints its message on stderr and aborts the program.
 
 namespace gnomon {
 
@@ -98,7 +144,7 @@ namespace detail {
 /// Checks an argument of a public function. O(1).
 /// @throws std::invalid_argument  with `message` unless `condition` holds
 constexpr void require(bool condition, const char* message) {
-    if (!condition) throw std::invalid_argument(message);
+    if (!condition) GNOMON_THROW(std::invalid_argument(message));
 }
 
 }  // namespace detail
@@ -262,15 +308,14 @@ class thread_team {
         mutex guard;
         const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
-                try {
-                    work(c);
-                } catch (...) {
-                    const guard_of locked(guard);
-                    if (c < failed) {
-                        failed = c;
-                        failure = std::current_exception();
-                    }
-                }
+                attempt([&] { work(c); },
+                        [&] {
+                            const guard_of locked(guard);
+                            if (c < failed) {
+                                failed = c;
+                                failure = std::current_exception();
+                            }
+                        });
             }
         };
         if (chunks > 1 && size_ > 1 && !busy_.exchange(true)) {
@@ -287,11 +332,12 @@ class thread_team {
     /// Where the machine refuses threads or memory, the team stays as small as it is. (A template,
     /// so that only users of threads compile it.)
     void grow_to(std::integral auto size) noexcept {
-        try {
-            while (helpers_.size() + 1 < size)
-                helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
-        } catch (const std::exception&) {
-        }
+        attempt(
+            [&] {
+                while (helpers_.size() + 1 < size)
+                    helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
+            },
+            [] {});
     }
 
     /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all
@@ -1874,7 +1920,7 @@ class supervised {
     /// @throws stopped  once a stop is requested; what the algorithm was to return is lost
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
         run_(chunks, [&](std::size_t c) {
-            if (stop_.stop_requested()) throw stopped();
+            if (stop_.stop_requested()) GNOMON_THROW(stopped());
             work(c);
         });
     }
@@ -1882,7 +1928,7 @@ class supervised {
     /// Announces that step number `step` of `steps` begins.
     /// @throws stopped  if a stop is requested
     void begin_step(const char* name, std::size_t step, std::size_t steps) const {
-        if (stop_.stop_requested()) throw stopped();
+        if (stop_.stop_requested()) GNOMON_THROW(stopped());
         on_step_(name, step, steps);
         detail::begin_step(run_, name, step, steps);
     }
@@ -2048,29 +2094,63 @@ template <std::size_t N>
 
 }  // namespace gnomon::detail
 
+// -------- gnomon/core/detail/attributes.hpp ------------------------------------------------------
+
+/// @file
+/// Attributes and pragmas that standard C++ does not have, for g++ and clang; nothing for other
+/// compilers, which would warn. All are for performance or compile time only, but the one for a
+/// sanitizer that the others do not have.
+
+#if defined(__GNUC__) || defined(__clang__)
+#define GNOMON_ALWAYS_INLINE gnu::always_inline
+#define GNOMON_NOINLINE gnu::noinline
+#define GNOMON_NO_SANITIZE_ADDRESS gnu::no_sanitize_address
+#define GNOMON_PRAGMA(text) _Pragma(#text)
+#define GNOMON_UNROLL(times) GNOMON_PRAGMA(GCC unroll times)
+#else
+#define GNOMON_ALWAYS_INLINE
+#define GNOMON_NOINLINE
+#define GNOMON_NO_SANITIZE_ADDRESS
+#define GNOMON_UNROLL(times)
+#endif
+
 // -------- gnomon/core/detail/instruction_set.hpp -------------------------------------------------
 
 /// @file
 /// Selects the vector instructions of this translation unit: those that the compiler flags enable,
-/// or none if GNOMON_PORTABLE_LANES is defined. If the flags enable only the SSE2 of every x86-64,
-/// some loops are compiled for AVX2 as well and chosen at run time by the processor's features,
-/// unless GNOMON_COMPILED_LANES is defined.
+/// or, if GNOMON_PORTABLE_LANES is defined, those that the compiler chooses for its built-in
+/// vectors. Compilers without built-in vectors compute with single numbers, as all do if
+/// GNOMON_SCALAR_LANES is defined. If the flags enable only the SSE2 of every x86-64, some loops
+/// are compiled for AVX2 as well and chosen at run time by the processor's features, unless
+/// GNOMON_COMPILED_LANES is defined.
 ///
 /// Code that depends on the selection is in the inline namespace GNOMON_LANES, so that translation
 /// units with different flags can be linked into one program without violating the one-definition
 /// rule. All other inline functions are shared between them: a program for an older processor must
 /// be compiled as a whole for it.
 
-#if defined(GNOMON_PORTABLE_LANES)
+// Without SSE2, the x86 of 32 bits has another convention for vectors. On Windows, g++ does not
+// align the stack for vectors of more than 16 bytes (its bug 54412).
+#if !(defined(__GNUC__) || defined(__clang__)) || (defined(__i386__) && !defined(__SSE2__))
+#define GNOMON_SCALAR_LANES
+#elif defined(_WIN32) && !defined(__clang__)
+#define GNOMON_NARROW_LANES
+#endif
+
+#if defined(GNOMON_SCALAR_LANES)
+#define GNOMON_LANES scalar
+#define GNOMON_LANE_BITS 0
+#elif defined(GNOMON_PORTABLE_LANES)
 #define GNOMON_LANES portable
 #define GNOMON_LANE_BITS 0
-#elif defined(__AVX512F__)
+#elif defined(__AVX512F__) && !defined(GNOMON_NARROW_LANES)
 #define GNOMON_LANES avx512
 #define GNOMON_LANE_BITS 512
-#elif defined(__AVX2__)
+#elif defined(__AVX2__) && !defined(GNOMON_NARROW_LANES)
 #define GNOMON_LANES avx2
 #define GNOMON_LANE_BITS 256
-#elif defined(__SSE2__) && defined(__x86_64__) && !defined(GNOMON_COMPILED_LANES)
+#elif defined(__SSE2__) && defined(__x86_64__) && defined(__GNUC__) && \
+    !defined(GNOMON_NARROW_LANES) && !defined(GNOMON_COMPILED_LANES)
 #define GNOMON_LANES sse2_to_avx2
 #define GNOMON_LANE_BITS 128
 #define GNOMON_LANES_UP_TO_AVX2
@@ -2103,7 +2183,8 @@ inline namespace GNOMON_LANES {}
 
 /// @file
 /// Arithmetic on several numbers at once, in the built-in vectors of g++ and clang: these become
-/// vector instructions without an optimiser, and compile faster than expression templates.
+/// vector instructions without an optimiser, and compile faster than expression templates. Where
+/// there are none, a vector is a single double.
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -2118,21 +2199,27 @@ class pack_of {
     static constexpr std::size_t size = N;
 
     pack_of() = default;
-    [[gnu::always_inline]] explicit(false) pack_of(double x) {
+    [[GNOMON_ALWAYS_INLINE]] explicit(false) pack_of(double x) {
         for (vector& v : at_) v = x - vector{};
     }
     /// Those from `first` on.
-    [[gnu::always_inline]] explicit pack_of(const double* first) {
+    [[GNOMON_ALWAYS_INLINE]] explicit pack_of(const double* first) {
         std::memcpy(at_, first, sizeof at_);
     }
 
     /// Those at some places.
-    [[gnu::always_inline]] pack_of(const double* first, const std::uint32_t* places) {
+    [[GNOMON_ALWAYS_INLINE]] pack_of(const double* first, const std::uint32_t* places) {
         for (std::size_t v = 0; v < size / width; ++v)
             at_[v] = gather(first, places + v * width, std::make_index_sequence<width>{});
     }
 
-    [[nodiscard]] double operator[](std::size_t l) const { return at_[l / width][l % width]; }
+    [[nodiscard]] double operator[](std::size_t l) const {
+#if defined(GNOMON_SCALAR_LANES)
+        return at_[l];
+#else
+        return at_[l / width][l % width];
+#endif
+    }
 
     [[nodiscard]] double sum() const {
         double all = 0.0;
@@ -2140,49 +2227,50 @@ class pack_of {
         return all;
     }
 
-    [[gnu::always_inline]] friend pack_of operator+(const pack_of& a, const pack_of& b) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of operator+(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] + b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a, const pack_of& b) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of operator-(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] - b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack_of operator*(const pack_of& a, const pack_of& b) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of operator*(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] * b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack_of operator/(const pack_of& a, const pack_of& b) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of operator/(const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return a.at_[v] / b.at_[v]; });
     }
-    [[gnu::always_inline]] friend pack_of operator-(const pack_of& a) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of operator-(const pack_of& a) {
         return of([&](std::size_t v) { return -a.at_[v]; });
     }
-    [[gnu::always_inline]] pack_of& operator+=(const pack_of& b) { return *this = *this + b; }
+    [[GNOMON_ALWAYS_INLINE]] pack_of& operator+=(const pack_of& b) { return *this = *this + b; }
 
-    [[gnu::always_inline]] friend pack_of magnitude(const pack_of& a) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of magnitude(const pack_of& a) {
         return of([&](std::size_t v) { return a.at_[v] < 0.0 ? -a.at_[v] : a.at_[v]; });
     }
     /// a where x >= y, and b elsewhere.
-    [[gnu::always_inline]] friend pack_of where_at_least(const pack_of& x, const pack_of& y,
-                                                         const pack_of& a, const pack_of& b) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of where_at_least(const pack_of& x, const pack_of& y,
+                                                           const pack_of& a, const pack_of& b) {
         return of([&](std::size_t v) { return x.at_[v] >= y.at_[v] ? a.at_[v] : b.at_[v]; });
     }
     /// The nearest from low to high. Precondition: low <= high.
-    [[gnu::always_inline]] friend pack_of clamp(const pack_of& a, const pack_of& low,
-                                                const pack_of& high) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of clamp(const pack_of& a, const pack_of& low,
+                                                  const pack_of& high) {
         return of([&](std::size_t v) {
             const vector x = a.at_[v] < low.at_[v] ? low.at_[v] : a.at_[v];
             return high.at_[v] < x ? high.at_[v] : x;
         });
     }
     /// Bit l of the result is set if a[l] <= limit.
-    [[nodiscard, gnu::always_inline]] friend std::uint32_t at_most(const pack_of& a, double limit) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] friend std::uint32_t at_most(const pack_of& a,
+                                                                     double limit) {
         std::uint32_t bits = 0;
-#pragma GCC unroll 4
+        GNOMON_UNROLL(4)
         for (std::size_t v = 0; v < size / width; ++v)
             bits |= at_most(a.at_[v], limit) << v * width;
         return bits;
     }
     /// The square roots. (std::sqrt, which may have to set errno, would be called one by one.)
-    [[gnu::always_inline]] friend pack_of root(const pack_of& a) {
+    [[GNOMON_ALWAYS_INLINE]] friend pack_of root(const pack_of& a) {
         return of([&](std::size_t v) {
 #if GNOMON_LANE_BITS == 512
             return static_cast<vector>(_mm512_maskz_sqrt_pd(0xff, static_cast<__m512d>(a.at_[v])));
@@ -2190,6 +2278,8 @@ class pack_of {
             return static_cast<vector>(_mm256_sqrt_pd(static_cast<__m256d>(a.at_[v])));
 #elif GNOMON_LANE_BITS == 128
             return static_cast<vector>(_mm_sqrt_pd(static_cast<__m128d>(a.at_[v])));
+#elif defined(GNOMON_SCALAR_LANES)
+            return std::sqrt(a.at_[v]);
 #else
             vector r = a.at_[v];
             for (std::size_t l = 0; l < width; ++l) r[l] = std::sqrt(r[l]);
@@ -2199,24 +2289,28 @@ class pack_of {
     }
 
   private:
-    static constexpr std::size_t width = vector_bytes / sizeof(double);
-    static_assert(N > 0 && N % width == 0 && N <= 32);
+#if defined(GNOMON_SCALAR_LANES)
+    using vector = double;
+#else
     using vector [[gnu::vector_size(vector_bytes)]] = double;
+#endif
+    static constexpr std::size_t width = sizeof(vector) / sizeof(double);
+    static_assert(N > 0 && N % width == 0 && N <= 32);
 
     template <std::size_t... L>
-    [[gnu::always_inline]] static vector gather(const double* first, const std::uint32_t* places,
-                                                std::index_sequence<L...>) {
+    [[GNOMON_ALWAYS_INLINE]] static vector gather(const double* first, const std::uint32_t* places,
+                                                  std::index_sequence<L...>) {
         return vector{first[places[L]]...};
     }
 
-    [[gnu::always_inline]] static pack_of of(auto&& each) {
+    [[GNOMON_ALWAYS_INLINE]] static pack_of of(auto&& each) {
         pack_of p;
-#pragma GCC unroll 4
+        GNOMON_UNROLL(4)
         for (std::size_t v = 0; v < size / width; ++v) p.at_[v] = each(v);
         return p;
     }
 
-    [[gnu::always_inline]] static std::uint32_t at_most(const vector& a, double limit) {
+    [[GNOMON_ALWAYS_INLINE]] static std::uint32_t at_most(const vector& a, double limit) {
 #if GNOMON_LANE_BITS == 512
         return _mm512_cmp_pd_mask(static_cast<__m512d>(a), _mm512_set1_pd(limit), _CMP_LE_OQ);
 #elif GNOMON_LANE_BITS == 256
@@ -2226,6 +2320,8 @@ class pack_of {
 #elif GNOMON_LANE_BITS == 128
         return static_cast<std::uint32_t>(
             _mm_movemask_pd(_mm_cmple_pd(static_cast<__m128d>(a), _mm_set1_pd(limit))));
+#elif defined(GNOMON_SCALAR_LANES)
+        return a <= limit ? 1u : 0u;
 #else
         std::uint32_t bits = 0;
         for (std::size_t l = 0; l < width; ++l) bits |= (a[l] <= limit ? 1u : 0u) << l;
@@ -2506,15 +2602,15 @@ class pool_scope {
 /// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
 /// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
 /// only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
-                                                        std::size_t alignment) {
+[[nodiscard, GNOMON_NOINLINE]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
+                                                          std::size_t alignment) {
     if (pool != nullptr) return pool->allocate(bytes);
     return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
                ? ::operator new(bytes, std::align_val_t{alignment})
                : ::operator new(bytes);
 }
-[[gnu::noinline]] inline void deallocate_to(memory_source* pool, void* memory,
-                                            std::size_t alignment) noexcept {
+[[GNOMON_NOINLINE]] inline void deallocate_to(memory_source* pool, void* memory,
+                                              std::size_t alignment) noexcept {
     if (pool != nullptr)
         pool->deallocate(memory);
     else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)
@@ -2696,8 +2792,8 @@ namespace gnomon::detail {
 
 /// Writes one byte to each page from `begin` to `end`. The memory can be the unused capacity of a
 /// vector; some standard libraries would have AddressSanitizer report the write, so it is off here.
-[[gnu::no_sanitize_address]] inline void touch(volatile std::byte* begin,
-                                               const volatile std::byte* end) {
+[[GNOMON_NO_SANITIZE_ADDRESS]] inline void touch(volatile std::byte* begin,
+                                                 const volatile std::byte* end) {
     constexpr std::ptrdiff_t page = 4096;  // [bytes], of x86-64; performance only
     for (; begin < end; begin += std::min(page, end - begin)) *begin = std::byte{};
 }
@@ -2870,7 +2966,8 @@ struct lane_points {
     }
 
     /// The squared distances from (px, py, pz).
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(float px, float py, float pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(float px, float py,
+                                                                float pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = x.at[l] - px, dy = y.at[l] - py, dz = z.at[l] - pz;
@@ -2891,8 +2988,8 @@ struct lane_boxes {
     }
 
     /// Four times the squared distances from (px, py, pz); 0 inside.
-    [[nodiscard, gnu::always_inline]] lanes squared_distances_times_4(float px, float py,
-                                                                      float pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances_times_4(float px, float py,
+                                                                        float pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = std::abs(x.at[l] - px) - half_x.at[l];
@@ -2910,12 +3007,13 @@ struct lane_boxes {
 struct lane_point {
     float x, y, z;
 
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lane_points& points) const {
         return points.squared_distances(x, y, z);
     }
     /// Which of 32 boxes may have points within a limit, a squared distance.
-    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
-                                                         float limit) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t nearby(auto instructions,
+                                                             const lane_boxes& boxes,
+                                                             float limit) const {
         return instructions.at_most(boxes.squared_distances_times_4(x, y, z), 4.00004f * limit);
     }
 };
@@ -2926,12 +3024,13 @@ struct lane_segment {
     float ux, uy, uz;  // its direction, of length 1, or 0 for a segment of length 0
     float half_length;
 
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lane_points& points) const {
         return squared_distances(points.x, points.y, points.z);
     }
     /// Which of 32 boxes may have points within a limit, a squared distance: the balls around them.
-    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
-                                                         float limit) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t nearby(auto instructions,
+                                                             const lane_boxes& boxes,
+                                                             float limit) const {
         constexpr float margin = 1e-5f;  // floats are off by some 2^-24 of coordinates below 4
         const float distance = std::sqrt(limit) + margin;
         lanes excess = squared_distances(boxes.x, boxes.y, boxes.z);
@@ -2943,8 +3042,8 @@ struct lane_segment {
     }
 
   private:
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lanes& px, const lanes& py,
-                                                              const lanes& pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lanes& px, const lanes& py,
+                                                                const lanes& pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = px.at[l] - x, dy = py.at[l] - y, dz = pz.at[l] - z;
@@ -2960,8 +3059,17 @@ struct lane_segment {
 
 /// The k-th least of n numbers: compares each number with all numbers, eight at a time. O(n^2).
 /// Precondition: 0 < k <= n; `a` is aligned for vectors of eight, and infinity fills the last one.
-[[nodiscard, gnu::always_inline]] inline float kth_least(const float* a, std::size_t n,
-                                                         std::size_t k) {
+[[nodiscard, GNOMON_ALWAYS_INLINE]] inline float kth_least(const float* a, std::size_t n,
+                                                           std::size_t k) {
+#if defined(GNOMON_SCALAR_LANES)
+    float kth = std::numeric_limits<float>::infinity();
+    for (std::size_t v = 0; v < n; ++v) {
+        std::size_t at_most = 0;
+        for (std::size_t j = 0; j < n; ++j) at_most += a[j] <= a[v] ? 1u : 0u;
+        if (at_most >= k) kth = std::min(kth, a[v]);
+    }
+    return kth;
+#else
     constexpr std::size_t width = 8;
     using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
     using integers [[gnu::vector_size(4 * width)]] = int;
@@ -2980,6 +3088,7 @@ struct lane_segment {
     float kth = least[0];
     for (std::size_t l = 1; l < width; ++l) kth = std::min(kth, least[l]);
     return kth;
+#endif
 }
 
 }  // namespace GNOMON_LANES
@@ -3784,17 +3893,18 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
+        struct clear_unless_done {
+            spatial_index* index;
+            ~clear_unless_done() {
+                if (index != nullptr) index->clear();
+            }
+        } guard{this};
         kept.forget();
-        try {
-            detail::with_table_of(points, [this](auto&& table) {
-                viewpoints = std::forward<decltype(table)>(table);
-            });
-            epsilon_ = detail::epsilon_of<view>(points);
-            tree_.rebuild(view(points, std::move(projection)), run);
-        } catch (...) {
-            clear();
-            throw;
-        }
+        detail::with_table_of(
+            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
+        epsilon_ = detail::epsilon_of<view>(points);
+        tree_.rebuild(view(points, std::move(projection)), run);
+        guard.index = nullptr;
     }
 
     /// The number of points, finite or not.
@@ -4134,7 +4244,11 @@ inline namespace GNOMON_LANES {
 
 /// Plain loops.
 struct plain_instructions {
+#if defined(GNOMON_SCALAR_LANES)
+    using integers = int;
+#else
     using integers [[gnu::vector_size(16), gnu::may_alias]] = int;
+#endif
 
     /// Bit l of the result is set if a[l] <= limit.
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
@@ -4181,7 +4295,7 @@ struct sse2_instructions : plain_instructions {
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
         const __m128 t = _mm_set1_ps(limit);
         std::uint32_t bits = 0;
-#pragma GCC unroll 8
+        GNOMON_UNROLL(8)
         for (int l = 0; l < 32; l += 4) {
             const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
             bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
@@ -4201,7 +4315,7 @@ class avx2_instructions {
     [[nodiscard, GNOMON_WITH_AVX2]] static std::uint32_t at_most(const lanes& a, float limit) {
         const floats t = limit - floats{};
         std::uint32_t bits = 0;
-#pragma GCC unroll 4
+        GNOMON_UNROLL(4)
         for (int l = 0; l < 32; l += 8)
             bits |= bits_of(reinterpret_cast<const floats&>(a.at[l]) <= t) << l;
         return bits;
@@ -4349,7 +4463,7 @@ template <class Loop>
 
 /// The result of loop(instructions).
 template <class Loop>
-[[gnu::always_inline]] inline auto with_widest(const Loop& loop) {
+[[GNOMON_ALWAYS_INLINE]] inline auto with_widest(const Loop& loop) {
 #if defined(GNOMON_LANES_UP_TO_AVX2)
     if (has_avx2()) return with_avx2(loop);
 #endif
@@ -4364,6 +4478,13 @@ template <class Loop>
 /// @file
 /// Sorts short lists of integers without branches: Batcher's bitonic sorting network (Batcher 1968,
 /// "Sorting networks and their applications"), on vectors of integers.
+
+/// Vectors of lanes of two others, of which the second continues the numbers of the first.
+#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
+#define GNOMON_SHUFFLED(a, b, lane) __builtin_shufflevector(a, b, (lane)...)
+#else
+#define GNOMON_SHUFFLED(a, b, lane) __builtin_shuffle(a, b, vector{static_cast<int>(lane)...})
+#endif
 
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
@@ -4384,7 +4505,7 @@ class sorting_network {
 
     /// Sorts `list` in ascending order. O(n log^2 n).
     /// Precondition: n = length_for(n), and `list` is aligned for a vector.
-    [[gnu::always_inline]] static void sort(std::int32_t* list, std::size_t n) {
+    [[GNOMON_ALWAYS_INLINE]] static void sort(std::int32_t* list, std::size_t n) {
         auto* const all = reinterpret_cast<vector*>(list);
         const std::size_t vectors = n / width;
         for (std::size_t v = 0; v < vectors; ++v) sort_lanes<2>(all[v]);
@@ -4396,24 +4517,28 @@ class sorting_network {
     /// of `ignored`. The integer after the list is the successor of the last one.
     ///
     /// Precondition: n = length_for(n), and no integer is negative.
-    [[nodiscard, gnu::always_inline]] static bool has_equal_successors(const std::int32_t* list,
-                                                                       std::size_t n,
-                                                                       std::int32_t ignored) {
-        vector equal = {};  // lanes are 0 or -1
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] static bool has_equal_successors(const std::int32_t* list,
+                                                                         std::size_t n,
+                                                                         std::int32_t ignored) {
+        vector equal = {};  // lanes are not 0 if so
         for (std::size_t i = 0; i < n; i += width) {
             vector these, next;
             std::memcpy(&these, list + i, sizeof these);
             std::memcpy(&next, list + i + 1, sizeof next);
             equal |= (these ^ next) <= ignored;
         }
+#if defined(GNOMON_SCALAR_LANES)
+        return equal != 0;
+#else
         std::int32_t any = 0;
         for (std::size_t l = 0; l < width; ++l) any |= equal[l];
         return any != 0;
+#endif
     }
 
   private:
     /// Merges two sorted lists of `vectors` vectors each, one after the other.
-    [[gnu::always_inline]] static void merge(vector* list, std::size_t vectors) {
+    [[GNOMON_ALWAYS_INLINE]] static void merge(vector* list, std::size_t vectors) {
         // The second list backwards makes both one bitonic list.
         for (std::size_t v = 0; v < vectors; ++v) {
             vector& second = list[2 * vectors - 1 - v];
@@ -4429,15 +4554,17 @@ class sorting_network {
 
     /// Sorts the lanes of a vector, of which `Length` / 2 successive ones are sorted already.
     template <std::size_t Length>
-    [[gnu::always_inline]] static void sort_lanes(vector& v) {
-        exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
-        merge_lanes<Length / 4>(v);
-        if constexpr (Length < width) sort_lanes<2 * Length>(v);
+    [[GNOMON_ALWAYS_INLINE]] static void sort_lanes(vector& v) {
+        if constexpr (Length <= width) {
+            exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
+            merge_lanes<Length / 4>(v);
+            sort_lanes<2 * Length>(v);
+        }
     }
 
     /// Sorts each 2 `Apart` successive lanes, which are a bitonic list.
     template <std::size_t Apart>
-    [[gnu::always_inline]] static void merge_lanes(vector& v) {
+    [[GNOMON_ALWAYS_INLINE]] static void merge_lanes(vector& v) {
         if constexpr (Apart > 0) {
             exchange_lanes<Apart, Apart>(v, lanes_of_vector{});
             merge_lanes<Apart / 2>(v);
@@ -4446,21 +4573,25 @@ class sorting_network {
 
     using lanes_of_vector = std::make_index_sequence<width>;
 
+#if defined(GNOMON_SCALAR_LANES)
+    static void reverse(vector&, lanes_of_vector) {}
+#else
     /// Sorts lanes l and l ^ `Partner`; the one without the bit `Upper` gets the lesser.
     template <std::size_t Partner, std::size_t Upper, std::size_t... L>
-    [[gnu::always_inline]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
-        vector other = __builtin_shufflevector(v, v, (L ^ Partner)...);
+    [[GNOMON_ALWAYS_INLINE]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
+        vector other = GNOMON_SHUFFLED(v, v, (L ^ Partner));
         exchange(v, other);
-        v = __builtin_shufflevector(v, other, ((L & Upper) != 0 ? L + width : L)...);
+        v = GNOMON_SHUFFLED(v, other, ((L & Upper) != 0 ? L + width : L));
     }
 
     template <std::size_t... L>
-    [[gnu::always_inline]] static void reverse(vector& v, std::index_sequence<L...>) {
-        v = __builtin_shufflevector(v, v, (width - 1 - L)...);
+    [[GNOMON_ALWAYS_INLINE]] static void reverse(vector& v, std::index_sequence<L...>) {
+        v = GNOMON_SHUFFLED(v, v, (width - 1 - L));
     }
+#endif
 
     /// Leaves in each lane of a the lesser integer, and in b the greater.
-    [[gnu::always_inline]] static void exchange(vector& a, vector& b) {
+    [[GNOMON_ALWAYS_INLINE]] static void exchange(vector& a, vector& b) {
         const vector lesser = a < b ? a : b;
         b = a < b ? b : a;
         a = lesser;
@@ -4469,6 +4600,8 @@ class sorting_network {
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
+
+#undef GNOMON_SHUFFLED
 
 // -------- gnomon/neighborhoods/detail/neighbor_order.hpp -----------------------------------------
 
@@ -4638,7 +4771,7 @@ class found_neighbors {
     };
 
     /// Adds as many neighbors as a vector has numbers.
-    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
+    [[GNOMON_ALWAYS_INLINE]] void add(vector_sums& all, const std::uint32_t* places) const {
         const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
         const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
         const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];
@@ -4803,14 +4936,14 @@ class distances_from_rays {
     void enclose(std::size_t place, leaf_box& box) {
         ray_metric& m = segments_[place % segments_.size()];
         m = metric_at(place);
-        auto near = index_->tree().position(place), far = near;
+        auto nearby = index_->tree().position(place), distant = nearby;
         for (std::size_t a = 0; a < 3; ++a) {
             const double half = m.half_length() * m.direction()[static_cast<int>(a)];
-            near[a] -= half;
-            far[a] += half;
+            nearby[a] -= half;
+            distant[a] += half;
         }
-        box.add(near);
-        box.add(far);
+        box.add(nearby);
+        box.add(distant);
     }
     [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
         const auto p = index_->tree().position(place), q = index_->tree().position(other);
@@ -4930,10 +5063,10 @@ class leaf_list {
             float* const distance = distance_[0].at;
             std::size_t n = 0;
             for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-                std::uint32_t near = from.near(instructions, boxes_[g], limit);
-                for (; near != 0; near &= near - 1) {
+                std::uint32_t nearby = from.nearby(instructions, boxes_[g], limit);
+                for (; nearby != 0; nearby &= nearby - 1) {
                     const std::size_t b =
-                        g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                        g * lane_count + static_cast<std::size_t>(std::countr_zero(nearby));
                     const lanes d2 = from.squared_distances(points_[b]);
                     std::uint32_t within = instructions.at_most(d2, limit);
                     if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
@@ -4951,9 +5084,9 @@ class leaf_list {
         return {distance_[0].at, candidates_};
     }
     /// The numbers of candidates within each of two limits.
-    [[nodiscard, gnu::always_inline]] std::pair<std::size_t, std::size_t> count(auto instructions,
-                                                                                float a,
-                                                                                float b) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::pair<std::size_t, std::size_t> count(auto instructions,
+                                                                                  float a,
+                                                                                  float b) const {
         std::size_t within_a = 0, within_b = 0;
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             within_a += instructions.count_at_most(distance_[c], a);
@@ -4964,8 +5097,8 @@ class leaf_list {
 
     /// The squared distances of the candidates beyond `below` and within `above`, which are at most
     /// 32, followed by infinity.
-    [[nodiscard, gnu::always_inline]] const float* between(auto instructions, float below,
-                                                           float above) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] const float* between(auto instructions, float below,
+                                                             float above) {
         float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             const std::uint32_t bits = bits_between(instructions, c, below, above);
@@ -4995,7 +5128,7 @@ class leaf_list {
 
     /// The places of the candidates within a limit. Removes all candidates. (Not inline, as it is
     /// called in several places: for compile time only.)
-    [[nodiscard, gnu::noinline]] std::span<std::uint32_t> take_within(float limit) {
+    [[nodiscard, GNOMON_NOINLINE]] std::span<std::uint32_t> take_within(float limit) {
         std::uint32_t* const taken = with_widest([&](auto instructions) {
             std::uint32_t* end = candidate_.data();
             for (std::size_t b = 0; b * lane_count < candidates_; ++b)
@@ -5009,9 +5142,9 @@ class leaf_list {
 
   private:
     /// Which of 32 candidates are beyond `below` and within `above`.
-    [[nodiscard, gnu::always_inline]] std::uint32_t bits_between(auto instructions,
-                                                                 std::size_t block, float below,
-                                                                 float above) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t bits_between(auto instructions,
+                                                                   std::size_t block, float below,
+                                                                   float above) const {
         return instructions.at_most(distance_[block], above) &
                ~instructions.at_most(distance_[block], below);
     }
@@ -5202,7 +5335,7 @@ class leaf_search {
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
                     const auto [nearer, all] = with_widest(
-                        [&](auto instructions) { return list_.count(instructions, below, above); });
+                        [&, b = below, a = above](auto set) { return list_.count(set, b, a); });
                     selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
                                                  : list_.take_within(d2);
                     if (radius_ < unlimited) drop_farther(p);
@@ -5257,7 +5390,7 @@ class leaf_search {
         float kth;                  // itself, if at most `lane_count` candidates are between
     };
 
-    [[nodiscard, gnu::always_inline]] enclosure enclosure_of_kth(auto instructions, float high) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] enclosure enclosure_of_kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {
@@ -5551,7 +5684,7 @@ void sweep_equal_sizes(std::size_t k, const spatial_index& index, const X& run, 
     begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
-    resize_touched(indices, begin.back(), run);
+    resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     if constexpr (requires { graph.notes; }) graph.notes.clear();
     sweep([&] { return neighborhood_writer(begin.data(), indices.data()); });
 }
@@ -5609,7 +5742,7 @@ void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
 
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = graph.indices;
-    resize_touched(indices, begin.back(), run);
+    resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     run(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
         for (const point_index i : all.parts[c].points) {
@@ -5669,7 +5802,7 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = memory.indices;
     indices.clear();
-    indices.reserve(begin.back());
+    indices.reserve(static_cast<std::size_t>(begin.back()));
     for (scratch<point_index>& chunk : indices_of_chunk) {
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);
@@ -6182,8 +6315,8 @@ template <class Points>
 [[nodiscard]] bool reduce_to_star(point_index center, Points& points) {
     std::erase_if(points, [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
     sort_by_direction(points);
-    const auto hides = [](const planar_point& near, const planar_point& far) {
-        return half_plane(near) == half_plane(far) && turn(near, far) == 0;
+    const auto hides = [](const planar_point& nearby, const planar_point& distant) {
+        return half_plane(nearby) == half_plane(distant) && turn(nearby, distant) == 0;
     };
     points.erase(std::unique(points.begin(), points.end(), hides), points.end());
     if (points.empty()) return true;
@@ -6700,13 +6833,13 @@ class ray_directions {
         constexpr std::size_t seeds = 128;            // performance only
         constexpr std::size_t few = 64, many = 1024;  // rays; performance only, 30 : 1 and more
         scratch<double> along, across;
-        scratch<neighbor> near;
+        scratch<neighbor> nearby;
         const std::size_t step = std::max<std::size_t>(1, tree_.leaves() / seeds);
         for (std::size_t leaf = 0; leaf < tree_.leaves(); leaf += step) {
             const Eigen::Vector3d u = first_of(leaf);
             for (const std::size_t count : {few, many}) {
-                search_tree(tree_, u, {.k = count}, near);
-                const auto [a, b] = nearest_around(u, near);
+                search_tree(tree_, u, {.k = count}, nearby);
+                const auto [a, b] = nearest_around(u, nearby);
                 const bool is_whole = b < std::numeric_limits<double>::infinity();
                 if (!is_whole && count == few) continue;
                 if (is_whole) across.push_back(b);
@@ -6736,12 +6869,12 @@ class ray_directions {
     /// infinite where there is none.
     /// @param near  the nearest rays, nearest first
     [[nodiscard]] std::array<double, 2> nearest_around(const Eigen::Vector3d& u,
-                                                       const auto& near) const {
+                                                       const auto& nearby) const {
         constexpr std::size_t nearest = 4;  // two to either side, or one in each direction
         const ray_plane<> plane(u);
         scan_line<> line;
         std::size_t count = 0;
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             if (q.squared_distance < same_ray) continue;
             line.add(plane.offset(direction(q)), 1.0 / q.squared_distance);
             if (++count == nearest) break;
@@ -6749,7 +6882,7 @@ class ray_directions {
         line.fit();
         constexpr double none = std::numeric_limits<double>::infinity();
         std::array<double, 2> found{none, none};
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             if (q.squared_distance < same_ray) continue;
             double& to = found[line.is_along(plane.offset(direction(q))) ? 0 : 1];
             to = std::min(to, q.squared_distance);
@@ -6904,9 +7037,9 @@ class across_lines {
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
         if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;
         const Eigen::Vector3d chord = difference(b, a);
-        const Eigen::Vector3d& far = dot(a, a) > dot(b, b) ? a : b;
-        const Eigen::Vector3d c = cross(chord, far);
-        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
+        const Eigen::Vector3d& distant = dot(a, a) > dot(b, b) ? a : b;
+        const Eigen::Vector3d c = cross(chord, distant);
+        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(distant, distant);
     }
 
     const Index& index_;
@@ -7033,9 +7166,9 @@ struct noise_knn {
             auto end = std::partition(near_.begin(), near_.end(), [&](std::uint32_t at) {
                 return tree.squared_distance(place, at) <= within;
             });
-            const std::size_t fewest = std::min(policy_.fewest, near_.size());
-            if (static_cast<std::size_t>(end - near_.begin()) < fewest) {
-                end = near_.begin() + static_cast<std::ptrdiff_t>(fewest);
+            const std::size_t least = std::min(policy_.fewest, near_.size());
+            if (static_cast<std::size_t>(end - near_.begin()) < least) {
+                end = near_.begin() + static_cast<std::ptrdiff_t>(least);
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }
@@ -8096,7 +8229,7 @@ inline constexpr double smallest_gap = 1e-12;
 
 /// The same plane from the second moments themselves. (Not inline, as estimators call it in several
 /// places: for compile time only.)
-[[nodiscard, gnu::noinline]] inline plane_fit plane_of_least_spread(
+[[nodiscard, GNOMON_NOINLINE]] inline plane_fit plane_of_least_spread(
     const Eigen::Matrix3d& second_moments, double min_aspect_ratio) {
     if (has_finite_trace(second_moments))
         return plane_across(symmetric_eigen(second_moments), min_aspect_ratio);
@@ -8879,9 +9012,9 @@ namespace gnomon::detail {
         const double cosine = dot(own.fit.normal, normal);
         const double here = own.residual(x) / deviation;
         const double there = other.residual(back) / deviation;
-        const double far = length(x) / (nearness * radius);
+        const double distant = length(x) / (nearness * radius);
         const double unlike = (1.0 - cosine * cosine) / (agreement * agreement) +
-                              0.5 * (here * here + there * there) + far * far;
+                              0.5 * (here * here + there * there) + distant * distant;
         axes.add(normal, decay(0.5 * unlike));
     }
     if (!(axes.weight > 0.0)) return own.fit.normal;  // an outlier
@@ -10088,10 +10221,10 @@ class sorted_directions {
         scratch<double> apart;
         for (std::size_t i = 1; i < all_.size(); ++i) apart.push_back(angle_before(i));
         scratch<double> copy = apart;
-        const double near = quantile(copy, 0.5);
+        const double nearby = quantile(copy, 0.5);
         std::size_t pairs = 0, several = 0;
         for (std::size_t i = 1; i < all_.size(); ++i) {
-            if (apart[i - 1] > near) continue;
+            if (apart[i - 1] > nearby) continue;
             const double a = all_[i - 1].range, b = all_[i].range;
             constexpr double steep = 10.0;  // the tangent of 84 degrees; chosen
             const double slope = steep * apart[i - 1] * std::min(a, b);
@@ -13920,7 +14053,7 @@ class component_walk {
             lane_set piece = lowest(left), next = piece;  // points whose neighbors are unknown
             left ^= piece;
             while (next != 0 && left != 0) {
-                const lane_set found = near(point_at(leaf, next), leaf, left);
+                const lane_set found = nearby(point_at(leaf, next), leaf, left);
                 next ^= lowest(next) | found;
                 piece |= found;
                 left ^= found;
@@ -13935,8 +14068,8 @@ class component_walk {
 
     /// Joins the pieces of two leaves.
     void join_leaves(const subtree& a, const subtree& b) {
-        lane_set in_a = near(tree_.box(b), a);
-        const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
+        lane_set in_a = nearby(tree_.box(b), a);
+        const lane_set in_b = in_a != 0 ? nearby(tree_.box(a), b) : 0;
         while (in_a != 0) {
             lane_set piece = in_a & piece_[point_at(a, in_a)];
             in_a ^= piece;
@@ -13950,7 +14083,7 @@ class component_walk {
             }
             for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
                 const point_index p = point_at(a, piece);
-                for (lane_set found = near(p, b, others); found != 0; found &= others) {
+                for (lane_set found = nearby(p, b, others); found != 0; found &= others) {
                     const point_index q = point_at(b, found);
                     sets_.unite(p, q);
                     others &= ~piece_[q];
@@ -13960,7 +14093,7 @@ class component_walk {
     }
 
     /// The points of a leaf that may be within the radius of a box.
-    [[nodiscard]] lane_set near(const leaf_box& box, const subtree& leaf) const {
+    [[nodiscard]] lane_set nearby(const leaf_box& box, const subtree& leaf) const {
         lane_set possible = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
             pack d2(0.0);
@@ -13975,7 +14108,7 @@ class component_walk {
     }
 
     /// Those of some points of a leaf that are within the radius of point p.
-    [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
+    [[nodiscard]] lane_set nearby(point_index p, const subtree& leaf, lane_set some) const {
         lane_set within = 0, certain = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
             pack d2(0.0);
@@ -14848,7 +14981,8 @@ class floor_search {
             const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
             return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
         };
-        return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
+        const std::uint64_t hash = hash_of(std::array{number_along(0), number_along(1)});
+        return static_cast<std::size_t>(hash) & (cells_.size() - 1);
     }
 
     const Points& points_;
@@ -14950,15 +15084,15 @@ template <class R, class Proj = std::identity>
         return std::nullopt;
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
     constexpr double half_width = 1.5;  // bins: half of three (formula)
-    double sum = 0.0, near = 0.0;
+    double sum = 0.0, nearby = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double height = floor.signed_distance(p[i]);
         if (!(height >= search.min_height && std::abs(height - peak) <= half_width * search.bin))
             continue;
         sum += height;
-        near += 1.0;
+        nearby += 1.0;
     }
-    return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
+    return nearby > 0.0 ? sum / nearby : peak;  // no point is near if bins are finer than rounding
 }
 
 }  // namespace gnomon
@@ -15609,11 +15743,11 @@ class plane_regions {
   public:
     /// @param graph  the neighbors of each point that a region may grow to
     /// @param near   the neighbors whose labels compete for it; another graph, or the same
-    plane_regions(const planar_cloud& cloud, const G& graph, const Near& near,
+    plane_regions(const planar_cloud& cloud, const G& graph, const Near& nearby,
                   std::size_t min_points)
         : cloud_(cloud),
           graph_(graph),
-          near_(near),
+          near_(nearby),
           min_points_(min_points),
           labels_(cloud.size(), unlabeled) {}
 
@@ -15840,10 +15974,10 @@ inline void require_valid(const segment_planes_options& options) {
 /// @param noise_is_independent  from point to point; else it bends planes, as that of cameras
 template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
 [[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
-                                                       const Near& near, const S& surface,
+                                                       const Near& nearby, const S& surface,
                                                        std::size_t min_points, angle max_angle,
                                                        bool noise_is_independent, const X& run) {
-    plane_regions regions(cloud, graph, near, min_points);
+    plane_regions regions(cloud, graph, nearby, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.cut_edges(run);
@@ -16304,8 +16438,8 @@ inline namespace GNOMON_LANES {
 /// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
 /// both below 1e-300. Precondition: x and y are finite.
 template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
-                                                            const pack_of<N>& x) {
+[[nodiscard, GNOMON_ALWAYS_INLINE]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                              const pack_of<N>& x) {
     const pack_of<N> across = magnitude(x), up = magnitude(y);
     const pack_of<N> more = where_at_least(across, up, across, up);
     const pack_of<N> q = where_at_least(across, up, up, across) /
@@ -16710,12 +16844,12 @@ class range_image {
     /// Stores the nearest point of each pixel, between two rows.
     void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
-        const std::size_t pixels = (highest - lowest + 1) * width_;
+        const std::uint64_t pixels = std::uint64_t{highest - lowest + 1} * width_;
         if (pixels / few <= visible.size()) {
-            first_ = lowest * width_;
-            seen_.resize(pixels);
+            first_ = std::uint64_t{lowest} * width_;
+            seen_.resize(static_cast<std::size_t>(pixels));
             for (const sight& s : visible) {
-                view& v = seen_[s.place - first_];
+                view& v = seen_[static_cast<std::size_t>(s.place - first_)];
                 if (v.range < 0.0 || s.what.range < v.range) v = s.what;
             }
             return;
@@ -16734,7 +16868,7 @@ class range_image {
     }
 
     [[nodiscard]] std::uint64_t place_of(const pixel& at) const {
-        return at.elevation * width_ + at.azimuth;
+        return std::uint64_t{at.elevation} * width_ + at.azimuth;
     }
 
     [[nodiscard]] view view_of(const pixel& at) const {
@@ -16744,7 +16878,7 @@ class range_image {
             if (found == places_.end() || *found != place_of(at)) return {};
             number = static_cast<std::uint64_t>(found - places_.begin());
         }
-        return number < seen_.size() ? seen_[number] : view{};
+        return number < seen_.size() ? seen_[static_cast<std::size_t>(number)] : view{};
     }
 
     std::size_t width_, height_;
@@ -16970,14 +17104,14 @@ class visibility {
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
         const double angle =
             std::atan2(detail::length(detail::cross(to_p, to_q)), detail::dot(to_p, to_q));
-        const double near = detail::length(to_p), far = detail::length(to_q);
+        const double nearby = detail::length(to_p), distant = detail::length(to_q);
         observation_count count;
         if (!std::isfinite(angle)) return count;
         const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
         for (std::size_t s = 1; s < steps; ++s) {
             const double turned = angle * static_cast<double>(s) / static_cast<double>(steps);
             // Where the ray that is turned by this angle meets the line, by the law of sines.
-            const double a = near * std::sin(turned), b = far * std::sin(angle - turned);
+            const double a = nearby * std::sin(turned), b = distant * std::sin(angle - turned);
             count.add(towards(detail::combined(b / (a + b), p, a / (a + b), q)));
         }
         return count;
@@ -17533,7 +17667,7 @@ struct input {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     const std::unique_ptr<std::FILE, closer> file(std::fopen(path.c_str(), "rb"));
-    if (!file) throw detail::os_error(path, errno);
+    if (!file) GNOMON_THROW(detail::os_error(path, errno));
 
     // Reads until the end instead of querying the size: pipes have no size, and the C library has
     // no portable 64-bit query.
@@ -17543,7 +17677,7 @@ struct input {
         bytes.resize(std::max<std::size_t>(2 * size, 1 << 16));
         size += std::fread(bytes.data() + size, 1, bytes.size() - size, file.get());
     } while (size == bytes.size());
-    if (std::ferror(file.get()) != 0) throw detail::os_error(path, errno);
+    if (std::ferror(file.get()) != 0) GNOMON_THROW(detail::os_error(path, errno));
     bytes.resize(size);
     return {path, std::move(bytes)};
 }
@@ -17565,7 +17699,7 @@ struct input {
 namespace gnomon::io::detail {
 
 /// Returns the file of the name `path` with symbolic links resolved; `path` itself if the file does
-/// not exist.
+/// not exist, or where the system cannot resolve them (Windows, WASI).
 /// @throws gnomon::error  if `path` is a device, a pipe or a directory, which must not be replaced
 [[nodiscard]] inline std::string file_target(const std::string& path) {
 #ifdef _WIN32
@@ -17573,9 +17707,13 @@ namespace gnomon::io::detail {
 #else
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return path;
-    if (!S_ISREG(status.st_mode)) throw error(path, "", "not a regular file");
+    if (!S_ISREG(status.st_mode)) GNOMON_THROW(error(path, "", "not a regular file"));
+#ifdef __wasi__
+    return path;
+#else
     char resolved[PATH_MAX];
     return ::realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+#endif
 #endif
 }
 
@@ -17605,7 +17743,7 @@ class output_file {
             file_ = std::fopen(temporary_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
         }
-        if (file_ == nullptr) throw detail::os_error(path_, errno);
+        if (file_ == nullptr) GNOMON_THROW(detail::os_error(path_, errno));
     }
 
     output_file(const output_file&) = delete;
@@ -17620,19 +17758,20 @@ class output_file {
     /// @throws gnomon::error  with the operating system's message, e.g. if the disk is full
     void write(std::string_view bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-            throw detail::os_error(path_, errno);
+            GNOMON_THROW(detail::os_error(path_, errno));
     }
 
     /// Renames the temporary file to its final name and replaces an existing file. Precondition:
     /// not committed.
     /// @throws gnomon::error  with the operating system's message, if writing or renaming fails
     void commit() {
-        if (std::fclose(std::exchange(file_, nullptr)) != 0) throw detail::os_error(path_, errno);
+        if (std::fclose(std::exchange(file_, nullptr)) != 0)
+            GNOMON_THROW(detail::os_error(path_, errno));
 #ifdef _WIN32
         std::remove(path_.c_str());  // rename does not replace files on Windows
 #endif
         if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-            throw detail::os_error(path_, errno);
+            GNOMON_THROW(detail::os_error(path_, errno));
         temporary_.clear();
     }
 
@@ -17834,6 +17973,14 @@ namespace detail {
 template <class T>
 concept scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// The type of the numbers of a range: bool, where a std::vector<bool> has a proxy for it.
+template <class R, class Proj, class T = gnomon::detail::projected_element_t<R, Proj>>
+using number_t = std::conditional_t<
+    !scalar<T> &&
+        std::same_as<std::iter_value_t<decltype(std::ranges::begin(std::declval<const R&>()))>,
+                     bool>,
+    bool, T>;
+
 /// The type in the file for values of type T. PLY has no 64-bit integers: they become float64,
 /// which is exact up to 2^53.
 template <scalar T>
@@ -17891,9 +18038,9 @@ template <class Vector>
 /// @param projection  maps an element to an arithmetic value, bool or enumerator
 /// @return a column whose type holds all values; 64-bit integers become float64
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
-    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
+    requires detail::scalar<detail::number_t<R, Proj>>
 [[nodiscard]] property scalar_property(std::string name, const R& range, Proj projection = {}) {
-    using number = gnomon::detail::projected_element_t<R, Proj>;
+    using number = detail::number_t<R, Proj>;
     return {std::move(name), detail::field_type_for<number>(),
             static_cast<std::size_t>(std::ranges::size(range)),
             detail::converted(range, std::move(projection),
@@ -17965,7 +18112,7 @@ void field_properties(const scan&& points, const properties& others = {}) = dele
 
 // The columns refer to the range, so a temporary range is an error.
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
-    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
+    requires detail::scalar<detail::number_t<R, Proj>>
 void scalar_property(std::string name, const R&& range, Proj projection = {}) = delete;
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
     requires point_range<R, Proj>
@@ -18275,7 +18422,7 @@ class text_cursor {
 
     /// Throws an error at the line returned last.
     [[noreturn]] void fail(const std::string& message) const {
-        throw error(file_->name, "line " + std::to_string(line_), message);
+        GNOMON_THROW(error(file_->name, "line " + std::to_string(line_), message));
     }
 
   private:
@@ -18479,7 +18626,7 @@ class byte_cursor {
 
     /// Throws an error at the current byte.
     [[noreturn]] void fail(const std::string& message) const {
-        throw error(file_->name, "byte " + std::to_string(offset_), message);
+        GNOMON_THROW(error(file_->name, "byte " + std::to_string(offset_), message));
     }
 
   private:
@@ -20513,20 +20660,20 @@ struct twofold {
     double low;
 
     [[nodiscard]] static twofold difference(double a, double b) {
-        const double high = a - b;
-        return {high, sum_error(a, -b, high)};
+        const double rounded = a - b;
+        return {rounded, sum_error(a, -b, rounded)};
     }
     [[nodiscard]] friend twofold operator*(const twofold& a, const twofold& b) {
-        const double high = rounded_product(a.high, b.high);
-        const double low = std::fma(a.high, b.high, -high) + (a.high * b.low + a.low * b.high);
-        const double sum = high + low;
-        return {sum, low - (sum - high)};
+        const double most = rounded_product(a.high, b.high);
+        const double rest = std::fma(a.high, b.high, -most) + (a.high * b.low + a.low * b.high);
+        const double sum = most + rest;
+        return {sum, rest - (sum - most)};
     }
     [[nodiscard]] friend twofold operator+(const twofold& a, const twofold& b) {
-        const double high = a.high + b.high;
-        const double low = sum_error(a.high, b.high, high) + (a.low + b.low);
-        const double sum = high + low;
-        return {sum, low - (sum - high)};
+        const double most = a.high + b.high;
+        const double rest = sum_error(a.high, b.high, most) + (a.low + b.low);
+        const double sum = most + rest;
+        return {sum, rest - (sum - most)};
     }
 };
 
@@ -21155,7 +21302,7 @@ class alpha_complex {
     static void add_to(path& open, std::uint32_t v, std::vector<std::uint32_t>& place,
                        Found&& found) {
         if (place[v] != none) {
-            const auto since = open.begin() + place[v];
+            const auto since = open.begin() + static_cast<std::ptrdiff_t>(place[v]);
             const path closed(since, open.end());
             for (const std::uint32_t u : closed) place[u] = none;
             open.erase(since, open.end());
@@ -22536,7 +22683,7 @@ class flush_boxes {
         Eigen::Vector3d u{0.0, 0.0, 0.0};
         Eigen::Vector3d v{0.0, 0.0, 0.0};
         Eigen::Vector3d w{0.0, 0.0, 0.0};
-        std::array<std::uint32_t, supports> far{};  // farthest along -u, -v, w and -w
+        std::array<std::uint32_t, supports> distant{};  // farthest along -u, -v, w and -w
     };
 
     using quadratic = std::array<double, 3>;  // Bernstein coefficients
@@ -22581,7 +22728,7 @@ class flush_boxes {
         const std::array<Eigen::Vector3d, supports> directions{scaled(-1.0, m.u), scaled(-1.0, m.v),
                                                                m.w, scaled(-1.0, m.w)};
         for (std::size_t k = 0; k < supports; ++k)
-            m.far[k] = supports_[k] = hull_.farthest(directions[k], supports_[k]);
+            m.distant[k] = supports_[k] = hull_.farthest(directions[k], supports_[k]);
         if (is_singular(m)) return m;
         const double uu = dot(m.u, m.u);
         const double vv = dot(m.v, m.v);
@@ -22604,9 +22751,9 @@ class flush_boxes {
 
     /// Vectors between supporting corners of opposite faces.
     [[nodiscard]] std::array<Eigen::Vector3d, 3> spans(const member& m) const {
-        return {difference(hull_[a_->corner], hull_[m.far[0]]),
-                difference(hull_[b_->corner], hull_[m.far[1]]),
-                difference(hull_[m.far[2]], hull_[m.far[3]])};
+        return {difference(hull_[a_->corner], hull_[m.distant[0]]),
+                difference(hull_[b_->corner], hull_[m.distant[1]]),
+                difference(hull_[m.distant[2]], hull_[m.distant[3]])};
     }
 
     void search(const member& from, const member& to) {
@@ -22646,8 +22793,8 @@ class flush_boxes {
         const std::array<std::pair<Eigen::Vector3d, Eigen::Vector3d>, supports> directions{
             {{from.u, to.u}, {from.v, to.v}, {from.w, to.w}, {from.w, to.w}}};
         for (std::size_t k = 0; k < supports; ++k) {
-            if (from.far[k] == to.far[k]) continue;
-            const Eigen::Vector3d d = difference(hull_[from.far[k]], hull_[to.far[k]]);
+            if (from.distant[k] == to.distant[k]) continue;
+            const Eigen::Vector3d d = difference(hull_[from.distant[k]], hull_[to.distant[k]]);
             const double ahead = std::abs(dot(d, directions[k].first));
             const double behind = std::abs(dot(d, directions[k].second));
             const double t = ahead / (ahead + behind);
@@ -23093,9 +23240,10 @@ struct sphere_surface {
 
     [[nodiscard]] surface_foot foot_of(const Eigen::Vector3d& x) const {
         const Eigen::Vector3d d = difference(x, center);
-        const double far = length(d);
-        const Eigen::Vector3d n = far > 0.0 ? scaled(1.0 / far, d) : Eigen::Vector3d(0.0, 0.0, 1.0);
-        return {far - radius, n, 2.0 / radius};
+        const double distant = length(d);
+        const Eigen::Vector3d n =
+            distant > 0.0 ? scaled(1.0 / distant, d) : Eigen::Vector3d(0.0, 0.0, 1.0);
+        return {distant - radius, n, 2.0 / radius};
     }
 
     [[nodiscard]] std::array<double, 4> gradient(const surface_foot& foot) const {
@@ -23123,7 +23271,7 @@ struct revolved_line {
 
     struct foot : surface_foot {
         double along;            ///< coordinate of the point along the axis, from `point`
-        double far;              ///< its distance from the axis
+        double distant;          ///< its distance from the axis
         Eigen::Vector3d across;  ///< unit vector from the axis to it
     };
 
@@ -23138,21 +23286,21 @@ struct revolved_line {
         const Eigen::Vector3d d = difference(x, point);
         const double along = dot(d, axis);
         const Eigen::Vector3d out = combined(1.0, d, -along, axis);
-        const double far = length(out);
-        const Eigen::Vector3d across = far > 0.0 ? scaled(1.0 / far, out) : e1;
-        const double distance = (far - radius) * cosine - along * sine;
-        const double radius_there = std::max(far - distance * cosine, radius / largest_radius);
+        const double distant = length(out);
+        const Eigen::Vector3d across = distant > 0.0 ? scaled(1.0 / distant, out) : e1;
+        const double distance = (distant - radius) * cosine - along * sine;
+        const double radius_there = std::max(distant - distance * cosine, radius / largest_radius);
         return {{distance, combined(cosine, across, -sine, axis), cosine / radius_there},
                 along,
-                far,
+                distant,
                 across};
     }
 
     [[nodiscard]] std::array<double, N> gradient(const foot& f) const {
         const double n1 = dot(f.across, e1), n2 = dot(f.across, cross(axis, e1));
-        const double lever = f.along * cosine + f.far * sine;
+        const double lever = f.along * cosine + f.distant * sine;
         std::array<double, N> g{-n1 * cosine, -n2 * cosine, -n1 * lever, -n2 * lever, -cosine};
-        if constexpr (N > 5) g[5] = (radius - f.far) * sine - f.along * cosine;
+        if constexpr (N > 5) g[5] = (radius - f.distant) * sine - f.along * cosine;
         return g;
     }
 
@@ -24423,24 +24571,24 @@ struct cylinder_bins {
         }
 
       private:
-        [[gnu::always_inline]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
-                                                          const Eigen::Vector3d& n,
-                                                          const Eigen::Vector3d* first,
-                                                          std::size_t l, double most_alpha2,
-                                                          double most_beta) {
+        [[GNOMON_ALWAYS_INLINE]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
+                                                            const Eigen::Vector3d& n,
+                                                            const Eigen::Vector3d* first,
+                                                            std::size_t l, double most_alpha2,
+                                                            double most_beta) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
             const slim_pack x = slim_pack(at, stride) - p[0];
             const slim_pack y = slim_pack(at + 1, stride) - p[1];
             const slim_pack z = slim_pack(at + 2, stride) - p[2];
-            const slim_pack height = n[0] * x + n[1] * y + n[2] * z;
+            const slim_pack above = n[0] * x + n[1] * y + n[2] * z;
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
             const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
             const slim_pack c = n[0] * y - n[1] * x;
             const slim_pack squares = a * a + b * b + c * c;
-            std::memcpy(&beta[l], &height, sizeof height);
+            std::memcpy(&beta[l], &above, sizeof above);
             std::memcpy(&alpha2[l], &squares, sizeof squares);
-            return at_most(squares, most_alpha2) & at_most(magnitude(height), most_beta);
+            return at_most(squares, most_alpha2) & at_most(magnitude(above), most_beta);
         }
     };
 
@@ -25492,13 +25640,17 @@ inline namespace GNOMON_LANES {
 /// Vectors of four numbers. All processors add in the same order, so that sums are the same bytes.
 struct four_numbers {
     static constexpr std::size_t size = 4;
+#if defined(GNOMON_SCALAR_LANES)
+    using numbers = std::array<double, size>;
+#else
     using numbers [[gnu::vector_size(32)]] = double;
     using bits [[gnu::vector_size(32)]] = std::int64_t;
     static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
 
-    [[gnu::always_inline]] static void take_roots(numbers& a) {
+    [[GNOMON_ALWAYS_INLINE]] static void take_roots(numbers& a) {
         for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
     }
+#endif
 };
 #if GNOMON_LANE_BITS >= 256 || defined(GNOMON_LANES_UP_TO_AVX2)
 /// The same in functions that are compiled for AVX2.
@@ -25509,8 +25661,8 @@ struct four_numbers_of_avx2 : four_numbers {
 
 /// The sums of the numbers of each vector: of offsets, of their products by columns, of distances.
 template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums reduced(const typename Vectors::numbers (&all)[10],
-                                                        std::size_t count) {
+[[GNOMON_ALWAYS_INLINE]] inline neighborhood_sums reduced(
+    const typename Vectors::numbers (&all)[10], std::size_t count) {
     double sums[10];
     for (std::size_t s = 0; s < 10; ++s) {
         sums[s] = 0.0;
@@ -25525,15 +25677,41 @@ template <class Vectors>
     return r;
 }
 
+#if defined(GNOMON_SCALAR_LANES)
+/// The sums over the window of a pixel, in the order of the vectors.
+/// @param count  of its neighbors
+template <class Vectors>
+[[nodiscard]] neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                          std::size_t count) {
+    typename Vectors::numbers all[10] = {};
+    const auto column = windows.column_of(center);
+    for (std::size_t q = column.begin; q <= column.last; q += column.step) {
+        if (!windows.links().has_return(q)) continue;
+        const auto [begin, end] = windows.row_of(q, column.radius);
+        for (std::size_t l = begin; l < end; ++l) {
+            double d[3];
+            for (std::size_t i = 0; i < 3; ++i)
+                d[i] = windows.links().at(i)[l] - windows.links().at(i)[center];
+            if (std::isnan(d[0])) continue;  // no return
+            const std::size_t lane = (l - begin) % Vectors::size;
+            for (std::size_t i = 0, s = 3; i < 3; ++i) {
+                all[i][lane] += d[i];
+                for (std::size_t j = i; j < 3; ++j) all[s++][lane] += d[i] * d[j];
+            }
+            all[9][lane] += std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+    }
+    return reduced<Vectors>(all, count);
+}
+#else
 /// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
 /// three numbers longer than the image. (One loop without calls, so that all sums stay in
 /// registers: performance only.)
 /// @param count  of its neighbors
 template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
-                                                          std::size_t count) {
+[[GNOMON_ALWAYS_INLINE]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                                            std::size_t count) {
     using numbers = typename Vectors::numbers;
-    using bits = typename Vectors::bits;
     constexpr std::size_t size = Vectors::size;
     const double* const at_x = windows.links().at(0);
     const double* const at_y = windows.links().at(1);
@@ -25544,6 +25722,7 @@ template <class Vectors>
     for (std::size_t q = column.begin; q <= column.last; q += column.step) {
         if (!windows.links().has_return(q)) continue;
         const auto [begin, end] = windows.row_of(q, column.radius);
+        using bits = typename Vectors::bits;
         for (std::size_t l = begin; l < end; l += size) {
             bits mask;
             const std::size_t many = end - l < size ? end - l : size;
@@ -25574,6 +25753,7 @@ template <class Vectors>
     const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
     return reduced<Vectors>(all, count);
 }
+#endif
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
@@ -25886,8 +26066,10 @@ struct raster {
 
     /// (A template of numbers for compile time only.)
     template <class Number = double>
-    [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
-                                  const detail::pixel_rectangle& part, const auto& run) const {
+    [[nodiscard]] detail::image_windows<Number> windows_of(const auto& positions,
+                                                           const viewpoint_table& viewpoints,
+                                                           const detail::pixel_rectangle& part,
+                                                           const auto& run) const {
         return detail::image_windows<Number>(positions, viewpoints, noise, part, radius,
                                              largest_radius(), precision.radians(), run);
     }
@@ -27202,15 +27384,16 @@ template <class = void>  // a template, so that unused readers cost no compile t
         for (const double value : field.values) {
             if (!((value >= -1.0 && value <= most && value == std::trunc(value)) ||
                   value == unsigned_unlabeled))
-                throw error("scan", "point " + std::to_string(result.size()),
-                            "field \"" + name + "\" is not a label: " + std::to_string(value));
+                GNOMON_THROW(
+                    error("scan", "point " + std::to_string(result.size()),
+                          "field \"" + name + "\" is not a label: " + std::to_string(value)));
             result.push_back(value > most ? -1 : static_cast<std::int32_t>(value));
         }
         return result;
     }
-    throw error(
+    GNOMON_THROW(error(
         "scan", "",
-        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}");
+        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}"));
 }
 
 }  // namespace gnomon::io
@@ -27338,7 +27521,9 @@ class memory_pool final : public memory_source {
 
     [[nodiscard]] static std::size_t size_class(std::size_t bytes) {
         const std::size_t last = (std::max<std::size_t>(bytes, 1) - 1) / alignment;
-        const std::size_t e = std::max<std::size_t>(std::bit_width(last), 3) - 3;
+        const auto bits =
+            static_cast<std::size_t>(std::bit_width(last));  // an int in some libraries
+        const std::size_t e = std::max<std::size_t>(bits, 3) - 3;
         return 4 * e + (last >> e);
     }
     /// Of a block and its header.
@@ -27613,7 +27798,7 @@ struct cells {
             if (!index.is_finite(i)) continue;
             const Eigen::Vector3d p = index[i];
             const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash_of(own) & (slots - 1);
+            std::size_t at = static_cast<std::size_t>(hash_of(own)) & (slots - 1);
             while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
             if (slot[at] == no_cell) {
                 slot[at] = static_cast<point_index>(keys.size());
@@ -28749,7 +28934,8 @@ class bvh {
         }
         if (best_axis < 0) return half;  // all centers coincide
         const auto middle = std::partition(
-            items_.begin() + first, items_.begin() + last,
+            items_.begin() + static_cast<std::ptrdiff_t>(first),
+            items_.begin() + static_cast<std::ptrdiff_t>(last),
             [&](std::uint32_t item) { return bin_of(boxes[item], centers, best_axis) < best_bin; });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }
@@ -31178,7 +31364,7 @@ struct room_openings {
         const auto places = walls_of(room);
         const double width = o.hole.width();
         for (int trial = 0; trial < 50; ++trial) {
-            o.wall = random.bits() % places.size();
+            o.wall = static_cast<std::size_t>(random.bits() % places.size());
             const double most = 0.5 * places[o.wall].length - 0.25;
             o.hole.left = random.uniform(-most, most - width);
             o.hole.right = o.hole.left + width;
@@ -31324,7 +31510,7 @@ struct room_options {
     std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
     const auto models = options.models.empty() ? furniture_models() : options.models;
     for (int piece = 0; piece < options.pieces; ++piece) {
-        const furniture_model& model = models[random.bits() % models.size()];
+        const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
         const double radius = detail::radius_of(model);
         if (2.0 * radius > std::min(length, width)) continue;
         for (int trial = 0; trial < 100; ++trial) {
@@ -31678,7 +31864,8 @@ namespace detail {
         if (std::hypot(x - sensor.x(), y - sensor.y()) < options.nearest) continue;
         return at(x, y, z) * yaw(degrees(random.uniform(-180.0, 180.0)));
     }
-    throw std::invalid_argument("object_view_options: all places are too near to the sensor");
+    GNOMON_THROW(
+        std::invalid_argument("object_view_options: all places are too near to the sensor"));
 }
 
 }  // namespace detail

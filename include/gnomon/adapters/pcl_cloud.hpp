@@ -19,6 +19,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/exceptions.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
@@ -134,8 +135,8 @@ template <detail::pcl_cloud_of_labels C>
         constexpr auto none = std::numeric_limits<std::uint32_t>::max();
         if (label > static_cast<std::uint32_t>(std::numeric_limits<std::int32_t>::max()) &&
             label != none)
-            throw error("PCL cloud", "point " + std::to_string(result.size()),
-                        "the label " + std::to_string(label) + " has more than 31 bits");
+            GNOMON_THROW(error("PCL cloud", "point " + std::to_string(result.size()),
+                               "the label " + std::to_string(label) + " has more than 31 bits"));
         result.push_back(label == none ? unlabeled : static_cast<std::int32_t>(label));
     }
     return result;

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/exceptions.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/property.hpp>
@@ -71,15 +72,16 @@ template <class = void>  // a template, so that unused readers cost no compile t
         for (const double value : field.values) {
             if (!((value >= -1.0 && value <= most && value == std::trunc(value)) ||
                   value == unsigned_unlabeled))
-                throw error("scan", "point " + std::to_string(result.size()),
-                            "field \"" + name + "\" is not a label: " + std::to_string(value));
+                GNOMON_THROW(
+                    error("scan", "point " + std::to_string(result.size()),
+                          "field \"" + name + "\" is not a label: " + std::to_string(value)));
             result.push_back(value > most ? -1 : static_cast<std::int32_t>(value));
         }
         return result;
     }
-    throw error(
+    GNOMON_THROW(error(
         "scan", "",
-        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}");
+        "there is no field \"" + name + "\": read the file with {\"" + name + "\"} or {\"*\"}"));
 }
 
 }  // namespace gnomon::io

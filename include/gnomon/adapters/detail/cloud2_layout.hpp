@@ -17,6 +17,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/exceptions.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/io/detail/encode_columns.hpp>
@@ -46,7 +47,7 @@ concept point_cloud2_message = requires(M m) {
 
 /// Throws an error about a field.
 [[noreturn]] inline void fail_cloud2(const std::string& field, const std::string& message) {
-    throw error("PointCloud2", field.empty() ? "" : "field \"" + field + "\"", message);
+    GNOMON_THROW(error("PointCloud2", field.empty() ? "" : "field \"" + field + "\"", message));
 }
 
 /// Where `scan_builder` reports errors.
