@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""A header as doxygen is to read it: input filter of docs/site/Doxyfile.
+"""Copies the headers of a folder as doxygen is to read them:
+
+    header_filter.py FOLDER COPY
 
 - Deduction guides are left out: they have the name of their class.
 - `explicit(...)` is `explicit`, as doxygen 1.9.4 takes the parentheses for a function's.
@@ -73,11 +75,16 @@ def one_by_one(text):
 
 
 def main():
-    path = pathlib.Path(sys.argv[1])
-    text = path.read_text(encoding="utf-8")
-    text = GUIDE.sub(lambda guide: "\n" * guide[0].count("\n"), text)
-    text = re.sub(r"\bexplicit\([^()]*\)", "explicit", text)
-    sys.stdout.write(one_by_one(with_comments(text, path.parent.name)))
+    folder, copy = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    for path in sorted(folder.rglob("*.hpp")):
+        if "detail" in path.parts:
+            continue
+        text = path.read_text(encoding="utf-8")
+        text = GUIDE.sub(lambda guide: "\n" * guide[0].count("\n"), text)
+        text = re.sub(r"\bexplicit\([^()]*\)", "explicit", text)
+        target = copy / path.relative_to(folder)
+        target.parent.mkdir(parents=True, exist_ok=True)
+        target.write_text(one_by_one(with_comments(text, path.parent.name)), encoding="utf-8")
 
 
 main()
