@@ -119,11 +119,13 @@ class Site:
 
         def code(span):
             text = span[1].replace("&", "&amp;").replace("<", "&lt;").replace(">", "&gt;")
-            return f"<code>{text.replace('@', '&#64;').replace('%', '&#37;').replace('#', '&#35;')}</code>"
+            # What doxygen would read as a command, a link or emphasis.
+            return "<code>" + re.sub(r"::|[@%#*\\]", lambda c: "\\" + c[0], text) + "</code>"
 
         def name(span):
-            known = self.short.get(re.sub(r"(<>)?(\(\)|\{\})?$", "", span[1]))
-            return keep(f'<a href="{known}">{code(span)}</a>' if known else code(span))
+            called = re.match(r"([\w:]+)(<.*>)?([({].*[)}])?$", span[1])
+            known = self.short.get(called[1]) if called else None
+            return keep(f'<a href="{known}">{code(span)}</a>' if known else span[0])
 
         def link(found):
             target = found["target"]

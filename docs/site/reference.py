@@ -3,15 +3,14 @@
 
 import dataclasses
 import pathlib
+import re
 import sys
 import xml.etree.ElementTree
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-# pylint: disable=wrong-import-position
-from cpp_source import INCLUDE_DIR, KINDS, TYPES, is_friend, namespace_at, code_only, tags  # noqa: E402
-import re  # noqa: E402
+from cpp_source import INCLUDE_DIR, KINDS, TYPES, is_friend, namespace_at, code_only, tags
 
 
 @dataclasses.dataclass(frozen=True)
@@ -23,6 +22,19 @@ class Name:
     @property
     def short(self):
         return self.full.rpartition("::")[2]
+
+
+def is_in_function(header, line):
+    """Whether a line of a header is within braces that are no namespace's: of some functions ctags takes
+    the local variables for those of a namespace."""
+    code = code_only((INCLUDE_DIR / header).read_text(encoding="utf-8")).split("\n")
+    depths = []
+    for brace in re.finditer(r"\bnamespace\s+[\w:]+\s*\{|[{}]", "\n".join(code[:line - 1])):
+        if brace[0] == "}":
+            depths.pop()
+        else:
+            depths.append(brace[0] != "{")
+    return not all(depths)
 
 
 def public_names():
@@ -37,6 +49,8 @@ def public_names():
         if "detail" in scope.split("::") or "/detail/" in tag["path"] or tag["kind"] not in KINDS:
             continue
         if name.startswith(("operator", "__anon")) or is_friend(INCLUDE_DIR, tag):
+            continue
+        if is_in_function(tag["path"], tag["line"]):
             continue
         here = Name(f"{scope}::{name}", tag["kind"], tag["path"])
         known = found.get(here.full)
