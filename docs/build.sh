@@ -32,7 +32,7 @@ rm -rf "$GNOMON_SITE/files" "$GNOMON_SITE/search"
 rm -f "$GNOMON_SITE"/*.html
 python3 docs/site/header_filter.py include "$scratch/include"
 GNOMON_HTML=NO doxygen docs/site/Doxyfile || true  # warnings come again
-python3 docs/site/make_pages.py "$scratch/tags.xml" "$scratch/pages" "$GNOMON_SITE"
+python3 docs/site/make_pages.py "$scratch/tags.xml" "$scratch/include" "$scratch/pages" "$GNOMON_SITE"
 GNOMON_HTML=YES doxygen docs/site/Doxyfile || {
     sed "s#$scratch/##g" "$scratch/warnings"
     exit 1

@@ -3,10 +3,11 @@
 """Writes the pages of the site for doxygen: those of docs/ with links that lead to pages of the site, a
 start page from README.md, a page for each floor from its headers, and sources that pages link.
 
-    make_pages.py TAGS PAGES SITE
+    make_pages.py TAGS HEADERS PAGES SITE
 
-TAGS is a tag file of doxygen for the headers alone; from it come the addresses of names. Pages go to
-the folder PAGES, pictures and other files that pages link to SITE/files.
+TAGS is a tag file of doxygen for the headers alone; from it come the addresses of names. In the comments
+of HEADERS, the copies that header_filter.py made, names in `backticks` become links. Pages go to the
+folder PAGES, pictures and other files that pages link to SITE/files.
 """
 
 import os
@@ -109,6 +110,14 @@ class Site:
         shutil.copyfile(ROOT / path, target)
         return f"files/{path}"
 
+    def title(self, target, base):
+        """What a link says that on GitHub is the path of a page: its title, or the path."""
+        path = ROOT / os.path.normpath(os.path.join(base, target.partition("#")[0]))
+        if path.suffix != ".md":
+            return "concepts" if path.name == "concepts" else path.relative_to(ROOT).as_posix()
+        title = re.search(r"^# (.*)$", path.read_text(encoding="utf-8"), re.M)[1]
+        return title if title.startswith("`") else f"*{title}*"
+
     def line(self, text, base, page=None):
         """Markdown with links to the site."""
         parts = []
@@ -133,7 +142,7 @@ class Site:
                 address = f"#{page}-{target[1:]}"
             else:
                 address = self.address(target, base)
-            text = SPAN.sub(code, found["text"])
+            text = SPAN.sub(code, self.title(target, base) if found["text"] in target else found["text"])
             if address is None:
                 return text
             if found["image"]:
@@ -220,7 +229,7 @@ def floor_page(site, floor, question, held):
         names = sorted({name.full: name for name in site.names.values() if name.header == header}.items())
         links = ", ".join(f'<a href="{site.reference.address(name)}"><code>{name.short}</code></a>'
                           for _, name in names if site.reference.address(name))
-        about = site.line(first_sentence(header).replace("|", "&#124;").replace("*", ""), "")
+        about = site.line(first_sentence(header).replace("|", "\\|").replace("*", ""), "")
         file = header.rpartition("/")[2]
         lines.append(f'| <a href="{site.reference.headers[header]}">{file}</a> | {about} | {links} |')
     site.write(f"floor-{floor}", "\n".join(lines))
@@ -233,7 +242,7 @@ def start_page(site, readme):
     lines = ["# gnomon {#mainpage}", site.line(intro, ""), "", "## Two commands {#commands}",
              site.line(section(readme, "Two commands"), ""),
              "## Where to go {#where-to-go}", "", site.line(table, ""),
-             "## By floor {#floors}", "", "| floor | what it answers |", "|---|---|"]
+             "## What it holds {#what-it-holds}", "", "| floor | what it answers |", "|---|---|"]
     lines += [f'| <a href="floor-{name}.html">{name}</a> | {question} |' for name, question in rows]
     lines += ["", "Dependencies go one way, upwards in this table.", "", "## Pages {#site-pages}", ""]
     for path in ("docs/in-a-result.md", "docs/questions.md", "docs/coming-from.md", "docs/gallery.md",
@@ -241,7 +250,8 @@ def start_page(site, readme):
                  "docs/thesis-notes.md", "CHANGELOG.md"):
         lines.append(f"- {site.link_to(path)}")
     lines += ['- <a href="concept-pages.html">Concepts</a>: the policies that can be your own, with their laws',
-              '- <a href="annotated.html">All types</a>, <a href="files.html">all headers</a>',
+              '- <a href="annotated.html">All types</a>, <a href="files.html">all headers</a>, '
+              '<a href="pages.html">all pages</a>',
               "", "## In every call {#every-call}", "",
               "The order of arguments is the same everywhere: points, neighborhood or graph, surface, "
               "segments, policy and options, execution, projection. "
@@ -259,8 +269,34 @@ def concept_list(site):
         intuition = " ".join(re.search(r"## Intuition\n\n(.*?)\n\n", text, re.S)[1].split())
         first = re.split(r"(?<=[.:]) ", intuition)[0].rstrip(":.") + "."
         path = page.relative_to(ROOT).as_posix()
-        lines.append(f"| {site.link_to(path)} | {site.line(first, 'docs/concepts')} |")
+        lines.append(f"| \\subpage {page_id(path)} | {site.line(first, 'docs/concepts')} |")
     site.write("concept-pages", "\n".join(lines))
+
+
+def list_of_pages(site, pages, rows):
+    """Pages above the others: the menu at the side shows what is in them."""
+    parts = {
+        "floors": ("By floor", [f"floor-{name}" for name, _ in rows]),
+        "guides": ("Guides", [page_id(path) for path in pages if re.match(r"docs/[^/]*$", path)]),
+        "results-pages": ("Results", [page_id(path) for path in pages if "/results/" in path]),
+        "sources": ("Sources that pages link", [page_id(path) for path in sorted(site.sources)]),
+    }
+    for page, (title, children) in parts.items():
+        items = "\n".join(f"- \\subpage {child}" for child in children)
+        site.write(page, f"# {title} {{#{page}}}\n\n{items}")
+
+
+def with_links(text, site):
+    """A header with links in its comments, but for blocks of code and names of members in it."""
+    def link(span):
+        name = span[1]
+        if name not in site.short or re.search(rf"[\w>&*\]] {name}(?: = [^;]*|\{{[^;]*)?;", text):
+            return span[0]
+        return f'<a href="{site.short[name]}"><code>{name}</code></a>'
+
+    def comment(line):
+        return line[0] if line[1] else re.sub(r"`(\w+)`", link, line[0])
+    return re.sub(r"///<?(     )?.*$", comment, text, flags=re.M)
 
 
 def side_by_side(text):
@@ -269,17 +305,20 @@ def side_by_side(text):
 
     def columns(run):
         cells = re.findall(block, run[0] + "\n", re.S)
-        return ('<div class="side-by-side">\n'
-                + "".join(f"<div>\n\n{cell}\n</div>\n" for cell in cells) + "</div>\n\n")
+        return ('<table class="side-by-side"><tr>\n'
+                + "".join(f"<td>\n\n{cell}\n</td>\n" for cell in cells) + "</tr></table>\n\n")
     return re.sub(rf"(?:{block}){{2,}}", columns, text, flags=re.S)
 
 
 def main():
-    site = Site(*sys.argv[1:4])
+    site = Site(sys.argv[1], *sys.argv[3:5])
+    for header in pathlib.Path(sys.argv[2]).rglob("*.hpp"):
+        header.write_text(with_links(header.read_text(encoding="utf-8"), site), encoding="utf-8")
     site.pages.mkdir(parents=True, exist_ok=True)
     readme = (ROOT / START).read_text(encoding="utf-8")
     start_page(site, readme)
-    for floor, question, held in floors(readme):
+    rows = floors(readme)
+    for floor, question, held in rows:
         floor_page(site, floor, question, held)
     concept_list(site)
     pages = ["CHANGELOG.md"] + [page.relative_to(ROOT).as_posix() for page in sorted((ROOT / "docs").rglob("*.md"))]
@@ -289,6 +328,7 @@ def main():
     for path in site.sources:
         code = (ROOT / path).read_text(encoding="utf-8")
         site.write(page_id(path), f"# {path} {{#{page_id(path)}}}\n\n{fenced('cpp', code)}")
+    list_of_pages(site, pages, [(name, question) for name, question, _ in rows])
 
 
 main()
