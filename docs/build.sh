@@ -37,8 +37,6 @@ GNOMON_HTML=YES doxygen docs/site/Doxyfile || {
     sed "s#$scratch/##g" "$scratch/warnings"
     exit 1
 }
-# Of types whose nested types are private, doxygen links a list of these that it does not print.
-grep -L 'name="nested-classes"' "$GNOMON_SITE"/*.html |
-    xargs sed -i 's/<a href="#nested-classes">Classes<\/a> *\(&#124; *\)\{0,1\}//'
+python3 docs/site/finish.py "$GNOMON_SITE" "$scratch/tags.xml"
 if $check; then python3 docs/site/check_site.py "$GNOMON_SITE" "$scratch/tags.xml"; fi
 echo "Site: $GNOMON_SITE/index.html"

@@ -66,7 +66,7 @@ int main(int argc, char** argv) try {
     // [descriptors]
     const gnomon::spatial_index index(clean);
     const gnomon::point_descriptors shapes =
-        gnomon::describe_points(index, surface, gnomon::shape_context{.radius = 0.2});
+        gnomon::describe_points(index, surface, gnomon::shape_context{.radius = 0.1});
     // [descriptors]
 
     // [write]

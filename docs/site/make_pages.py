@@ -219,19 +219,21 @@ def floor_page(site, floor, question, held):
     if umbrella in site.reference.headers:
         lines += [first_sentence(umbrella), "", f'~~~{{.cpp}}\n#include <{umbrella}>\n~~~', ""]
     if held:
-        lines += ["Holds " + site.line(held, ""), ""]
+        lines += ["Holds " + site.line(held, "") + ".", ""]
     if floor in PICTURES:
         lines += [site.line(f"![{PICTURES[floor][1]}]({PICTURES[floor][0]})", ""), "",
                   f"*{PICTURES[floor][1]}.*", ""]
     lines += ["Read on: " + ", ".join(site.link_to(path) for path in PAGES[floor]) + ".", ""]
-    lines += ["| header | what it is about | names |", "|---|---|---|"]
+    lines += ['<table class="floor">', "<tr><th>header</th><th>what it is about</th><th>names</th></tr>"]
     for header in headers:
         names = sorted({name.full: name for name in site.names.values() if name.header == header}.items())
         links = ", ".join(f'<a href="{site.reference.address(name)}"><code>{name.short}</code></a>'
                           for _, name in names if site.reference.address(name))
-        about = site.line(first_sentence(header).replace("|", "\\|").replace("*", ""), "")
+        about = site.line(first_sentence(header).replace("*", ""), "")
         file = header.rpartition("/")[2]
-        lines.append(f'| <a href="{site.reference.headers[header]}">{file}</a> | {about} | {links} |')
+        lines.append(f'<tr><td><a href="{site.reference.headers[header]}">{file}</a></td>'
+                     f"<td>{about}</td><td>{links}</td></tr>")
+    lines.append("</table>")
     site.write(f"floor-{floor}", "\n".join(lines))
 
 

@@ -1,0 +1,33 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: BSL-1.0
+"""Mends pages that doxygen wrote:
+
+    finish.py SITE TAGS
+
+- The line with the include of a type links the page of its header, which has the idea and its sources.
+- Of types whose nested types are private, doxygen links a list of these that it does not print.
+"""
+
+import pathlib
+import re
+import sys
+
+from reference import Reference
+
+LIST = re.compile(r'<a href="#nested-classes">Classes</a> *(?:&#124; *)?')
+INCLUDE = re.compile(r"<code>#include &lt;([\w/.]+)&gt;</code>")
+
+
+def main():
+    headers = Reference(sys.argv[2]).headers
+    for page in pathlib.Path(sys.argv[1]).glob("*.html"):
+        text = page.read_text(encoding="utf-8")
+        mended = INCLUDE.sub(lambda found: f'<a href="{headers[found[1]]}">{found[0]}</a>'
+                             if found[1] in headers else found[0], text)
+        if 'name="nested-classes"' not in mended:
+            mended = LIST.sub("", mended)
+        if mended != text:
+            page.write_text(mended, encoding="utf-8")
+
+
+main()
