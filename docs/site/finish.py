@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
-"""Mends pages that doxygen wrote:
+"""Corrects pages that doxygen wrote:
 
     finish.py SITE TAGS
 
@@ -22,12 +22,12 @@ def main():
     headers = Reference(sys.argv[2]).headers
     for page in pathlib.Path(sys.argv[1]).glob("*.html"):
         text = page.read_text(encoding="utf-8")
-        mended = INCLUDE.sub(lambda found: f'<a href="{headers[found[1]]}">{found[0]}</a>'
+        corrected = INCLUDE.sub(lambda found: f'<a href="{headers[found[1]]}">{found[0]}</a>'
                              if found[1] in headers else found[0], text)
-        if 'name="nested-classes"' not in mended:
-            mended = LIST.sub("", mended)
-        if mended != text:
-            page.write_text(mended, encoding="utf-8")
+        if 'name="nested-classes"' not in corrected:
+            corrected = LIST.sub("", corrected)
+        if corrected != text:
+            page.write_text(corrected, encoding="utf-8")
 
 
 main()
