@@ -24,7 +24,7 @@ case ${1-} in
         ;;
 esac
 case ${1-} in
-    --help) sed -n 's/^# \{0,1\}//p' "$0" | sed '1,2d'; exit 0 ;;
+    --help) sed -n '3,8s/^# \{0,1\}//p' "$0"; exit 0 ;;
     -*) echo "build.sh: no option $1; see --help" >&2; exit 2 ;;
     /*) GNOMON_SITE=$1 ;;
     ?*) GNOMON_SITE=$PWD/$1 ;;

@@ -4,7 +4,8 @@
 
     header_filter.py FOLDER COPY
 
-- Deduction guides are left out: they have the name of their class.
+- Deduction guides are left out: they have the name of their class. So are overloads that refuse a call,
+  by their comment, which exist for their messages.
 - `explicit(...)` is `explicit`, as doxygen 1.9.4 takes the parentheses for a function's.
 - `double u = 0.0, v = 0.0;  ///< text` is one declaration with the text for each name.
 - Members without a comment that mean the same everywhere get the text of members.txt.
@@ -15,6 +16,8 @@ Lines keep their numbers.
 import pathlib
 import re
 import sys
+
+from reference import blank, code_only, end_of_bracket
 
 GUIDE = re.compile(r"^(?:template <[^\n]*>\n(?:    requires[^\n]*\n)?)?(\w+)\([^;{}]*\)\s*->\s*\1\b[^;]*;",
                    re.M)
@@ -54,6 +57,17 @@ def with_comments(text, folder):
     return "\n".join(lines)
 
 
+def without_refusals(text):
+    """The header without functions whose comment begins with "Refused"."""
+    for refusal in reversed(list(re.finditer(r"^ *(/// Refused.*\n)( *///.*\n)*", text, re.M))):
+        code, end = code_only(text), refusal.end()
+        while code[end] not in "{;":
+            end = end_of_bracket(code, end) if code[end] in "([" else end + 1
+        end = end_of_bracket(code, end) if code[end] == "{" else end + 1
+        text = text[:refusal.start()] + blank(text[refusal.start():end]) + text[end:]
+    return text
+
+
 def one_by_one(text):
     """The header, with a declaration for each name, on the same line."""
     lines = text.split("\n")
@@ -80,6 +94,7 @@ def main():
         if "detail" in path.parts:
             continue
         text = path.read_text(encoding="utf-8")
+        text = without_refusals(text)
         text = GUIDE.sub(lambda guide: "\n" * guide[0].count("\n"), text)
         text = re.sub(r"\bexplicit\([^()]*\)", "explicit", text)
         target = copy / path.relative_to(folder)

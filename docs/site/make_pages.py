@@ -51,6 +51,9 @@ PAGES = {
 }
 ADAPTERS = "what do other libraries give and take?"
 
+# Names that are those of members as a rule, where pages name them alone.
+MEMBERS = {"radius", "columns", "rows"}
+
 FENCE = re.compile(r"^```(?P<language>[^\n]*)\n(?P<code>.*?)^```$", re.M | re.S)
 LINK = re.compile(r"(?P<image>!?)\[(?P<text>(?:[^\[\]]|\[[^\]]*\])*)\]\((?P<target>[^()\s]+)\)")
 SPAN = re.compile(r"`([^`\n]+)`")
@@ -74,7 +77,7 @@ class Site:
         self.short = {}
         # A short name that several namespaces have is that of gnomon.
         for name in sorted(self.names.values(), key=lambda n: -n.full.count("::")):
-            if self.reference.address(name):
+            if self.reference.address(name) and name.short not in MEMBERS:
                 self.short[name.short] = self.reference.address(name)
         for name in self.names.values():
             if self.reference.address(name):

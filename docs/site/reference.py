@@ -10,7 +10,8 @@ import xml.etree.ElementTree
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.insert(0, str(ROOT / "tools"))
 
-from cpp_source import INCLUDE_DIR, KINDS, TYPES, is_friend, namespace_at, code_only, tags
+from cpp_source import (INCLUDE_DIR, KINDS, TYPES, blank, code_only, end_of_bracket, is_friend,
+                        namespace_at, tags)
 
 
 @dataclasses.dataclass(frozen=True)
