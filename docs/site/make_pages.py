@@ -227,28 +227,37 @@ def floor_page(site, floor, question, held):
         lines += [site.line(f"![{PICTURES[floor][1]}]({PICTURES[floor][0]})", ""), "",
                   f"*{PICTURES[floor][1]}.*", ""]
     lines += ["Read on: " + ", ".join(site.link_to(path) for path in PAGES[floor]) + ".", ""]
-    lines += ['<table class="floor">', "<tr><th>header</th><th>what it is about</th><th>names</th></tr>"]
+    rows = []
     for header in headers:
         names = sorted({name.full: name for name in site.names.values() if name.header == header}.items())
         links = ", ".join(f'<a href="{site.reference.address(name)}"><code>{name.short}</code></a>'
                           for _, name in names if site.reference.address(name))
         about = site.line(first_sentence(header).replace("*", ""), "")
         file = header.rpartition("/")[2]
-        lines.append(f'<tr><td><a href="{site.reference.headers[header]}">{file}</a></td>'
-                     f"<td>{about}</td><td>{links}</td></tr>")
-    lines.append("</table>")
+        rows.append([f'<a href="{site.reference.headers[header]}">{file}</a>', about, links])
+    lines.append(html_table(rows, ["header", "what it is about", "names"]))
     site.write(f"floor-{floor}", "\n".join(lines))
+
+
+def html_table(rows, heads):
+    """A table that becomes a list on a phone."""
+    def cells(row, tag):
+        return "".join(f"<{tag}>{cell}</{tag}>" for cell in row)
+    return "\n".join(['<table class="floor">', f"<tr>{cells(heads, 'th')}</tr>"]
+                     + [f"<tr>{cells(row, 'td')}</tr>" for row in rows] + ["</table>"])
 
 
 def start_page(site, readme):
     rows = [(name, question) for name, question, _ in floors(readme)]
     intro = readme[:readme.index("## Two commands")].split("\n", 1)[1]
-    table = re.search(r"^\| I want to .*?\n\n", readme, re.M | re.S)[0]
+    table = re.search(r"^\| I want to .*?\n\n", readme, re.M | re.S)[0].strip().split("\n")
+    wishes = [[site.line(cell.strip(), "") for cell in row.strip("|").split(" | ")] for row in table[2:]]
     lines = ["# gnomon {#mainpage}", site.line(intro, ""), "", "## Two commands {#commands}",
              site.line(section(readme, "Two commands"), ""),
-             "## Where to go {#where-to-go}", "", site.line(table, ""),
-             "## What it holds {#what-it-holds}", "", "| floor | what it answers |", "|---|---|"]
-    lines += [f'| <a href="floor-{name}.html">{name}</a> | {question} |' for name, question in rows]
+             "## Where to go {#where-to-go}", "", html_table(wishes, ["I want to", ""]), "",
+             "## What it holds {#what-it-holds}", "",
+             html_table([[f'<a href="floor-{name}.html">{name}</a>', question] for name, question in rows],
+                        ["floor", "what it answers"])]
     lines += ["", "Dependencies go one way, upwards in this table.", "", "## Pages {#site-pages}", ""]
     for path in ("docs/in-a-result.md", "docs/questions.md", "docs/coming-from.md", "docs/gallery.md",
                  "docs/terms.md", "docs/packages.md", "docs/versions.md", "docs/results.md",
