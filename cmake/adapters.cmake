@@ -2,6 +2,12 @@
 # Targets for the headers of gnomon/adapters/, each with the library that it adapts. The same file
 # serves the source tree and the installed package.
 
+# Before CMake 3.24, targets of a package are seen only in the directory that finds it and below.
+set(gnomon_global)
+if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.24)
+    set(gnomon_global GLOBAL)
+endif()
+
 # gnomon_adapter(NAME TARGET PACKAGE [options of find_package...]): gnomon::NAME, if PACKAGE is found
 # and has TARGET.
 function(gnomon_adapter name target package)
@@ -9,7 +15,7 @@ function(gnomon_adapter name target package)
         return()
     endif()
     if(NOT TARGET ${target})
-        find_package(${package} CONFIG QUIET GLOBAL)
+        find_package(${package} CONFIG QUIET ${gnomon_global})
     endif()
     if(TARGET ${target})
         add_library(gnomon::${name} INTERFACE IMPORTED GLOBAL)

@@ -5,7 +5,16 @@
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_DATADIR}/cmake/gnomon)
 
-install(TARGETS gnomon EXPORT gnomonTargets FILE_SET HEADERS FILE_SET adapters)
+# The include directory is named in addition to the file sets, which a CMake before 3.23 that finds
+# the package does not read.
+set(file_sets)
+if(CMAKE_VERSION VERSION_GREATER_EQUAL 3.23)
+    set(file_sets FILE_SET HEADERS FILE_SET adapters)
+else()
+    install(DIRECTORY include/gnomon DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
+endif()
+install(TARGETS gnomon EXPORT gnomonTargets ${file_sets}
+    INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})
 install(EXPORT gnomonTargets NAMESPACE gnomon:: DESTINATION ${package_dir})
 
 configure_package_config_file(

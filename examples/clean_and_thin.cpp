@@ -13,6 +13,7 @@
 
 #include <gnomon/filters.hpp>
 #include <gnomon/gnomon.hpp>
+#include <gnomon/io/read_las.hpp>
 #include <gnomon/simulation.hpp>
 
 namespace sim = gnomon::simulation;

@@ -20,6 +20,7 @@
 #include "measure_a_room/survey.hpp"
 #include "picture/picture.hpp"
 #include <gnomon/gnomon.hpp>
+#include <gnomon/io/read_las.hpp>
 #include <gnomon/perception.hpp>
 
 namespace {

@@ -25,6 +25,7 @@
 #include <gnomon/adapters/json_model.hpp>
 #include <gnomon/gnomon.hpp>
 #include <gnomon/io.hpp>
+#include <gnomon/io/read_las.hpp>
 
 namespace {
 

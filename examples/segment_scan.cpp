@@ -27,6 +27,7 @@
 #include <gnomon/adapters/json_model.hpp>
 #include <gnomon/features/segment_shape.hpp>
 #include <gnomon/gnomon.hpp>
+#include <gnomon/io/read_las.hpp>
 #include <gnomon/perception.hpp>
 #include <gnomon/simulation.hpp>
 

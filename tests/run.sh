@@ -3,8 +3,13 @@
 # Installs what is missing, builds everything in build/release (but what is around libraries not
 # installed here, which benchmarks/reproduce.sh builds), and runs all tests:
 #     sh tests/run.sh [options of ctest]      or only the first part:  sh tests/run.sh --set-up-only
+# With --matrix, only what tests/matrix.sh does: other compilers and platforms.
 set -eu
 root=$(cd "$(dirname "$0")/.." && pwd)
+if [ "${1-}" = --matrix ]; then
+    shift
+    exec sh "$root/tests/matrix.sh" "$@"
+fi
 . "$root/tools/setup.sh"
 # shellcheck disable=SC2086  # lists of words
 set_up $build_packages $example_packages libgtest-dev libbenchmark-dev libcgal-dev python3 \

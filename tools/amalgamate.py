@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: BSL-1.0
 """Makes single_include/gnomon/gnomon.hpp out of gnomon/gnomon.hpp, those of filters, images, shapes,
-descriptors, perception, the simulator and all that they include.
+descriptors, further file formats, perception, the simulator and all that they include.
 
     amalgamate.py                  writes the file in the repository
     amalgamate.py --check          compares that file with what would be written
@@ -89,7 +89,9 @@ def main():
     amalgamation = Amalgamation()
     for umbrella in ("gnomon/gnomon.hpp", "gnomon/filters.hpp",
                      *(f"gnomon/features/{name}.hpp" for name in FEATURES),
-                     "gnomon/segmentation/segment_image.hpp", "gnomon/perception.hpp",
+                     "gnomon/segmentation/segment_image.hpp", "gnomon/io/read_las.hpp",
+                     "gnomon/io/write_las.hpp", "gnomon/io/write_pcd.hpp",
+                     "gnomon/io/label_properties.hpp", "gnomon/perception.hpp",
                      "gnomon/simulation.hpp"):
         amalgamation.take(umbrella)
     text = amalgamation.text()

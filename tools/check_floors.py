@@ -4,7 +4,8 @@
 
 A header sees its own floor and the floors below; simulation and io see core alone. Umbrellas
 contain includes only: gnomon/<floor>.hpp every public header of its floor (but the registry, which
-needs Boost, and the headers of organized images, shapes and descriptors, which few need), gnomon.hpp
+needs Boost, and the headers of organized images, shapes, descriptors and of further file formats,
+which few need), gnomon.hpp
 every umbrella but those of the filters, of recognition and of the simulator. gnomon/perception.hpp, which composes
 all floors, is in no umbrella and is included by name. Adapters to other libraries see all floors,
 and no header sees them; they have no umbrella. Some foreign headers are kept out, for what they cost
@@ -57,6 +58,9 @@ OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "surface_fit", "fit_sphere", "fit_cylinder", "fit_cone",
     "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
     "zernike_descriptor")}
+# Formats beyond what most scans come in.
+OUTSIDE |= {f"gnomon/io/{name}.hpp" for name in ("read_las", "write_las", "write_pcd",
+                                                "label_properties")}
 # The floors whose umbrellas are included by name; adapters have none.
 NOT_IN_GNOMON = {"filters", "perception", "recognition", "simulation", "adapters"}
 CMATH_HOME = "gnomon/core/detail/cmath.hpp"

@@ -16,7 +16,7 @@
 inline constexpr const char* usage =
     R"(usage: measure_a_room [SCAN] --out DIR [options]
 
-Measures the room in SCAN (PLY, PCD, VTK or text; coordinates in metres): floor, ceiling,
+Measures the room in SCAN (PLY, PCD, LAS, VTK or text; coordinates in metres): floor, ceiling,
 walls, doors and windows, and the lengths of these with their standard deviations.
 Without SCAN, a simulated room. Writes room.png, a floor plan, and room.json into DIR.
 

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Which color has a segment? Labels count from the largest segment down, so that the colors that
-/// differ most go to those that are seen most.
+/// Which color has a segment, and what surrounds it? Segments have the colors of their labels.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+
+#include <gnomon/io/label_properties.hpp>
 
 namespace picture {
 
@@ -26,19 +27,8 @@ inline constexpr color no_segment{150, 152, 156};
     return c;
 }
 
-/// The color of a label: twenty of them, then the same ones lighter; grey for the unlabeled.
-[[nodiscard]] inline color color_of(std::int32_t label) {
-    static constexpr std::array<color, 20> colors{{
-        {66, 133, 200},  {240, 140, 45},  {70, 165, 90},   {214, 65, 70},   {145, 105, 190},
-        {64, 190, 200},  {225, 105, 175}, {190, 185, 50},  {155, 100, 70},  {95, 95, 215},
-        {245, 195, 60},  {25, 130, 130},  {250, 130, 115}, {135, 200, 75},  {165, 45, 115},
-        {120, 180, 240}, {200, 130, 20},  {110, 125, 50},  {205, 140, 225}, {70, 85, 130},
-    }};
-    if (label < 0) return no_segment;
-    const auto number = static_cast<std::size_t>(label);
-    const double lightness = 0.25 * static_cast<double>((number / colors.size()) % 3);
-    return mixed(colors[number % colors.size()], white, lightness);
-}
+/// The color of a label, that which files have.
+[[nodiscard]] inline color color_of(std::int32_t label) { return gnomon::io::label_color(label); }
 
 /// Steps from calm to alarming: 0 is green, 5 is red; the last is also that of all beyond.
 [[nodiscard]] inline color warning_color(std::int32_t step) {

@@ -15,7 +15,7 @@
 inline constexpr const char* usage =
     R"(usage: recognize_scan SCAN --model MODEL --out DIR [options]
 
-Recognizes objects in SCAN (PLY, PCD, VTK or text; coordinates in metres): removes floor,
+Recognizes objects in SCAN (PLY, PCD, LAS, VTK or text; coordinates in metres): removes floor,
 ceiling and walls, finds surfaces, groups those that are at most 10 cm apart into views of
 objects, and decides which class of MODEL, a file of learn_objects, each view shows. Writes
 labeled.ply, recognized.png and objects.json into DIR.

@@ -20,7 +20,7 @@
 inline constexpr const char* usage =
     R"(usage: segment_scan [SCAN] --out DIR [options]
 
-Segments SCAN (PLY, PCD, VTK or text; coordinates in metres) into planes and smooth
+Segments SCAN (PLY, PCD, LAS, VTK or text; coordinates in metres) into planes and smooth
 surfaces, and merges planes that something occludes in part; without SCAN, a
 simulated kitchen. Writes normals.ply, segments.ply, segments.png and segments.json
 into DIR.

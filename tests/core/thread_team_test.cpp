@@ -106,14 +106,13 @@ TEST(thread_team, can_be_called_while_it_works) {
         const auto team = staying(gnomon::threads{n});
         const auto copy = team;
         std::atomic<int> done{0};
-        {
-            std::vector<std::jthread> callers;
-            for (int caller = 0; caller < 3; ++caller)
-                callers.emplace_back([&] {
-                    for (int call = 0; call < 100; ++call)
-                        team(4, [&](std::size_t) { copy(5, [&](std::size_t) { ++done; }); });
-                });
-        }
+        std::vector<std::thread> callers;
+        for (int caller = 0; caller < 3; ++caller)
+            callers.emplace_back([&] {
+                for (int call = 0; call < 100; ++call)
+                    team(4, [&](std::size_t) { copy(5, [&](std::size_t) { ++done; }); });
+            });
+        for (std::thread& caller : callers) caller.join();
         EXPECT_EQ(done, 3 * 100 * 20);
     }
 }

@@ -3,17 +3,20 @@
 #include <cmath>
 #include <cstddef>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "io_test_support.hpp"
+#include "las_test_support.hpp"
 #include "shared_file.hpp"
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/read.hpp>
+#include <gnomon/io/read_las.hpp>  // where included, LAS files are read
 
 namespace {
 
@@ -27,7 +30,10 @@ const std::vector<std::string> one_cloud = {
     "# by a tool\n of mine\nVERSION .7\nFIELDS x y z\nPOINTS 2\nDATA ascii\n1 2 3\n4.5 5 6\n",
     "# vtk DataFile Version 2.0\n\nASCII\nDATASET POLYDATA\nPOINTS 2 double\n1 2 3 4.5 5 6\n",
     "# text\n1 2 3\n4.5 5 6\n",
-    "x,y,z\n1,2,3\n4.5,5,6\n"};
+    "x,y,z\n1,2,3\n4.5,5,6\n",
+    io_test::las_bytes({.points = {{.x = 10, .y = 20, .z = 30}, {.x = 45, .y = 50, .z = 60}},
+                        .scale = {0.1, 0.1, 0.1},
+                        .offset = {0, 0, 0}})};
 
 TEST(io_read, detects_the_format_by_content) {
     for (const std::string& bytes : one_cloud) {
@@ -55,6 +61,18 @@ TEST(io_read, names_the_file_as_given) {
         EXPECT_EQ(std::string(e.what()), path + ", line 2: \"six\" is not a number");
     }
     EXPECT_THROW(static_cast<void>(gnomon::io::read(path + ".missing")), gnomon::error);
+}
+
+TEST(io_read, names_a_tool_for_what_it_does_not_read) {
+    io_test::expect_error(any_parser, "ASTM-E57" + std::string(100, '\0'), "byte 0",
+                          "pdal translate a.e57 a.las");
+    std::string laz = one_cloud.back();
+    laz[104] = '\x80';
+    io_test::expect_error(any_parser, laz, "byte 104", "laszip -i a.laz -o a.las");
+    // As in a program that does not include the reader.
+    const auto reader = std::exchange(gnomon::io::detail::las_reader, nullptr);
+    io_test::expect_error(any_parser, one_cloud.back(), "byte 0", "<gnomon/io/read_las.hpp>");
+    gnomon::io::detail::las_reader = reader;
 }
 
 TEST(io_read, survives_any_bytes) {

@@ -68,7 +68,7 @@ TEST(lanes, measure_from_segments) {
         }
         const lanes d2 = segment.squared_distances(points);
         const float limit = 0.1f * any();
-        const std::uint32_t near = segment.near(instructions, boxes, limit);
+        const std::uint32_t near = segment.nearby(instructions, boxes, limit);
         for (std::size_t l = 0; l < lane_count; ++l) {
             const Eigen::Vector3d d(points.x[l] - from[0], points.y[l] - from[1],
                                     points.z[l] - from[2]);

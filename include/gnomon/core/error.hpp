@@ -2,12 +2,15 @@
 /// @file
 /// Error reporting. Bad data gives results whose `trust` is not usable; a broken file throws
 /// `gnomon::error`; an invalid argument (k = 0, a negative radius) throws `std::invalid_argument`.
-/// The library prints nothing.
+/// The library prints nothing, except where exceptions are turned off (-fno-exceptions): there,
+/// what would be thrown prints its message on stderr and aborts the program.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 #include <utility>
+
+#include <gnomon/core/detail/exceptions.hpp>
 
 namespace gnomon {
 
@@ -38,7 +41,7 @@ namespace detail {
 /// Checks an argument of a public function. O(1).
 /// @throws std::invalid_argument  with `message` unless `condition` holds
 constexpr void require(bool condition, const char* message) {
-    if (!condition) throw std::invalid_argument(message);
+    if (!condition) GNOMON_THROW(std::invalid_argument(message));
 }
 
 }  // namespace detail

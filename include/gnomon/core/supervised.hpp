@@ -16,6 +16,7 @@
 #include <type_traits>
 #include <utility>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 
 namespace gnomon {
@@ -90,7 +91,7 @@ class supervised {
     /// @throws stopped  once a stop is requested; what the algorithm was to return is lost
     void operator()(std::size_t chunks, std::invocable<std::size_t> auto&& work) const {
         run_(chunks, [&](std::size_t c) {
-            if (stop_.stop_requested()) throw stopped();
+            if (stop_.stop_requested()) GNOMON_THROW(stopped());
             work(c);
         });
     }
@@ -98,7 +99,7 @@ class supervised {
     /// Announces that step number `step` of `steps` begins.
     /// @throws stopped  if a stop is requested
     void begin_step(const char* name, std::size_t step, std::size_t steps) const {
-        if (stop_.stop_requested()) throw stopped();
+        if (stop_.stop_requested()) GNOMON_THROW(stopped());
         on_step_(name, step, steps);
         detail::begin_step(run_, name, step, steps);
     }

@@ -30,7 +30,7 @@ struct input {
         void operator()(std::FILE* file) const { std::fclose(file); }
     };
     const std::unique_ptr<std::FILE, closer> file(std::fopen(path.c_str(), "rb"));
-    if (!file) throw detail::os_error(path, errno);
+    if (!file) GNOMON_THROW(detail::os_error(path, errno));
 
     // Reads until the end instead of querying the size: pipes have no size, and the C library has
     // no portable 64-bit query.
@@ -40,7 +40,7 @@ struct input {
         bytes.resize(std::max<std::size_t>(2 * size, 1 << 16));
         size += std::fread(bytes.data() + size, 1, bytes.size() - size, file.get());
     } while (size == bytes.size());
-    if (std::ferror(file.get()) != 0) throw detail::os_error(path, errno);
+    if (std::ferror(file.get()) != 0) GNOMON_THROW(detail::os_error(path, errno));
     bytes.resize(size);
     return {path, std::move(bytes)};
 }

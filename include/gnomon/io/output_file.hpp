@@ -31,7 +31,7 @@ class output_file {
             file_ = std::fopen(temporary_.c_str(), "wbx");
             if (file_ == nullptr && errno != EEXIST) break;
         }
-        if (file_ == nullptr) throw detail::os_error(path_, errno);
+        if (file_ == nullptr) GNOMON_THROW(detail::os_error(path_, errno));
     }
 
     output_file(const output_file&) = delete;
@@ -46,19 +46,20 @@ class output_file {
     /// @throws gnomon::error  with the operating system's message, e.g. if the disk is full
     void write(std::string_view bytes) {
         if (std::fwrite(bytes.data(), 1, bytes.size(), file_) != bytes.size())
-            throw detail::os_error(path_, errno);
+            GNOMON_THROW(detail::os_error(path_, errno));
     }
 
     /// Renames the temporary file to its final name and replaces an existing file. Precondition:
     /// not committed.
     /// @throws gnomon::error  with the operating system's message, if writing or renaming fails
     void commit() {
-        if (std::fclose(std::exchange(file_, nullptr)) != 0) throw detail::os_error(path_, errno);
+        if (std::fclose(std::exchange(file_, nullptr)) != 0)
+            GNOMON_THROW(detail::os_error(path_, errno));
 #ifdef _WIN32
         std::remove(path_.c_str());  // rename does not replace files on Windows
 #endif
         if (std::rename(temporary_.c_str(), path_.c_str()) != 0)
-            throw detail::os_error(path_, errno);
+            GNOMON_THROW(detail::os_error(path_, errno));
         temporary_.clear();
     }
 

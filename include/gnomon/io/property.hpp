@@ -70,6 +70,14 @@ namespace detail {
 template <class T>
 concept scalar = std::is_arithmetic_v<T> || std::is_enum_v<T>;
 
+/// The type of the numbers of a range: bool, where a std::vector<bool> has a proxy for it.
+template <class R, class Proj, class T = gnomon::detail::projected_element_t<R, Proj>>
+using number_t = std::conditional_t<
+    !scalar<T> &&
+        std::same_as<std::iter_value_t<decltype(std::ranges::begin(std::declval<const R&>()))>,
+                     bool>,
+    bool, T>;
+
 /// The type in the file for values of type T. PLY has no 64-bit integers: they become float64,
 /// which is exact up to 2^53.
 template <scalar T>
@@ -127,9 +135,9 @@ template <class Vector>
 /// @param projection  maps an element to an arithmetic value, bool or enumerator
 /// @return a column whose type holds all values; 64-bit integers become float64
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
-    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
+    requires detail::scalar<detail::number_t<R, Proj>>
 [[nodiscard]] property scalar_property(std::string name, const R& range, Proj projection = {}) {
-    using number = gnomon::detail::projected_element_t<R, Proj>;
+    using number = detail::number_t<R, Proj>;
     return {std::move(name), detail::field_type_for<number>(),
             static_cast<std::size_t>(std::ranges::size(range)),
             detail::converted(range, std::move(projection),
@@ -201,7 +209,7 @@ void field_properties(const scan&& points, const properties& others = {}) = dele
 
 // The columns refer to the range, so a temporary range is an error.
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
-    requires detail::scalar<gnomon::detail::projected_element_t<R, Proj>>
+    requires detail::scalar<detail::number_t<R, Proj>>
 void scalar_property(std::string name, const R&& range, Proj projection = {}) = delete;
 template <gnomon::detail::indexed_range R, class Proj = std::identity>
     requires point_range<R, Proj>

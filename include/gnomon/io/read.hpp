@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file. The format is detected from the contents,
-/// not from the file name.
+/// Reads a scan from a PLY, PCD, legacy VTK or XYZ file, and in programs that include
+/// <gnomon/io/read_las.hpp> from a LAS file. The format is detected from the contents, not from the
+/// file name.
 #pragma once
 
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <gnomon/core/error.hpp>
 #include <gnomon/core/scan.hpp>
+#include <gnomon/io/detail/las_reader.hpp>
 #include <gnomon/io/detail/number.hpp>
 #include <gnomon/io/detail/pcd_header.hpp>
 #include <gnomon/io/detail/splitter.hpp>
@@ -37,21 +40,39 @@ namespace detail {
     return false;
 }
 
+/// Refuses the formats that are not read here, with the name of a header or tool that does or that
+/// converts them.
+template <class = void>
+void refuse_unread(const input& file) {
+    const std::string_view bytes = file.bytes;
+    if (bytes.starts_with("LASF"))
+        throw error(file.name, "byte 0", "a LAS file: include <gnomon/io/read_las.hpp> to read it");
+    if (bytes.starts_with("ASTM-E57"))
+        throw error(file.name, "byte 0",
+                    "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
+                    "a.las\" or CloudCompare");
+}
+
 }  // namespace detail
 
 /// Parses a PLY, PCD, legacy VTK or XYZ file; see `read_ply`, `read_pcd`, `read_vtk`, `read_xyz`.
+/// LAS files are parsed by `read_las`, if a file of the program includes <gnomon/io/read_las.hpp>.
 /// @param file    name and contents of the file
 /// @param fields  names of further columns that become fields of the scan, in this order; "*"
 ///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
-/// @throws gnomon::error  if the file is damaged or a field is missing; the message lists the
-///                        fields of the file
+/// @throws gnomon::error  if the file is damaged or a field is missing (the message lists the
+///                        fields of the file), and for LAZ and E57 files (the message names a tool
+///                        that converts them)
 /// Complexity: O(bytes).
 template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
     const std::string_view first_line = detail::text_cursor(file).line().value_or("");
     if (detail::splitter(first_line).next() == "ply") return read_ply(file, fields);
     if (first_line.starts_with(detail::vtk_magic)) return read_vtk(file, fields);
+    if (first_line.starts_with("LASF") && detail::las_reader != nullptr)
+        return detail::las_reader(file, fields);
+    detail::refuse_unread(file);
     if (detail::looks_like_pcd(file)) return read_pcd(file, fields);
     return read_xyz(file, fields);
 }

@@ -129,9 +129,9 @@ struct noise_knn {
             auto end = std::partition(near_.begin(), near_.end(), [&](std::uint32_t at) {
                 return tree.squared_distance(place, at) <= within;
             });
-            const std::size_t fewest = std::min(policy_.fewest, near_.size());
-            if (static_cast<std::size_t>(end - near_.begin()) < fewest) {
-                end = near_.begin() + static_cast<std::ptrdiff_t>(fewest);
+            const std::size_t least = std::min(policy_.fewest, near_.size());
+            if (static_cast<std::size_t>(end - near_.begin()) < least) {
+                end = near_.begin() + static_cast<std::ptrdiff_t>(least);
                 std::partial_sort(near_.begin(), end, near_.end(),
                                   [&](auto a, auto b) { return key(a) < key(b); });
             }

@@ -140,8 +140,10 @@ struct raster {
 
     /// (A template of numbers for compile time only.)
     template <class Number = double>
-    [[nodiscard]] auto windows_of(const auto& positions, const viewpoint_table& viewpoints,
-                                  const detail::pixel_rectangle& part, const auto& run) const {
+    [[nodiscard]] detail::image_windows<Number> windows_of(const auto& positions,
+                                                           const viewpoint_table& viewpoints,
+                                                           const detail::pixel_rectangle& part,
+                                                           const auto& run) const {
         return detail::image_windows<Number>(positions, viewpoints, noise, part, radius,
                                              largest_radius(), precision.radians(), run);
     }

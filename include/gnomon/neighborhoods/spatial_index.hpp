@@ -77,17 +77,18 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
+        struct clear_unless_done {
+            spatial_index* index;
+            ~clear_unless_done() {
+                if (index != nullptr) index->clear();
+            }
+        } guard{this};
         kept.forget();
-        try {
-            detail::with_table_of(points, [this](auto&& table) {
-                viewpoints = std::forward<decltype(table)>(table);
-            });
-            epsilon_ = detail::epsilon_of<view>(points);
-            tree_.rebuild(view(points, std::move(projection)), run);
-        } catch (...) {
-            clear();
-            throw;
-        }
+        detail::with_table_of(
+            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
+        epsilon_ = detail::epsilon_of<view>(points);
+        tree_.rebuild(view(points, std::move(projection)), run);
+        guard.index = nullptr;
     }
 
     /// The number of points, finite or not.

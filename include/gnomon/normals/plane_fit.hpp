@@ -55,7 +55,7 @@ inline constexpr double smallest_gap = 1e-12;
 
 /// The same plane from the second moments themselves. (Not inline, as estimators call it in several
 /// places: for compile time only.)
-[[nodiscard, gnu::noinline]] inline plane_fit plane_of_least_spread(
+[[nodiscard, GNOMON_NOINLINE]] inline plane_fit plane_of_least_spread(
     const Eigen::Matrix3d& second_moments, double min_aspect_ratio) {
     if (has_finite_trace(second_moments))
         return plane_across(symmetric_eigen(second_moments), min_aspect_ratio);

@@ -176,12 +176,12 @@ class range_image {
     /// Stores the nearest point of each pixel, between two rows.
     void keep(auto& visible, std::size_t lowest, std::size_t highest) {
         constexpr std::size_t few = 32;  // pixels per point (performance only)
-        const std::size_t pixels = (highest - lowest + 1) * width_;
+        const std::uint64_t pixels = std::uint64_t{highest - lowest + 1} * width_;
         if (pixels / few <= visible.size()) {
-            first_ = lowest * width_;
-            seen_.resize(pixels);
+            first_ = std::uint64_t{lowest} * width_;
+            seen_.resize(static_cast<std::size_t>(pixels));
             for (const sight& s : visible) {
-                view& v = seen_[s.place - first_];
+                view& v = seen_[static_cast<std::size_t>(s.place - first_)];
                 if (v.range < 0.0 || s.what.range < v.range) v = s.what;
             }
             return;
@@ -200,7 +200,7 @@ class range_image {
     }
 
     [[nodiscard]] std::uint64_t place_of(const pixel& at) const {
-        return at.elevation * width_ + at.azimuth;
+        return std::uint64_t{at.elevation} * width_ + at.azimuth;
     }
 
     [[nodiscard]] view view_of(const pixel& at) const {
@@ -210,7 +210,7 @@ class range_image {
             if (found == places_.end() || *found != place_of(at)) return {};
             number = static_cast<std::uint64_t>(found - places_.begin());
         }
-        return number < seen_.size() ? seen_[number] : view{};
+        return number < seen_.size() ? seen_[static_cast<std::size_t>(number)] : view{};
     }
 
     std::size_t width_, height_;

@@ -134,14 +134,14 @@ class visibility {
         const Eigen::Vector3d to_q = detail::difference(q, viewpoint);
         const double angle =
             std::atan2(detail::length(detail::cross(to_p, to_q)), detail::dot(to_p, to_q));
-        const double near = detail::length(to_p), far = detail::length(to_q);
+        const double nearby = detail::length(to_p), distant = detail::length(to_q);
         observation_count count;
         if (!std::isfinite(angle)) return count;
         const auto steps = static_cast<std::size_t>(std::ceil(angle / pixel_));
         for (std::size_t s = 1; s < steps; ++s) {
             const double turned = angle * static_cast<double>(s) / static_cast<double>(steps);
             // Where the ray that is turned by this angle meets the line, by the law of sines.
-            const double a = near * std::sin(turned), b = far * std::sin(angle - turned);
+            const double a = nearby * std::sin(turned), b = distant * std::sin(angle - turned);
             count.add(towards(detail::combined(b / (a + b), p, a / (a + b), q)));
         }
         return count;

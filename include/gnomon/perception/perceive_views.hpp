@@ -155,10 +155,10 @@ template <execution X>
     const auto seen = surfaces_in(cells, options, run);
     if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
     const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length);
-    const auto near =
+    const auto nearby =
         euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
     std::vector<std::int32_t> labels(cells.size(), unlabeled);
-    for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = near.labels()[i];
+    for (std::size_t i = 0; i < left.size(); ++i) labels[left[i]] = nearby.labels()[i];
     return segments(std::move(labels));
 }
 

@@ -52,8 +52,8 @@ template <class Features>
     const auto value = [&]<part_feature F>(const F& f) {
         const double x = f(p, v) / f.scale;
         if (!std::isfinite(x))
-            throw std::invalid_argument("the feature " + std::string(F::name) +
-                                        " of a part is not finite");
+            GNOMON_THROW(std::invalid_argument("the feature " + std::string(F::name) +
+                                               " of a part is not finite"));
         return x;
     };
     return boost::hana::unpack(features, [&](const auto&... f) {
@@ -75,8 +75,8 @@ namespace detail {
 /// @throws std::invalid_argument  without ground
 [[nodiscard]] inline const plane& ground_of(const view& v, std::string_view feature) {
     if (!v.ground)
-        throw std::invalid_argument("the feature " + std::string(feature) +
-                                    " needs the ground of the view, which is not known");
+        GNOMON_THROW(std::invalid_argument("the feature " + std::string(feature) +
+                                           " needs the ground of the view, which is not known"));
     return *v.ground;
 }
 

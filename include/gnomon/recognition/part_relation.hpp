@@ -21,6 +21,7 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
 #include <gnomon/recognition/view.hpp>
 
 namespace gnomon::recognition {
@@ -116,8 +117,8 @@ template <class Relations>
     const auto value = [&]<part_relation R>(const R& r) {
         const double x = r(a, b);
         if (!std::isfinite(x))
-            throw std::invalid_argument("the relation " + std::string(R::name) +
-                                        " of two parts is not finite");
+            GNOMON_THROW(std::invalid_argument("the relation " + std::string(R::name) +
+                                               " of two parts is not finite"));
         return x;
     };
     return boost::hana::unpack(relations, [&](const auto&... r) {

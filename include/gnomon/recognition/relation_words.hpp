@@ -50,13 +50,13 @@ class relation_statistics {
     [[nodiscard]] std::vector<relation_word> words(const Relations& relations,
                                                    std::size_t min_support) const {
         std::vector<relation_word> found;
-        for (const auto& [pair, values] : values_) {
+        for (const auto& of_pair : values_) {
             std::size_t r = 0;
             boost::hana::for_each(relations, [&](const auto& relation) {
-                const std::vector<double>& x = values[r];
+                const std::vector<double>& x = of_pair.second[r];
                 const auto n = static_cast<double>(x.size());
                 if (x.size() >= min_support && fullest(x, relation.bin) > relation.mass * n)
-                    found.push_back(word_of(pair, r, x, relation.min_deviation));
+                    found.push_back(word_of(of_pair.first, r, x, relation.min_deviation));
                 ++r;
             });
         }

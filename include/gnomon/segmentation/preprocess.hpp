@@ -103,15 +103,15 @@ template <class R, class Proj = std::identity>
         return std::nullopt;
     // The mean over the peak and its neighbors is finer than the bin and free of its phase.
     constexpr double half_width = 1.5;  // bins: half of three (formula)
-    double sum = 0.0, near = 0.0;
+    double sum = 0.0, nearby = 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const double height = floor.signed_distance(p[i]);
         if (!(height >= search.min_height && std::abs(height - peak) <= half_width * search.bin))
             continue;
         sum += height;
-        near += 1.0;
+        nearby += 1.0;
     }
-    return near > 0.0 ? sum / near : peak;  // no point is near if bins are finer than rounding
+    return nearby > 0.0 ? sum / nearby : peak;  // no point is near if bins are finer than rounding
 }
 
 }  // namespace gnomon

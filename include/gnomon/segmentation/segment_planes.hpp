@@ -60,10 +60,10 @@ inline void require_valid(const segment_planes_options& options) {
 /// @param noise_is_independent  from point to point; else it bends planes, as that of cameras
 template <neighborhood_graph G, neighborhood_graph Near, normal_range S, execution X>
 [[nodiscard]] plane_regions<G, Near> regions_of_planes(const planar_cloud& cloud, const G& graph,
-                                                       const Near& near, const S& surface,
+                                                       const Near& nearby, const S& surface,
                                                        std::size_t min_points, angle max_angle,
                                                        bool noise_is_independent, const X& run) {
-    plane_regions regions(cloud, graph, near, min_points);
+    plane_regions regions(cloud, graph, nearby, min_points);
     const double cosine = min_cosine(max_angle);
     regions.grow(surface, cosine, run);
     regions.cut_edges(run);

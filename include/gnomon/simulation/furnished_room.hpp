@@ -84,7 +84,7 @@ struct room_options {
     std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
     const auto models = options.models.empty() ? furniture_models() : options.models;
     for (int piece = 0; piece < options.pieces; ++piece) {
-        const furniture_model& model = models[random.bits() % models.size()];
+        const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
         const double radius = detail::radius_of(model);
         if (2.0 * radius > std::min(length, width)) continue;
         for (int trial = 0; trial < 100; ++trial) {

@@ -117,7 +117,8 @@ namespace detail {
         if (std::hypot(x - sensor.x(), y - sensor.y()) < options.nearest) continue;
         return at(x, y, z) * yaw(degrees(random.uniform(-180.0, 180.0)));
     }
-    throw std::invalid_argument("object_view_options: all places are too near to the sensor");
+    GNOMON_THROW(
+        std::invalid_argument("object_view_options: all places are too near to the sensor"));
 }
 
 }  // namespace detail

@@ -16,8 +16,8 @@ inline namespace GNOMON_LANES {
 /// sign of zero is ignored, atan2pi(0, 0) is 0, and the result is inaccurate if |x| and |y| are
 /// both below 1e-300. Precondition: x and y are finite.
 template <std::size_t N>
-[[nodiscard, gnu::always_inline]] inline pack_of<N> atan2pi(const pack_of<N>& y,
-                                                            const pack_of<N>& x) {
+[[nodiscard, GNOMON_ALWAYS_INLINE]] inline pack_of<N> atan2pi(const pack_of<N>& y,
+                                                              const pack_of<N>& x) {
     const pack_of<N> across = magnitude(x), up = magnitude(y);
     const pack_of<N> more = where_at_least(across, up, across, up);
     const pack_of<N> q = where_at_least(across, up, up, across) /

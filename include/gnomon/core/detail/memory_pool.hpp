@@ -135,7 +135,9 @@ class memory_pool final : public memory_source {
 
     [[nodiscard]] static std::size_t size_class(std::size_t bytes) {
         const std::size_t last = (std::max<std::size_t>(bytes, 1) - 1) / alignment;
-        const std::size_t e = std::max<std::size_t>(std::bit_width(last), 3) - 3;
+        const auto bits =
+            static_cast<std::size_t>(std::bit_width(last));  // an int in some libraries
+        const std::size_t e = std::max<std::size_t>(bits, 3) - 3;
         return 4 * e + (last >> e);
     }
     /// Of a block and its header.

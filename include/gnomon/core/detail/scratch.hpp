@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include <gnomon/core/detail/attributes.hpp>
 #include <gnomon/core/detail/thread_team.hpp>
 
 namespace gnomon::detail {
@@ -50,15 +51,15 @@ class pool_scope {
 /// Memory from a pool, or from operator new if there is none, aligned for T of `alignment`. (Not
 /// inline, nor is its counterpart: vectors of all types would contain a copy. For compile time
 /// only.)
-[[nodiscard, gnu::noinline]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
-                                                        std::size_t alignment) {
+[[nodiscard, GNOMON_NOINLINE]] inline void* allocate_from(memory_source* pool, std::size_t bytes,
+                                                          std::size_t alignment) {
     if (pool != nullptr) return pool->allocate(bytes);
     return alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__
                ? ::operator new(bytes, std::align_val_t{alignment})
                : ::operator new(bytes);
 }
-[[gnu::noinline]] inline void deallocate_to(memory_source* pool, void* memory,
-                                            std::size_t alignment) noexcept {
+[[GNOMON_NOINLINE]] inline void deallocate_to(memory_source* pool, void* memory,
+                                              std::size_t alignment) noexcept {
     if (pool != nullptr)
         pool->deallocate(memory);
     else if (alignment > __STDCPP_DEFAULT_NEW_ALIGNMENT__)

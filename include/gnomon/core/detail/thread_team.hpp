@@ -27,6 +27,8 @@
 #include <vector>
 #endif
 
+#include <gnomon/core/detail/exceptions.hpp>
+
 namespace gnomon::detail {
 
 #if defined(GNOMON_NO_THREADS)
@@ -95,15 +97,14 @@ class thread_team {
         mutex guard;
         const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
-                try {
-                    work(c);
-                } catch (...) {
-                    const guard_of locked(guard);
-                    if (c < failed) {
-                        failed = c;
-                        failure = std::current_exception();
-                    }
-                }
+                attempt([&] { work(c); },
+                        [&] {
+                            const guard_of locked(guard);
+                            if (c < failed) {
+                                failed = c;
+                                failure = std::current_exception();
+                            }
+                        });
             }
         };
         if (chunks > 1 && size_ > 1 && !busy_.exchange(true)) {
@@ -120,11 +121,12 @@ class thread_team {
     /// Where the machine refuses threads or memory, the team stays as small as it is. (A template,
     /// so that only users of threads compile it.)
     void grow_to(std::integral auto size) noexcept {
-        try {
-            while (helpers_.size() + 1 < size)
-                helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
-        } catch (const std::exception&) {
-        }
+        attempt(
+            [&] {
+                while (helpers_.size() + 1 < size)
+                    helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
+            },
+            [] {});
     }
 
     /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all

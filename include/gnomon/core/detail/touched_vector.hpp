@@ -11,14 +11,15 @@
 #include <type_traits>
 #include <vector>
 
+#include <gnomon/core/detail/attributes.hpp>
 #include <gnomon/core/execution.hpp>
 
 namespace gnomon::detail {
 
 /// Writes one byte to each page from `begin` to `end`. The memory can be the unused capacity of a
 /// vector; some standard libraries would have AddressSanitizer report the write, so it is off here.
-[[gnu::no_sanitize_address]] inline void touch(volatile std::byte* begin,
-                                               const volatile std::byte* end) {
+[[GNOMON_NO_SANITIZE_ADDRESS]] inline void touch(volatile std::byte* begin,
+                                                 const volatile std::byte* end) {
     constexpr std::ptrdiff_t page = 4096;  // [bytes], of x86-64; performance only
     for (; begin < end; begin += std::min(page, end - begin)) *begin = std::byte{};
 }

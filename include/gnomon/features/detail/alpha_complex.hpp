@@ -163,7 +163,7 @@ class alpha_complex {
     static void add_to(path& open, std::uint32_t v, std::vector<std::uint32_t>& place,
                        Found&& found) {
         if (place[v] != none) {
-            const auto since = open.begin() + place[v];
+            const auto since = open.begin() + static_cast<std::ptrdiff_t>(place[v]);
             const path closed(since, open.end());
             for (const std::uint32_t u : closed) place[u] = none;
             open.erase(since, open.end());

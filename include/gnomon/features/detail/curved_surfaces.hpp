@@ -49,9 +49,10 @@ struct sphere_surface {
 
     [[nodiscard]] surface_foot foot_of(const Eigen::Vector3d& x) const {
         const Eigen::Vector3d d = difference(x, center);
-        const double far = length(d);
-        const Eigen::Vector3d n = far > 0.0 ? scaled(1.0 / far, d) : Eigen::Vector3d(0.0, 0.0, 1.0);
-        return {far - radius, n, 2.0 / radius};
+        const double distant = length(d);
+        const Eigen::Vector3d n =
+            distant > 0.0 ? scaled(1.0 / distant, d) : Eigen::Vector3d(0.0, 0.0, 1.0);
+        return {distant - radius, n, 2.0 / radius};
     }
 
     [[nodiscard]] std::array<double, 4> gradient(const surface_foot& foot) const {
@@ -79,7 +80,7 @@ struct revolved_line {
 
     struct foot : surface_foot {
         double along;            ///< coordinate of the point along the axis, from `point`
-        double far;              ///< its distance from the axis
+        double distant;          ///< its distance from the axis
         Eigen::Vector3d across;  ///< unit vector from the axis to it
     };
 
@@ -94,21 +95,21 @@ struct revolved_line {
         const Eigen::Vector3d d = difference(x, point);
         const double along = dot(d, axis);
         const Eigen::Vector3d out = combined(1.0, d, -along, axis);
-        const double far = length(out);
-        const Eigen::Vector3d across = far > 0.0 ? scaled(1.0 / far, out) : e1;
-        const double distance = (far - radius) * cosine - along * sine;
-        const double radius_there = std::max(far - distance * cosine, radius / largest_radius);
+        const double distant = length(out);
+        const Eigen::Vector3d across = distant > 0.0 ? scaled(1.0 / distant, out) : e1;
+        const double distance = (distant - radius) * cosine - along * sine;
+        const double radius_there = std::max(distant - distance * cosine, radius / largest_radius);
         return {{distance, combined(cosine, across, -sine, axis), cosine / radius_there},
                 along,
-                far,
+                distant,
                 across};
     }
 
     [[nodiscard]] std::array<double, N> gradient(const foot& f) const {
         const double n1 = dot(f.across, e1), n2 = dot(f.across, cross(axis, e1));
-        const double lever = f.along * cosine + f.far * sine;
+        const double lever = f.along * cosine + f.distant * sine;
         std::array<double, N> g{-n1 * cosine, -n2 * cosine, -n1 * lever, -n2 * lever, -cosine};
-        if constexpr (N > 5) g[5] = (radius - f.far) * sine - f.along * cosine;
+        if constexpr (N > 5) g[5] = (radius - f.distant) * sine - f.along * cosine;
         return g;
     }
 

@@ -82,24 +82,24 @@ struct cylinder_bins {
         }
 
       private:
-        [[gnu::always_inline]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
-                                                          const Eigen::Vector3d& n,
-                                                          const Eigen::Vector3d* first,
-                                                          std::size_t l, double most_alpha2,
-                                                          double most_beta) {
+        [[GNOMON_ALWAYS_INLINE]] std::uint32_t measure_pack(const Eigen::Vector3d& p,
+                                                            const Eigen::Vector3d& n,
+                                                            const Eigen::Vector3d* first,
+                                                            std::size_t l, double most_alpha2,
+                                                            double most_beta) {
             static constexpr std::uint32_t stride[] = {0, 3, 6, 9, 12, 15, 18, 21};
             const double* const at = first->data();
             const slim_pack x = slim_pack(at, stride) - p[0];
             const slim_pack y = slim_pack(at + 1, stride) - p[1];
             const slim_pack z = slim_pack(at + 2, stride) - p[2];
-            const slim_pack height = n[0] * x + n[1] * y + n[2] * z;
+            const slim_pack above = n[0] * x + n[1] * y + n[2] * z;
             // |n x d|^2: |d|^2 - beta^2 has few correct digits near the axis.
             const slim_pack a = n[1] * z - n[2] * y, b = n[2] * x - n[0] * z;
             const slim_pack c = n[0] * y - n[1] * x;
             const slim_pack squares = a * a + b * b + c * c;
-            std::memcpy(&beta[l], &height, sizeof height);
+            std::memcpy(&beta[l], &above, sizeof above);
             std::memcpy(&alpha2[l], &squares, sizeof squares);
-            return at_most(squares, most_alpha2) & at_most(magnitude(height), most_beta);
+            return at_most(squares, most_alpha2) & at_most(magnitude(above), most_beta);
         }
     };
 

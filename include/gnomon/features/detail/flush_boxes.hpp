@@ -56,7 +56,7 @@ class flush_boxes {
         Eigen::Vector3d u{0.0, 0.0, 0.0};
         Eigen::Vector3d v{0.0, 0.0, 0.0};
         Eigen::Vector3d w{0.0, 0.0, 0.0};
-        std::array<std::uint32_t, supports> far{};  // farthest along -u, -v, w and -w
+        std::array<std::uint32_t, supports> distant{};  // farthest along -u, -v, w and -w
     };
 
     using quadratic = std::array<double, 3>;  // Bernstein coefficients
@@ -101,7 +101,7 @@ class flush_boxes {
         const std::array<Eigen::Vector3d, supports> directions{scaled(-1.0, m.u), scaled(-1.0, m.v),
                                                                m.w, scaled(-1.0, m.w)};
         for (std::size_t k = 0; k < supports; ++k)
-            m.far[k] = supports_[k] = hull_.farthest(directions[k], supports_[k]);
+            m.distant[k] = supports_[k] = hull_.farthest(directions[k], supports_[k]);
         if (is_singular(m)) return m;
         const double uu = dot(m.u, m.u);
         const double vv = dot(m.v, m.v);
@@ -124,9 +124,9 @@ class flush_boxes {
 
     /// Vectors between supporting corners of opposite faces.
     [[nodiscard]] std::array<Eigen::Vector3d, 3> spans(const member& m) const {
-        return {difference(hull_[a_->corner], hull_[m.far[0]]),
-                difference(hull_[b_->corner], hull_[m.far[1]]),
-                difference(hull_[m.far[2]], hull_[m.far[3]])};
+        return {difference(hull_[a_->corner], hull_[m.distant[0]]),
+                difference(hull_[b_->corner], hull_[m.distant[1]]),
+                difference(hull_[m.distant[2]], hull_[m.distant[3]])};
     }
 
     void search(const member& from, const member& to) {
@@ -166,8 +166,8 @@ class flush_boxes {
         const std::array<std::pair<Eigen::Vector3d, Eigen::Vector3d>, supports> directions{
             {{from.u, to.u}, {from.v, to.v}, {from.w, to.w}, {from.w, to.w}}};
         for (std::size_t k = 0; k < supports; ++k) {
-            if (from.far[k] == to.far[k]) continue;
-            const Eigen::Vector3d d = difference(hull_[from.far[k]], hull_[to.far[k]]);
+            if (from.distant[k] == to.distant[k]) continue;
+            const Eigen::Vector3d d = difference(hull_[from.distant[k]], hull_[to.distant[k]]);
             const double ahead = std::abs(dot(d, directions[k].first));
             const double behind = std::abs(dot(d, directions[k].second));
             const double t = ahead / (ahead + behind);

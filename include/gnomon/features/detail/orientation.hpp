@@ -38,20 +38,20 @@ struct twofold {
     double low;
 
     [[nodiscard]] static twofold difference(double a, double b) {
-        const double high = a - b;
-        return {high, sum_error(a, -b, high)};
+        const double rounded = a - b;
+        return {rounded, sum_error(a, -b, rounded)};
     }
     [[nodiscard]] friend twofold operator*(const twofold& a, const twofold& b) {
-        const double high = rounded_product(a.high, b.high);
-        const double low = std::fma(a.high, b.high, -high) + (a.high * b.low + a.low * b.high);
-        const double sum = high + low;
-        return {sum, low - (sum - high)};
+        const double most = rounded_product(a.high, b.high);
+        const double rest = std::fma(a.high, b.high, -most) + (a.high * b.low + a.low * b.high);
+        const double sum = most + rest;
+        return {sum, rest - (sum - most)};
     }
     [[nodiscard]] friend twofold operator+(const twofold& a, const twofold& b) {
-        const double high = a.high + b.high;
-        const double low = sum_error(a.high, b.high, high) + (a.low + b.low);
-        const double sum = high + low;
-        return {sum, low - (sum - high)};
+        const double most = a.high + b.high;
+        const double rest = sum_error(a.high, b.high, most) + (a.low + b.low);
+        const double sum = most + rest;
+        return {sum, rest - (sum - most)};
     }
 };
 

@@ -51,7 +51,7 @@ class byte_cursor {
 
     /// Throws an error at the current byte.
     [[noreturn]] void fail(const std::string& message) const {
-        throw error(file_->name, "byte " + std::to_string(offset_), message);
+        GNOMON_THROW(error(file_->name, "byte " + std::to_string(offset_), message));
     }
 
   private:

@@ -17,7 +17,7 @@
 namespace gnomon::io::detail {
 
 /// Returns the file of the name `path` with symbolic links resolved; `path` itself if the file does
-/// not exist.
+/// not exist, or where the system cannot resolve them (Windows, WASI).
 /// @throws gnomon::error  if `path` is a device, a pipe or a directory, which must not be replaced
 [[nodiscard]] inline std::string file_target(const std::string& path) {
 #ifdef _WIN32
@@ -25,9 +25,13 @@ namespace gnomon::io::detail {
 #else
     struct stat status {};
     if (::stat(path.c_str(), &status) != 0) return path;
-    if (!S_ISREG(status.st_mode)) throw error(path, "", "not a regular file");
+    if (!S_ISREG(status.st_mode)) GNOMON_THROW(error(path, "", "not a regular file"));
+#ifdef __wasi__
+    return path;
+#else
     char resolved[PATH_MAX];
     return ::realpath(path.c_str(), resolved) != nullptr ? std::string(resolved) : path;
+#endif
 #endif
 }
 

@@ -97,7 +97,7 @@ class text_cursor {
 
     /// Throws an error at the line returned last.
     [[noreturn]] void fail(const std::string& message) const {
-        throw error(file_->name, "line " + std::to_string(line_), message);
+        GNOMON_THROW(error(file_->name, "line " + std::to_string(line_), message));
     }
 
   private:

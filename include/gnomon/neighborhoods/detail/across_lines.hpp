@@ -160,9 +160,9 @@ class across_lines {
         const Eigen::Vector3d a = difference(index_[i], v), b = difference(index_[j], w);
         if (squared_distance(v, w) > most_parallax * most_parallax * dot(a, a)) return false;
         const Eigen::Vector3d chord = difference(b, a);
-        const Eigen::Vector3d& far = dot(a, a) > dot(b, b) ? a : b;
-        const Eigen::Vector3d c = cross(chord, far);
-        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(far, far);
+        const Eigen::Vector3d& distant = dot(a, a) > dot(b, b) ? a : b;
+        const Eigen::Vector3d c = cross(chord, distant);
+        return dot(c, c) >= least_sine * least_sine * dot(chord, chord) * dot(distant, distant);
     }
 
     const Index& index_;

@@ -165,8 +165,8 @@ template <class Points>
 [[nodiscard]] bool reduce_to_star(point_index center, Points& points) {
     std::erase_if(points, [](const planar_point& q) { return q.x == 0.0 && q.y == 0.0; });
     sort_by_direction(points);
-    const auto hides = [](const planar_point& near, const planar_point& far) {
-        return half_plane(near) == half_plane(far) && turn(near, far) == 0;
+    const auto hides = [](const planar_point& nearby, const planar_point& distant) {
+        return half_plane(nearby) == half_plane(distant) && turn(nearby, distant) == 0;
     };
     points.erase(std::unique(points.begin(), points.end(), hides), points.end());
     if (points.empty()) return true;

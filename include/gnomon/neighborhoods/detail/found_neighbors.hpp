@@ -98,7 +98,7 @@ class found_neighbors {
     };
 
     /// Adds as many neighbors as a vector has numbers.
-    [[gnu::always_inline]] void add(vector_sums& all, const std::uint32_t* places) const {
+    [[GNOMON_ALWAYS_INLINE]] void add(vector_sums& all, const std::uint32_t* places) const {
         const slim_pack x = slim_pack(tree_.at(0), places) - tree_.at(0)[from_];
         const slim_pack y = slim_pack(tree_.at(1), places) - tree_.at(1)[from_];
         const slim_pack z = slim_pack(tree_.at(2), places) - tree_.at(2)[from_];

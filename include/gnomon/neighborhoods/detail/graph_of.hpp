@@ -47,7 +47,7 @@ template <bool Notes, class Buffer = std::vector<neighbor>, execution X>
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = memory.indices;
     indices.clear();
-    indices.reserve(begin.back());
+    indices.reserve(static_cast<std::size_t>(begin.back()));
     for (scratch<point_index>& chunk : indices_of_chunk) {
         indices.insert(indices.end(), chunk.begin(), chunk.end());
         scratch<point_index>().swap(chunk);

@@ -20,7 +20,11 @@ inline namespace GNOMON_LANES {
 
 /// Plain loops.
 struct plain_instructions {
+#if defined(GNOMON_SCALAR_LANES)
+    using integers = int;
+#else
     using integers [[gnu::vector_size(16), gnu::may_alias]] = int;
+#endif
 
     /// Bit l of the result is set if a[l] <= limit.
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
@@ -67,7 +71,7 @@ struct sse2_instructions : plain_instructions {
     [[nodiscard]] static std::uint32_t at_most(const lanes& a, float limit) {
         const __m128 t = _mm_set1_ps(limit);
         std::uint32_t bits = 0;
-#pragma GCC unroll 8
+        GNOMON_UNROLL(8)
         for (int l = 0; l < 32; l += 4) {
             const __m128 le = _mm_cmple_ps(_mm_load_ps(a.at + l), t);
             bits |= static_cast<std::uint32_t>(_mm_movemask_ps(le)) << l;
@@ -87,7 +91,7 @@ class avx2_instructions {
     [[nodiscard, GNOMON_WITH_AVX2]] static std::uint32_t at_most(const lanes& a, float limit) {
         const floats t = limit - floats{};
         std::uint32_t bits = 0;
-#pragma GCC unroll 4
+        GNOMON_UNROLL(4)
         for (int l = 0; l < 32; l += 8)
             bits |= bits_of(reinterpret_cast<const floats&>(a.at[l]) <= t) << l;
         return bits;
@@ -235,7 +239,7 @@ template <class Loop>
 
 /// The result of loop(instructions).
 template <class Loop>
-[[gnu::always_inline]] inline auto with_widest(const Loop& loop) {
+[[GNOMON_ALWAYS_INLINE]] inline auto with_widest(const Loop& loop) {
 #if defined(GNOMON_LANES_UP_TO_AVX2)
     if (has_avx2()) return with_avx2(loop);
 #endif

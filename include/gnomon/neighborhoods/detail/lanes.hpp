@@ -36,7 +36,8 @@ struct lane_points {
     }
 
     /// The squared distances from (px, py, pz).
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(float px, float py, float pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(float px, float py,
+                                                                float pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = x.at[l] - px, dy = y.at[l] - py, dz = z.at[l] - pz;
@@ -57,8 +58,8 @@ struct lane_boxes {
     }
 
     /// Four times the squared distances from (px, py, pz); 0 inside.
-    [[nodiscard, gnu::always_inline]] lanes squared_distances_times_4(float px, float py,
-                                                                      float pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances_times_4(float px, float py,
+                                                                        float pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = std::abs(x.at[l] - px) - half_x.at[l];
@@ -76,12 +77,13 @@ struct lane_boxes {
 struct lane_point {
     float x, y, z;
 
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lane_points& points) const {
         return points.squared_distances(x, y, z);
     }
     /// Which of 32 boxes may have points within a limit, a squared distance.
-    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
-                                                         float limit) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t nearby(auto instructions,
+                                                             const lane_boxes& boxes,
+                                                             float limit) const {
         return instructions.at_most(boxes.squared_distances_times_4(x, y, z), 4.00004f * limit);
     }
 };
@@ -92,12 +94,13 @@ struct lane_segment {
     float ux, uy, uz;  // its direction, of length 1, or 0 for a segment of length 0
     float half_length;
 
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lane_points& points) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lane_points& points) const {
         return squared_distances(points.x, points.y, points.z);
     }
     /// Which of 32 boxes may have points within a limit, a squared distance: the balls around them.
-    [[nodiscard, gnu::always_inline]] std::uint32_t near(auto instructions, const lane_boxes& boxes,
-                                                         float limit) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t nearby(auto instructions,
+                                                             const lane_boxes& boxes,
+                                                             float limit) const {
         constexpr float margin = 1e-5f;  // floats are off by some 2^-24 of coordinates below 4
         const float distance = std::sqrt(limit) + margin;
         lanes excess = squared_distances(boxes.x, boxes.y, boxes.z);
@@ -109,8 +112,8 @@ struct lane_segment {
     }
 
   private:
-    [[nodiscard, gnu::always_inline]] lanes squared_distances(const lanes& px, const lanes& py,
-                                                              const lanes& pz) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] lanes squared_distances(const lanes& px, const lanes& py,
+                                                                const lanes& pz) const {
         lanes d2;
         for (std::size_t l = 0; l < lane_count; ++l) {
             const float dx = px.at[l] - x, dy = py.at[l] - y, dz = pz.at[l] - z;
@@ -126,8 +129,17 @@ struct lane_segment {
 
 /// The k-th least of n numbers: compares each number with all numbers, eight at a time. O(n^2).
 /// Precondition: 0 < k <= n; `a` is aligned for vectors of eight, and infinity fills the last one.
-[[nodiscard, gnu::always_inline]] inline float kth_least(const float* a, std::size_t n,
-                                                         std::size_t k) {
+[[nodiscard, GNOMON_ALWAYS_INLINE]] inline float kth_least(const float* a, std::size_t n,
+                                                           std::size_t k) {
+#if defined(GNOMON_SCALAR_LANES)
+    float kth = std::numeric_limits<float>::infinity();
+    for (std::size_t v = 0; v < n; ++v) {
+        std::size_t at_most = 0;
+        for (std::size_t j = 0; j < n; ++j) at_most += a[j] <= a[v] ? 1u : 0u;
+        if (at_most >= k) kth = std::min(kth, a[v]);
+    }
+    return kth;
+#else
     constexpr std::size_t width = 8;
     using floats [[gnu::vector_size(4 * width), gnu::may_alias]] = float;
     using integers [[gnu::vector_size(4 * width)]] = int;
@@ -146,6 +158,7 @@ struct lane_segment {
     float kth = least[0];
     for (std::size_t l = 1; l < width; ++l) kth = std::min(kth, least[l]);
     return kth;
+#endif
 }
 
 }  // namespace GNOMON_LANES

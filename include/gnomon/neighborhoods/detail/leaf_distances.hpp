@@ -63,14 +63,14 @@ class distances_from_rays {
     void enclose(std::size_t place, leaf_box& box) {
         ray_metric& m = segments_[place % segments_.size()];
         m = metric_at(place);
-        auto near = index_->tree().position(place), far = near;
+        auto nearby = index_->tree().position(place), distant = nearby;
         for (std::size_t a = 0; a < 3; ++a) {
             const double half = m.half_length() * m.direction()[static_cast<int>(a)];
-            near[a] -= half;
-            far[a] += half;
+            nearby[a] -= half;
+            distant[a] += half;
         }
-        box.add(near);
-        box.add(far);
+        box.add(nearby);
+        box.add(distant);
     }
     [[nodiscard]] double squared(std::size_t place, std::size_t other) const {
         const auto p = index_->tree().position(place), q = index_->tree().position(other);

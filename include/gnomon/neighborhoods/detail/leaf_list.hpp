@@ -104,10 +104,10 @@ class leaf_list {
             float* const distance = distance_[0].at;
             std::size_t n = 0;
             for (std::size_t g = 0; g * lane_count < listed_; ++g) {
-                std::uint32_t near = from.near(instructions, boxes_[g], limit);
-                for (; near != 0; near &= near - 1) {
+                std::uint32_t nearby = from.nearby(instructions, boxes_[g], limit);
+                for (; nearby != 0; nearby &= nearby - 1) {
                     const std::size_t b =
-                        g * lane_count + static_cast<std::size_t>(std::countr_zero(near));
+                        g * lane_count + static_cast<std::size_t>(std::countr_zero(nearby));
                     const lanes d2 = from.squared_distances(points_[b]);
                     std::uint32_t within = instructions.at_most(d2, limit);
                     if (b == own) within &= ~(std::uint32_t{1} << lane);  // not itself
@@ -125,9 +125,9 @@ class leaf_list {
         return {distance_[0].at, candidates_};
     }
     /// The numbers of candidates within each of two limits.
-    [[nodiscard, gnu::always_inline]] std::pair<std::size_t, std::size_t> count(auto instructions,
-                                                                                float a,
-                                                                                float b) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::pair<std::size_t, std::size_t> count(auto instructions,
+                                                                                  float a,
+                                                                                  float b) const {
         std::size_t within_a = 0, within_b = 0;
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             within_a += instructions.count_at_most(distance_[c], a);
@@ -138,8 +138,8 @@ class leaf_list {
 
     /// The squared distances of the candidates beyond `below` and within `above`, which are at most
     /// 32, followed by infinity.
-    [[nodiscard, gnu::always_inline]] const float* between(auto instructions, float below,
-                                                           float above) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] const float* between(auto instructions, float below,
+                                                             float above) {
         float* end = few_.data();
         for (std::size_t c = 0; c * lane_count < candidates_; ++c) {
             const std::uint32_t bits = bits_between(instructions, c, below, above);
@@ -169,7 +169,7 @@ class leaf_list {
 
     /// The places of the candidates within a limit. Removes all candidates. (Not inline, as it is
     /// called in several places: for compile time only.)
-    [[nodiscard, gnu::noinline]] std::span<std::uint32_t> take_within(float limit) {
+    [[nodiscard, GNOMON_NOINLINE]] std::span<std::uint32_t> take_within(float limit) {
         std::uint32_t* const taken = with_widest([&](auto instructions) {
             std::uint32_t* end = candidate_.data();
             for (std::size_t b = 0; b * lane_count < candidates_; ++b)
@@ -183,9 +183,9 @@ class leaf_list {
 
   private:
     /// Which of 32 candidates are beyond `below` and within `above`.
-    [[nodiscard, gnu::always_inline]] std::uint32_t bits_between(auto instructions,
-                                                                 std::size_t block, float below,
-                                                                 float above) const {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] std::uint32_t bits_between(auto instructions,
+                                                                   std::size_t block, float below,
+                                                                   float above) const {
         return instructions.at_most(distance_[block], above) &
                ~instructions.at_most(distance_[block], below);
     }

@@ -127,7 +127,7 @@ class leaf_search {
                 const auto [below, above] = list_.doubt_about(std::sqrt(d2));
                 if (above <= limit || limit == most) {
                     const auto [nearer, all] = with_widest(
-                        [&](auto instructions) { return list_.count(instructions, below, above); });
+                        [&, b = below, a = above](auto set) { return list_.count(set, b, a); });
                     selected_ = all - nearer > 1 ? settle(p, k_ - nearer, below, above)
                                                  : list_.take_within(d2);
                     if (radius_ < unlimited) drop_farther(p);
@@ -182,7 +182,7 @@ class leaf_search {
         float kth;                  // itself, if at most `lane_count` candidates are between
     };
 
-    [[nodiscard, gnu::always_inline]] enclosure enclosure_of_kth(auto instructions, float high) {
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] enclosure enclosure_of_kth(auto instructions, float high) {
         std::size_t below = 0, within = list_.squared_distances().size();
         float low = -1.0f;
         for (int i = 0; i < 5 && within - below > few; ++i) {

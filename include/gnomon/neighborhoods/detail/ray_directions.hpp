@@ -81,13 +81,13 @@ class ray_directions {
         constexpr std::size_t seeds = 128;            // performance only
         constexpr std::size_t few = 64, many = 1024;  // rays; performance only, 30 : 1 and more
         scratch<double> along, across;
-        scratch<neighbor> near;
+        scratch<neighbor> nearby;
         const std::size_t step = std::max<std::size_t>(1, tree_.leaves() / seeds);
         for (std::size_t leaf = 0; leaf < tree_.leaves(); leaf += step) {
             const Eigen::Vector3d u = first_of(leaf);
             for (const std::size_t count : {few, many}) {
-                search_tree(tree_, u, {.k = count}, near);
-                const auto [a, b] = nearest_around(u, near);
+                search_tree(tree_, u, {.k = count}, nearby);
+                const auto [a, b] = nearest_around(u, nearby);
                 const bool is_whole = b < std::numeric_limits<double>::infinity();
                 if (!is_whole && count == few) continue;
                 if (is_whole) across.push_back(b);
@@ -117,12 +117,12 @@ class ray_directions {
     /// infinite where there is none.
     /// @param near  the nearest rays, nearest first
     [[nodiscard]] std::array<double, 2> nearest_around(const Eigen::Vector3d& u,
-                                                       const auto& near) const {
+                                                       const auto& nearby) const {
         constexpr std::size_t nearest = 4;  // two to either side, or one in each direction
         const ray_plane<> plane(u);
         scan_line<> line;
         std::size_t count = 0;
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             if (q.squared_distance < same_ray) continue;
             line.add(plane.offset(direction(q)), 1.0 / q.squared_distance);
             if (++count == nearest) break;
@@ -130,7 +130,7 @@ class ray_directions {
         line.fit();
         constexpr double none = std::numeric_limits<double>::infinity();
         std::array<double, 2> found{none, none};
-        for (const neighbor& q : near) {
+        for (const neighbor& q : nearby) {
             if (q.squared_distance < same_ray) continue;
             double& to = found[line.is_along(plane.offset(direction(q))) ? 0 : 1];
             to = std::min(to, q.squared_distance);

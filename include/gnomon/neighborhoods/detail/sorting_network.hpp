@@ -12,6 +12,13 @@
 
 #include <gnomon/core/detail/instruction_set.hpp>
 
+/// Vectors of lanes of two others, of which the second continues the numbers of the first.
+#if defined(__clang__) || (defined(__GNUC__) && __GNUC__ >= 12)
+#define GNOMON_SHUFFLED(a, b, lane) __builtin_shufflevector(a, b, (lane)...)
+#else
+#define GNOMON_SHUFFLED(a, b, lane) __builtin_shuffle(a, b, vector{static_cast<int>(lane)...})
+#endif
+
 namespace gnomon::detail {
 inline namespace GNOMON_LANES {
 
@@ -31,7 +38,7 @@ class sorting_network {
 
     /// Sorts `list` in ascending order. O(n log^2 n).
     /// Precondition: n = length_for(n), and `list` is aligned for a vector.
-    [[gnu::always_inline]] static void sort(std::int32_t* list, std::size_t n) {
+    [[GNOMON_ALWAYS_INLINE]] static void sort(std::int32_t* list, std::size_t n) {
         auto* const all = reinterpret_cast<vector*>(list);
         const std::size_t vectors = n / width;
         for (std::size_t v = 0; v < vectors; ++v) sort_lanes<2>(all[v]);
@@ -43,24 +50,28 @@ class sorting_network {
     /// of `ignored`. The integer after the list is the successor of the last one.
     ///
     /// Precondition: n = length_for(n), and no integer is negative.
-    [[nodiscard, gnu::always_inline]] static bool has_equal_successors(const std::int32_t* list,
-                                                                       std::size_t n,
-                                                                       std::int32_t ignored) {
-        vector equal = {};  // lanes are 0 or -1
+    [[nodiscard, GNOMON_ALWAYS_INLINE]] static bool has_equal_successors(const std::int32_t* list,
+                                                                         std::size_t n,
+                                                                         std::int32_t ignored) {
+        vector equal = {};  // lanes are not 0 if so
         for (std::size_t i = 0; i < n; i += width) {
             vector these, next;
             std::memcpy(&these, list + i, sizeof these);
             std::memcpy(&next, list + i + 1, sizeof next);
             equal |= (these ^ next) <= ignored;
         }
+#if defined(GNOMON_SCALAR_LANES)
+        return equal != 0;
+#else
         std::int32_t any = 0;
         for (std::size_t l = 0; l < width; ++l) any |= equal[l];
         return any != 0;
+#endif
     }
 
   private:
     /// Merges two sorted lists of `vectors` vectors each, one after the other.
-    [[gnu::always_inline]] static void merge(vector* list, std::size_t vectors) {
+    [[GNOMON_ALWAYS_INLINE]] static void merge(vector* list, std::size_t vectors) {
         // The second list backwards makes both one bitonic list.
         for (std::size_t v = 0; v < vectors; ++v) {
             vector& second = list[2 * vectors - 1 - v];
@@ -76,15 +87,17 @@ class sorting_network {
 
     /// Sorts the lanes of a vector, of which `Length` / 2 successive ones are sorted already.
     template <std::size_t Length>
-    [[gnu::always_inline]] static void sort_lanes(vector& v) {
-        exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
-        merge_lanes<Length / 4>(v);
-        if constexpr (Length < width) sort_lanes<2 * Length>(v);
+    [[GNOMON_ALWAYS_INLINE]] static void sort_lanes(vector& v) {
+        if constexpr (Length <= width) {
+            exchange_lanes<Length - 1, Length / 2>(v, lanes_of_vector{});
+            merge_lanes<Length / 4>(v);
+            sort_lanes<2 * Length>(v);
+        }
     }
 
     /// Sorts each 2 `Apart` successive lanes, which are a bitonic list.
     template <std::size_t Apart>
-    [[gnu::always_inline]] static void merge_lanes(vector& v) {
+    [[GNOMON_ALWAYS_INLINE]] static void merge_lanes(vector& v) {
         if constexpr (Apart > 0) {
             exchange_lanes<Apart, Apart>(v, lanes_of_vector{});
             merge_lanes<Apart / 2>(v);
@@ -93,21 +106,25 @@ class sorting_network {
 
     using lanes_of_vector = std::make_index_sequence<width>;
 
+#if defined(GNOMON_SCALAR_LANES)
+    static void reverse(vector&, lanes_of_vector) {}
+#else
     /// Sorts lanes l and l ^ `Partner`; the one without the bit `Upper` gets the lesser.
     template <std::size_t Partner, std::size_t Upper, std::size_t... L>
-    [[gnu::always_inline]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
-        vector other = __builtin_shufflevector(v, v, (L ^ Partner)...);
+    [[GNOMON_ALWAYS_INLINE]] static void exchange_lanes(vector& v, std::index_sequence<L...>) {
+        vector other = GNOMON_SHUFFLED(v, v, (L ^ Partner));
         exchange(v, other);
-        v = __builtin_shufflevector(v, other, ((L & Upper) != 0 ? L + width : L)...);
+        v = GNOMON_SHUFFLED(v, other, ((L & Upper) != 0 ? L + width : L));
     }
 
     template <std::size_t... L>
-    [[gnu::always_inline]] static void reverse(vector& v, std::index_sequence<L...>) {
-        v = __builtin_shufflevector(v, v, (width - 1 - L)...);
+    [[GNOMON_ALWAYS_INLINE]] static void reverse(vector& v, std::index_sequence<L...>) {
+        v = GNOMON_SHUFFLED(v, v, (width - 1 - L));
     }
+#endif
 
     /// Leaves in each lane of a the lesser integer, and in b the greater.
-    [[gnu::always_inline]] static void exchange(vector& a, vector& b) {
+    [[GNOMON_ALWAYS_INLINE]] static void exchange(vector& a, vector& b) {
         const vector lesser = a < b ? a : b;
         b = a < b ? b : a;
         a = lesser;
@@ -116,3 +133,5 @@ class sorting_network {
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail
+
+#undef GNOMON_SHUFFLED

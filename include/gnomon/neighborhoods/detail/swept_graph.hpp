@@ -66,7 +66,7 @@ void sweep_equal_sizes(std::size_t k, const spatial_index& index, const X& run, 
     begin.assign(index.size() + 1, 0);
     for (std::size_t i = 0; i < index.size(); ++i)
         begin[i + 1] = begin[i] + (index.tree().place_of(i) != leaf_tree::no_place ? k : 0);
-    resize_touched(indices, begin.back(), run);
+    resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     if constexpr (requires { graph.notes; }) graph.notes.clear();
     sweep([&] { return neighborhood_writer(begin.data(), indices.data()); });
 }
@@ -124,7 +124,7 @@ void sweep_any_sizes(std::size_t n, const X& run, auto& graph, auto&& sweep) {
 
     std::partial_sum(begin.begin(), begin.end(), begin.begin());
     auto& indices = graph.indices;
-    resize_touched(indices, begin.back(), run);
+    resize_touched(indices, static_cast<std::size_t>(begin.back()), run);
     run(all.parts.size(), [&](std::size_t c) {
         auto from = all.parts[c].indices.begin();
         for (const point_index i : all.parts[c].points) {

@@ -5,6 +5,7 @@
 /// masked out.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
@@ -22,13 +23,17 @@ inline namespace GNOMON_LANES {
 /// Vectors of four numbers. All processors add in the same order, so that sums are the same bytes.
 struct four_numbers {
     static constexpr std::size_t size = 4;
+#if defined(GNOMON_SCALAR_LANES)
+    using numbers = std::array<double, size>;
+#else
     using numbers [[gnu::vector_size(32)]] = double;
     using bits [[gnu::vector_size(32)]] = std::int64_t;
     static constexpr std::int64_t masks[] = {-1, -1, -1, -1, 0, 0, 0};
 
-    [[gnu::always_inline]] static void take_roots(numbers& a) {
+    [[GNOMON_ALWAYS_INLINE]] static void take_roots(numbers& a) {
         for (std::size_t l = 0; l < size; ++l) a[l] = std::sqrt(a[l]);
     }
+#endif
 };
 #if GNOMON_LANE_BITS >= 256 || defined(GNOMON_LANES_UP_TO_AVX2)
 /// The same in functions that are compiled for AVX2.
@@ -39,8 +44,8 @@ struct four_numbers_of_avx2 : four_numbers {
 
 /// The sums of the numbers of each vector: of offsets, of their products by columns, of distances.
 template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums reduced(const typename Vectors::numbers (&all)[10],
-                                                        std::size_t count) {
+[[GNOMON_ALWAYS_INLINE]] inline neighborhood_sums reduced(
+    const typename Vectors::numbers (&all)[10], std::size_t count) {
     double sums[10];
     for (std::size_t s = 0; s < 10; ++s) {
         sums[s] = 0.0;
@@ -55,15 +60,41 @@ template <class Vectors>
     return r;
 }
 
+#if defined(GNOMON_SCALAR_LANES)
+/// The sums over the window of a pixel, in the order of the vectors.
+/// @param count  of its neighbors
+template <class Vectors>
+[[nodiscard]] neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                          std::size_t count) {
+    typename Vectors::numbers all[10] = {};
+    const auto column = windows.column_of(center);
+    for (std::size_t q = column.begin; q <= column.last; q += column.step) {
+        if (!windows.links().has_return(q)) continue;
+        const auto [begin, end] = windows.row_of(q, column.radius);
+        for (std::size_t l = begin; l < end; ++l) {
+            double d[3];
+            for (std::size_t i = 0; i < 3; ++i)
+                d[i] = windows.links().at(i)[l] - windows.links().at(i)[center];
+            if (std::isnan(d[0])) continue;  // no return
+            const std::size_t lane = (l - begin) % Vectors::size;
+            for (std::size_t i = 0, s = 3; i < 3; ++i) {
+                all[i][lane] += d[i];
+                for (std::size_t j = i; j < 3; ++j) all[s++][lane] += d[i] * d[j];
+            }
+            all[9][lane] += std::sqrt(d[0] * d[0] + d[1] * d[1] + d[2] * d[2]);
+        }
+    }
+    return reduced<Vectors>(all, count);
+}
+#else
 /// The sums over the window of a pixel, by such vectors. The arrays of coordinates are at least
 /// three numbers longer than the image. (One loop without calls, so that all sums stay in
 /// registers: performance only.)
 /// @param count  of its neighbors
 template <class Vectors>
-[[gnu::always_inline]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
-                                                          std::size_t count) {
+[[GNOMON_ALWAYS_INLINE]] inline neighborhood_sums summed_by(const auto& windows, std::size_t center,
+                                                            std::size_t count) {
     using numbers = typename Vectors::numbers;
-    using bits = typename Vectors::bits;
     constexpr std::size_t size = Vectors::size;
     const double* const at_x = windows.links().at(0);
     const double* const at_y = windows.links().at(1);
@@ -74,6 +105,7 @@ template <class Vectors>
     for (std::size_t q = column.begin; q <= column.last; q += column.step) {
         if (!windows.links().has_return(q)) continue;
         const auto [begin, end] = windows.row_of(q, column.radius);
+        using bits = typename Vectors::bits;
         for (std::size_t l = begin; l < end; l += size) {
             bits mask;
             const std::size_t many = end - l < size ? end - l : size;
@@ -104,6 +136,7 @@ template <class Vectors>
     const numbers all[] = {x, y, z, xx, xy, xz, yy, yz, zz, distance};
     return reduced<Vectors>(all, count);
 }
+#endif
 
 }  // namespace GNOMON_LANES
 }  // namespace gnomon::detail

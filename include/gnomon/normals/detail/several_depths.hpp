@@ -61,10 +61,10 @@ class sorted_directions {
         scratch<double> apart;
         for (std::size_t i = 1; i < all_.size(); ++i) apart.push_back(angle_before(i));
         scratch<double> copy = apart;
-        const double near = quantile(copy, 0.5);
+        const double nearby = quantile(copy, 0.5);
         std::size_t pairs = 0, several = 0;
         for (std::size_t i = 1; i < all_.size(); ++i) {
-            if (apart[i - 1] > near) continue;
+            if (apart[i - 1] > nearby) continue;
             const double a = all_[i - 1].range, b = all_[i].range;
             constexpr double steep = 10.0;  // the tangent of 84 degrees; chosen
             const double slope = steep * apart[i - 1] * std::min(a, b);

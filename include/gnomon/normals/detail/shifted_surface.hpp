@@ -119,9 +119,9 @@ namespace gnomon::detail {
         const double cosine = dot(own.fit.normal, normal);
         const double here = own.residual(x) / deviation;
         const double there = other.residual(back) / deviation;
-        const double far = length(x) / (nearness * radius);
+        const double distant = length(x) / (nearness * radius);
         const double unlike = (1.0 - cosine * cosine) / (agreement * agreement) +
-                              0.5 * (here * here + there * there) + far * far;
+                              0.5 * (here * here + there * there) + distant * distant;
         axes.add(normal, decay(0.5 * unlike));
     }
     if (!(axes.weight > 0.0)) return own.fit.normal;  // an outlier

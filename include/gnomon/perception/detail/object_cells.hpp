@@ -23,19 +23,19 @@ namespace gnomon::recognition::detail {
 template <class R>
 [[nodiscard]] std::size_t neighbors_by_density(const R& points, std::size_t k, double reach,
                                                const auto& run) {
-    constexpr std::size_t near = 4, least = 10;  // chosen on furniture_models(), seed 7
-    const adjacency nearest = knn{.k = near}(points, run);
+    constexpr std::size_t nearby = 4, least = 10;  // chosen on furniture_models(), seed 7
+    const adjacency nearest = knn{.k = nearby}(points, run);
     const position_view<R> position(points, {});
     std::vector<double> squared;
     for (std::size_t i = 0; i < nearest.size(); ++i) {
-        if (nearest[i].size() == near)
+        if (nearest[i].size() == nearby)
             squared.push_back(squared_distance(position[i], position[nearest[i].back()]));
     }
     if (squared.empty()) return std::min(least, k);
     const auto middle = squared.begin() + static_cast<std::ptrdiff_t>(squared.size() / 2);
     std::nth_element(squared.begin(), middle, squared.end());
     // As many as a disc of this radius has at the density of the disc of the nearest ones.
-    const double within = static_cast<double>(near) * reach * reach / *middle;
+    const double within = static_cast<double>(nearby) * reach * reach / *middle;
     if (!(within < static_cast<double>(k))) return k;  // also for points at one place
     return std::min(k, std::max(least, static_cast<std::size_t>(within)));
 }

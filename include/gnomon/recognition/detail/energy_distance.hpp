@@ -31,12 +31,12 @@ template <std::size_t D>
 template <std::size_t D>
 [[nodiscard]] double mean_distance_to_normal(double squared, double mean_length) {
     constexpr auto d = static_cast<double>(D);
-    constexpr double far = std::min(50.0 + d * d, 500.0);  // numerical: e^x does not overflow
-    constexpr int most = 1000;                             // never reached
+    constexpr double distant = std::min(50.0 + d * d, 500.0);  // numerical: e^x does not overflow
+    constexpr int most = 1000;                                 // never reached
     constexpr double eps = std::numeric_limits<double>::epsilon();
     const double x = 0.5 * squared;
     double term = 1.0, sum = 1.0;
-    if (x < far) {
+    if (x < distant) {
         for (int k = 0; k < most && (term > eps * sum || k < x); ++k) {
             term *= x * (0.5 * (d + 1.0) + k) / ((0.5 * d + k) * (k + 1.0));
             sum += term;

@@ -13,10 +13,10 @@ namespace gnomon::recognition::detail {
 /// The logarithm of the probability that a standard normal variable exceeds z, with all digits for
 /// every finite z.
 [[nodiscard]] inline double log_normal_tail(double z) {
-    constexpr double far = 35.0;  // numerical: erfc underflows at 38
+    constexpr double distant = 35.0;  // numerical: erfc underflows at 38
     const double half = 0.5 * std::erfc(std::abs(z) / std::numbers::sqrt2);
     if (z < 0.0) return std::log1p(-half);
-    if (z < far) return std::log(half);
+    if (z < distant) return std::log(half);
     // The asymptotic series of Abramowitz and Stegun 1964, 26.2.12: its first term left out is
     // below 1e-12.
     const double s = 1.0 / (z * z);

@@ -48,7 +48,7 @@ struct cells {
             if (!index.is_finite(i)) continue;
             const Eigen::Vector3d p = index[i];
             const key own = key_of(difference(p, least), width(i));
-            std::size_t at = hash_of(own) & (slots - 1);
+            std::size_t at = static_cast<std::size_t>(hash_of(own)) & (slots - 1);
             while (slot[at] != no_cell && keys[slot[at]] != own) at = (at + 1) & (slots - 1);
             if (slot[at] == no_cell) {
                 slot[at] = static_cast<point_index>(keys.size());

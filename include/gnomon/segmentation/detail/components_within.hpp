@@ -101,7 +101,7 @@ class component_walk {
             lane_set piece = lowest(left), next = piece;  // points whose neighbors are unknown
             left ^= piece;
             while (next != 0 && left != 0) {
-                const lane_set found = near(point_at(leaf, next), leaf, left);
+                const lane_set found = nearby(point_at(leaf, next), leaf, left);
                 next ^= lowest(next) | found;
                 piece |= found;
                 left ^= found;
@@ -116,8 +116,8 @@ class component_walk {
 
     /// Joins the pieces of two leaves.
     void join_leaves(const subtree& a, const subtree& b) {
-        lane_set in_a = near(tree_.box(b), a);
-        const lane_set in_b = in_a != 0 ? near(tree_.box(a), b) : 0;
+        lane_set in_a = nearby(tree_.box(b), a);
+        const lane_set in_b = in_a != 0 ? nearby(tree_.box(a), b) : 0;
         while (in_a != 0) {
             lane_set piece = in_a & piece_[point_at(a, in_a)];
             in_a ^= piece;
@@ -131,7 +131,7 @@ class component_walk {
             }
             for (; piece != 0 && others != 0; piece ^= lowest(piece)) {
                 const point_index p = point_at(a, piece);
-                for (lane_set found = near(p, b, others); found != 0; found &= others) {
+                for (lane_set found = nearby(p, b, others); found != 0; found &= others) {
                     const point_index q = point_at(b, found);
                     sets_.unite(p, q);
                     others &= ~piece_[q];
@@ -141,7 +141,7 @@ class component_walk {
     }
 
     /// The points of a leaf that may be within the radius of a box.
-    [[nodiscard]] lane_set near(const leaf_box& box, const subtree& leaf) const {
+    [[nodiscard]] lane_set nearby(const leaf_box& box, const subtree& leaf) const {
         lane_set possible = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
             pack d2(0.0);
@@ -156,7 +156,7 @@ class component_walk {
     }
 
     /// Those of some points of a leaf that are within the radius of point p.
-    [[nodiscard]] lane_set near(point_index p, const subtree& leaf, lane_set some) const {
+    [[nodiscard]] lane_set nearby(point_index p, const subtree& leaf, lane_set some) const {
         lane_set within = 0, certain = 0;
         for (std::size_t l = 0; l < Tree::leaf_size; l += pack::size) {
             pack d2(0.0);

@@ -204,7 +204,8 @@ class floor_search {
             const double sides = dot(column(fit.axes.vectors, axis), from_centroid) / side;
             return static_cast<std::int64_t>(std::floor(std::clamp(sides, -exact, exact)));
         };
-        return hash_of(std::array{number_along(0), number_along(1)}) & (cells_.size() - 1);
+        const std::uint64_t hash = hash_of(std::array{number_along(0), number_along(1)});
+        return static_cast<std::size_t>(hash) & (cells_.size() - 1);
     }
 
     const Points& points_;

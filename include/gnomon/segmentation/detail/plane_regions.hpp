@@ -34,11 +34,11 @@ class plane_regions {
   public:
     /// @param graph  the neighbors of each point that a region may grow to
     /// @param near   the neighbors whose labels compete for it; another graph, or the same
-    plane_regions(const planar_cloud& cloud, const G& graph, const Near& near,
+    plane_regions(const planar_cloud& cloud, const G& graph, const Near& nearby,
                   std::size_t min_points)
         : cloud_(cloud),
           graph_(graph),
-          near_(near),
+          near_(nearby),
           min_points_(min_points),
           labels_(cloud.size(), unlabeled) {}
 

@@ -191,7 +191,8 @@ class bvh {
         }
         if (best_axis < 0) return half;  // all centers coincide
         const auto middle = std::partition(
-            items_.begin() + first, items_.begin() + last,
+            items_.begin() + static_cast<std::ptrdiff_t>(first),
+            items_.begin() + static_cast<std::ptrdiff_t>(last),
             [&](std::uint32_t item) { return bin_of(boxes[item], centers, best_axis) < best_bin; });
         return static_cast<std::uint32_t>(middle - items_.begin());
     }

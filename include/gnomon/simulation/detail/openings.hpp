@@ -97,7 +97,7 @@ struct room_openings {
         const auto places = walls_of(room);
         const double width = o.hole.width();
         for (int trial = 0; trial < 50; ++trial) {
-            o.wall = random.bits() % places.size();
+            o.wall = static_cast<std::size_t>(random.bits() % places.size());
             const double most = 0.5 * places[o.wall].length - 0.25;
             o.hole.left = random.uniform(-most, most - width);
             o.hole.right = o.hole.left + width;
