@@ -46,8 +46,8 @@ PAGES = {
                     "docs/concepts/part_relation.md", "docs/concepts/view_likelihood.md"],
     "simulation": ["docs/simulation.md", "docs/concepts/shape.md", "docs/concepts/ray_caster.md",
                    "docs/concepts/sensor_trajectory.md"],
-    "io": ["docs/coming-from.md", "docs/in-a-result.md"],
-    "adapters": ["docs/packages.md", "docs/simulation.md", "docs/recognition.md"],
+    "io": ["docs/formats.md", "docs/coming-from.md"],
+    "adapters": ["docs/formats.md", "docs/packages.md", "docs/simulation.md", "docs/recognition.md"],
 }
 ADAPTERS = "what do other libraries give and take?"
 
@@ -260,8 +260,8 @@ def start_page(site, readme):
                         ["floor", "what it answers"])]
     lines += ["", "Dependencies go one way, upwards in this table.", "", "## Pages {#site-pages}", ""]
     for path in ("docs/in-a-result.md", "docs/questions.md", "docs/coming-from.md", "docs/gallery.md",
-                 "docs/terms.md", "docs/packages.md", "docs/versions.md", "docs/results.md",
-                 "docs/thesis-notes.md", "CHANGELOG.md"):
+                 "docs/terms.md", "docs/formats.md", "docs/packages.md", "docs/platforms.md", "docs/versions.md",
+                 "docs/results.md", "docs/thesis-notes.md", "CHANGELOG.md"):
         lines.append(f"- {site.link_to(path)}")
     lines += ['- <a href="concept-pages.html">Concepts</a>: the policies that can be your own, with their laws',
               '- <a href="annotated.html">All types</a>, <a href="files.html">all headers</a>, '
