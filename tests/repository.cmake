@@ -24,6 +24,9 @@ add_style_test(references Python3::Interpreter ${tools}/check_references.py)
 # That these can fail, on small trees that break each rule.
 add_style_test(tools Python3::Interpreter -m unittest discover -s tests/tools -p "*_test.py")
 add_style_test(snippets Python3::Interpreter ${tools}/check_snippets.py)
+# The reference has no undocumented name, no broken link, and all names near its start; without doxygen
+# it is not built.
+add_style_test(site sh docs/build.sh --test ${CMAKE_CURRENT_BINARY_DIR}/site)
 add_style_test(format sh ${tools}/check_format.sh)
 # GCC collects its garbage each time that its memory has doubled, which at some size makes one line
 # more cost a twelfth of everything, and at another size on another machine: it need not, for this.

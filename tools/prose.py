@@ -18,9 +18,10 @@ PAGES = ["README.md", "CHANGELOG.md", "docs/**/*.md"]
 GENERATED_PAGES = "docs/results/"
 WITH_MESSAGES = ("include/", "examples/", "benchmarks/")
 CPP = [f"{tree}/**/*.[ch]pp" for tree in ("include", "tests", "examples", "benchmarks")]
-PYTHON = [f"{tree}/**/*.py" for tree in ("tests", "examples", "benchmarks", "tools", "packaging")]
+PYTHON = [f"{tree}/**/*.py" for tree in ("tests", "examples", "benchmarks", "tools", "packaging",
+                                           "docs")]
 SHELL = [f"{tree}/**/{name}" for tree in ("tests", "examples", "benchmarks", "cmake", "tools",
-                                                  "packaging")
+                                                  "packaging", "docs")
          for name in ("*.sh", "*.cmake", "CMakeLists.txt")]
 
 # In a source, a comment with one of these words alone is for tools: "// namespace gnomon", markers

@@ -8,6 +8,9 @@
 #error "gnomon needs C++20: -std=c++20, or target_compile_features(... cxx_std_20)"
 #endif
 
+/// The version of these headers, in three numbers: docs/versions.md.
 #define GNOMON_VERSION_MAJOR 0
+/// The second number.
 #define GNOMON_VERSION_MINOR 2
+/// The third number.
 #define GNOMON_VERSION_PATCH 0

@@ -39,8 +39,8 @@ class angle {
     friend constexpr auto operator<=>(const angle&, const angle&) = default;
     friend constexpr angle radians(double value);
 
-    [[nodiscard]] friend double cos(angle a) { return std::cos(a.radians_); }
-    [[nodiscard]] friend double sin(angle a) { return std::sin(a.radians_); }
+    [[nodiscard]] friend double cos(angle a) { return std::cos(a.radians_); }  ///< its cosine
+    [[nodiscard]] friend double sin(angle a) { return std::sin(a.radians_); }  ///< its sine
 
   private:
     double radians_ = 0.0;

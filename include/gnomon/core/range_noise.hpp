@@ -24,7 +24,7 @@ struct constant_noise {
 /// The standard deviation a + b x + c x^2 at the range x.
 struct quadratic_noise {
     double a = 0.0;  ///< [m]
-    double b = 0.0;
+    double b = 0.0;  ///< coefficient of the linear term
     double c = 0.0;  ///< [1/m]
 
     [[nodiscard]] constexpr double operator()(double x) const { return a + x * (b + x * c); }

@@ -24,6 +24,7 @@ namespace gnomon {
 /// What an algorithm throws whose stop was requested.
 class stopped : public std::exception {
   public:
+    /// The message.
     [[nodiscard]] const char* what() const noexcept override { return "stopped on request"; }
 };
 
@@ -33,6 +34,7 @@ class stop_token {
   public:
     stop_token() = default;
 
+    /// Whether a stop was requested. Thread-safe.
     [[nodiscard]] bool stop_requested() const {
         return requested_ && requested_->load(std::memory_order_relaxed);
     }
@@ -50,9 +52,10 @@ class stop_source {
   public:
     stop_source() : requested_(std::make_shared<std::atomic<bool>>(false)) {}
 
-    void request_stop() { requested_->store(true, std::memory_order_relaxed); }
+    void request_stop() { requested_->store(true, std::memory_order_relaxed); }  ///< thread-safe
     /// Lets the tokens be used for the next call.
     void reset() { requested_->store(false, std::memory_order_relaxed); }
+    /// For a `supervised` execution.
     [[nodiscard]] stop_token token() const { return stop_token(requested_); }
 
   private:
@@ -80,6 +83,7 @@ void begin_step(const X& run, const char* name, std::size_t step, std::size_t st
 template <execution X, class OnStep = detail::no_progress>
 class supervised {
   public:
+    /// @param run  the execution that does the work
     explicit supervised(X run, stop_token stop = {}, OnStep on_step = {})
         : run_(std::move(run)), stop_(std::move(stop)), on_step_(std::move(on_step)) {}
 

@@ -43,7 +43,7 @@ enum class hull_shape {
 
 /// The convex hull of the finite points of a range.
 struct convex_hull {
-    hull_shape shape = hull_shape::none;
+    hull_shape shape = hull_shape::none;  ///< its dimension
     /// The extreme points: ascending; of a planar hull in their order around it. Points on its
     /// edges or facets are not extreme; of points at one place the smallest index is.
     std::vector<point_index> vertices;

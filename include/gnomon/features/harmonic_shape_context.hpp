@@ -46,7 +46,7 @@ struct harmonic_shape_context {
     /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1). There are at
     /// most 2^20 entries.
     std::size_t radial_bins = 1;
-    bool per_degree = false;
+    bool per_degree = false;        ///< whether the power of each degree is summed over the orders
     bool normalize = false;         ///< entries are divided by the number of neighbors
     std::size_t min_neighbors = 1;  ///< above 0
 

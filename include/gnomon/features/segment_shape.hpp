@@ -47,9 +47,9 @@ struct segment_shape {
         volume
     };
 
-    extent spread = extent::none;
-    std::size_t points = 0;  ///< that are finite
-    principal_frame frame;   ///< centroid, principal axes, variances along them, and box
+    extent spread = extent::none;  ///< dimension of the set of points
+    std::size_t points = 0;        ///< that are finite
+    principal_frame frame;         ///< centroid, principal axes, variances along them, and box
     /// The axis of smallest variance, towards the view points; where none is known on the side of
     /// the mean normal. The zero vector without a surface.
     Eigen::Vector3d normal{0.0, 0.0, 0.0};

@@ -100,9 +100,10 @@ struct spin_image {
 /// Normals count as axes, without a sign; neighbors without a normal are left out. Bins and trust
 /// are those of `spin_image`, whose member `normalize` has no effect; the distance is Euclidean.
 struct angular_spin_image {
-    spin_image bins = {};
+    spin_image bins = {};  ///< those of the positions
 
-    [[nodiscard]] double support_radius() const { return bins.support_radius(); }
+    [[nodiscard]] double support_radius() const { return bins.support_radius(); }  ///< [m]
+    /// The number of bins.
     [[nodiscard]] std::size_t dimension() const { return bins.dimension(); }
     /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {

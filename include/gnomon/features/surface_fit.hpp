@@ -32,6 +32,7 @@ namespace gnomon {
 /// The outcome of a least-squares fit. Base of `sphere_estimate`, `cylinder_estimate` and
 /// `cone_estimate`.
 struct surface_fit {
+    /// What a fit can come to.
     enum class outcome : std::uint8_t {
         good,           ///< the surface explains the points
         poor_fit,       ///< it does not: noise has this chi-square in .3 % of cases
@@ -46,7 +47,7 @@ struct surface_fit {
         degenerate
     };
 
-    outcome status = outcome::too_few_points;
+    outcome status = outcome::too_few_points;  ///< of this fit
     /// Whose residuals are in the fit; the finite points if it was not tried, for the points are
     /// too few or have no volume.
     std::size_t points = 0;

@@ -54,7 +54,9 @@ class properties {
             for (const property& column : group) columns_.push_back(property(column));
     }
 
+    /// The first column.
     [[nodiscard]] std::vector<property>::const_iterator begin() const { return columns_.begin(); }
+    /// The end of the columns.
     [[nodiscard]] std::vector<property>::const_iterator end() const { return columns_.end(); }
     [[nodiscard]] std::size_t size() const { return columns_.size(); }
 

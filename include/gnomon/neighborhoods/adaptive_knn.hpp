@@ -93,10 +93,10 @@ struct prefer_small_error {
 /// Models `indexed_neighborhood`. Neighbors come in canonical order, nearest first.
 template <size_preference Preference = prefer_isotropic>
 struct adaptive_knn {
-    std::size_t min_k = 10;
-    std::size_t max_k = 80;
-    double growth = 2.0;  ///< from one size to the next
-    Preference preference = {};
+    std::size_t min_k = 10;      ///< smallest size
+    std::size_t max_k = 80;      ///< largest size
+    double growth = 2.0;         ///< from one size to the next
+    Preference preference = {};  ///< which of the sizes is taken
 
     /// The stored graph of points, or of an index of them. O(n (log n + max_k log max_k)).
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1

@@ -21,7 +21,7 @@ struct metric {
 
     /// |dx| + |dy| + |dz|
     [[nodiscard]] static constexpr metric manhattan() { return {1.0}; }
-    [[nodiscard]] static constexpr metric euclidean() { return {2.0}; }
+    [[nodiscard]] static constexpr metric euclidean() { return {2.0}; }  ///< p = 2
     /// The largest of |dx|, |dy| and |dz|.
     [[nodiscard]] static constexpr metric maximum() {
         return {std::numeric_limits<double>::infinity()};

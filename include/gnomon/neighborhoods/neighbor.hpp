@@ -10,9 +10,10 @@ namespace gnomon {
 /// A point found by a search. The canonical order is by distance, ties by index.
 struct neighbor {
     double squared_distance;  ///< [m^2], of the metric of the search; by default squared_distance()
-    point_index index;
+    point_index index;        ///< in the range of points
 
     friend bool operator==(const neighbor&, const neighbor&) = default;
+    /// The nearer one is less; of equally near ones, that of the smaller index.
     friend bool operator<(const neighbor& a, const neighbor& b) {
         if (a.squared_distance != b.squared_distance)
             return a.squared_distance < b.squared_distance;

@@ -82,6 +82,7 @@ struct noise_knn {
             [&](const auto& tree) { return detail::nearest_search(tree, {.k = k}); },
             [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
+    /// The same without visitors of all candidates.
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         sweep(index, run, make_visitor, [] { return [](std::size_t, const auto&) {}; });

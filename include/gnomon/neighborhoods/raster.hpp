@@ -51,7 +51,7 @@ struct raster {
     /// `segment_surfaces` separates surfaces.
     angle precision = degrees(2.5);
 
-    static constexpr bool needs_no_index = true;
+    static constexpr bool needs_no_index = true;  ///< the pixels are the index
 
     /// The stored graph of the points of an image. O(n m) for windows of m pixels, in memory too.
     /// @throws std::invalid_argument  if the width is not known, or the number of points is not a

@@ -14,7 +14,7 @@ struct search_options {
     /// Found neighbors may be up to (1 + epsilon) times as far as the true ones, rank by rank; the
     /// search then reads fewer points. Not negative. Radii are exact all the same.
     double epsilon = 0.0;
-    tie_rule ties = tie_rule::by_index;
+    tie_rule ties = tie_rule::by_index;  ///< what happens to neighbors at equal distances
 };
 
 }  // namespace gnomon

@@ -39,6 +39,7 @@ class neighborhood_view : public std::span<const Eigen::Vector3d> {
   public:
     using std::span<const Eigen::Vector3d>::span;
 
+    /// @param open  whether the fan ends at a boundary
     explicit(false) neighborhood_view(std::span<const Eigen::Vector3d> positions, bool open = false)
         : std::span<const Eigen::Vector3d>(positions), open_(open) {}
 
@@ -60,8 +61,8 @@ concept normal_estimate = std::default_initializable<T> && requires(T& estimate)
 /// An estimate with these members only: of methods that compute nothing else, and of estimators
 /// that return a 3-vector, which `estimate_normals` normalizes.
 struct normal_fit {
-    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< unit length, or zero if not usable
-    gnomon::trust trust = gnomon::trust::too_few_neighbors;
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};                   ///< unit length, or zero if not usable
+    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< why there is a normal, or none
 };
 
 namespace detail {
@@ -136,6 +137,7 @@ enum class sensitivity : unsigned {
     units = 2,  ///< of length: parameters are in metres, or the method is not invariant to scaling
     axes = 4    ///< the directions of the coordinate axes
 };
+/// The flags of both.
 [[nodiscard]] constexpr sensitivity operator|(sensitivity a, sensitivity b) {
     return static_cast<sensitivity>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }

@@ -49,7 +49,7 @@ namespace detail {
 /// 0.1 rad^2, or would be for a plane whose slope across the ray is 3 standard deviations less.
 struct plane_eif {
     noise_curve noise = constant_noise{};  ///< of the sensor
-    ray_ls fit = {};
+    ray_ls fit = {};                       ///< the regression
 
     /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,

@@ -44,7 +44,7 @@ struct with_covariance {
     static constexpr auto sensitive_to = detail::sensitivity_of<E>();
 
     noise_curve noise = constant_noise{};  ///< of the sensor
-    E estimate = {};
+    E estimate = {};                       ///< the estimator whose normals these are
 
     /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<estimate_t<E>> operator()(const Eigen::Vector3d& p,

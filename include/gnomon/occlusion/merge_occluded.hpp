@@ -50,7 +50,7 @@ struct considered_gap {
     /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
-    bool merged;
+    bool merged;             ///< whether both are one segment now
 
     /// rho_c, the least length of the lines [m], Eq. (4.7); infinite if there are none.
     [[nodiscard]] double width() const { return detail::coplanar_distance(lines); }
@@ -58,8 +58,8 @@ struct considered_gap {
 
 /// Segments after merging, and every gap that was considered, in the order of the rounds.
 struct merged_segments {
-    gnomon::segments segments;
-    std::vector<considered_gap> gaps;
+    gnomon::segments segments;         ///< largest first
+    std::vector<considered_gap> gaps;  ///< one for each pair that was considered
 };
 
 namespace detail {

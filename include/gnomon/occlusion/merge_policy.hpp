@@ -26,16 +26,19 @@ enum class observation : char {
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
-    std::array<std::size_t, 5> of{};
+    std::array<std::size_t, 5> of{};  ///< one count for each kind
 
+    /// The count of one kind.
     [[nodiscard]] std::size_t operator[](observation s) const {
         return of[static_cast<std::size_t>(s)];
     }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }  ///< counts one
+    /// Adds the counts of another.
     observation_count& operator+=(const observation_count& other) {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
+    /// Of all.
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3] + of[4]; }
 };
 

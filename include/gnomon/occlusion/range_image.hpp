@@ -80,9 +80,9 @@ class range_image {
             p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
     }
 
-    [[nodiscard]] std::size_t width() const { return width_; }
-    [[nodiscard]] std::size_t height() const { return height_; }
-    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
+    [[nodiscard]] std::size_t width() const { return width_; }                     ///< in pixels
+    [[nodiscard]] std::size_t height() const { return height_; }                   ///< in pixels
+    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }  ///< [m]
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its

@@ -50,9 +50,9 @@ namespace gnomon {
 /// What is removed first: floor and ceiling, where they are found.
 struct floor_and_ceiling {
     Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
-    find_floor_options floor{};
-    find_ceiling_options ceiling{};
-    crop_height_options bands{};
+    find_floor_options floor{};                           ///< how the floor is found
+    find_ceiling_options ceiling{};                       ///< how the ceiling is found
+    crop_height_options bands{};                          ///< which points are left out with them
 
     /// @throws std::invalid_argument  what the search throws for parameters out of range
     void require_valid() const {
@@ -70,12 +70,12 @@ struct no_merging {};
 /// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
 /// planes. `min_points` counts cells.
 struct planes_on_cells {
-    segment_planes_options planes{};
+    segment_planes_options planes{};  ///< angle and number of cells
 };
 
 /// The segmentation of the thesis: smooth surfaces, from the normals of all points.
 struct smooth_surfaces {
-    segment_surfaces_options surfaces{};
+    segment_surfaces_options surfaces{};  ///< thresholds of Alg. 4.2
     /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
     /// estimator can.
     repair_anisotropic_options repair{};
@@ -94,18 +94,19 @@ struct perception {
     static_assert(std::same_as<Segmentation, planes_on_cells> ||
                       std::same_as<Segmentation, smooth_surfaces>,
                   "perception: the segmentation is planes_on_cells, or smooth_surfaces");
+    /// Whether planes are found on cells.
     static constexpr bool is_on_cells = std::same_as<Segmentation, planes_on_cells>;
 
-    Neighborhood neighborhood{};
-    Estimator estimate{};
-    Merge merge{};
-    Segmentation segmentation{};
+    Neighborhood neighborhood{};  ///< for the normals
+    Estimator estimate{};         ///< of normals
+    Merge merge{};                ///< which gaps are closed: a `merge_policy`
+    Segmentation segmentation{};  ///< `planes_on_cells` or `smooth_surfaces`
     /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
     /// given noise have the measured one.
     std::optional<noise_curve> noise = std::nullopt;
-    std::optional<floor_and_ceiling> leave_out = std::nullopt;
-    merge_occluded_options merging{};
-    visibility_options visibility{};
+    std::optional<floor_and_ceiling> leave_out = std::nullopt;  ///< by default nothing is
+    merge_occluded_options merging{};                           ///< which segments are coplanar
+    visibility_options visibility{};                            ///< the range images of the merging
 
     /// @throws std::invalid_argument  what the steps throw for parameters of the chain, its
     ///                                neighborhood and its options out of range
@@ -120,7 +121,7 @@ struct perception {
             detail::require_valid(segmentation.surfaces);
     }
 
-    using result_type = perception_result<estimate_t<Estimator>>;
+    using result_type = perception_result<estimate_t<Estimator>>;  ///< what is returned
 
     /// Perceives n points: any point range, or an index of it; a range without view points counts
     /// as seen from the origin.

@@ -26,8 +26,8 @@ template <class Estimate = plane_fit>
 struct perception_result {
     /// A step and how long it took [s].
     struct timed_step {
-        std::string_view name;
-        double seconds;
+        std::string_view name;  ///< of the step
+        double seconds;         ///< of wall-clock time
     };
     /// The noise of the points, which all steps share.
     struct known_noise {
@@ -41,12 +41,12 @@ struct perception_result {
         std::string_view reason = {};  ///< why it is so
     };
 
-    std::optional<plane> floor;     ///< if it was searched for and found
-    std::optional<double> ceiling;  ///< its height above the floor [m]
-    std::vector<point_index> kept;  ///< the points that were not removed, ascending
-    spatial_index index;            ///< of the kept points; empty if an index was
-                                    ///< given and no point was removed
-    known_noise noise;
+    std::optional<plane> floor;             ///< if it was searched for and found
+    std::optional<double> ceiling;          ///< its height above the floor [m]
+    std::vector<point_index> kept;          ///< the points that were not removed, ascending
+    spatial_index index;                    ///< of the kept points; empty if an index was
+                                            ///< given and no point was removed
+    known_noise noise;                      ///< by which the steps went
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
     segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps

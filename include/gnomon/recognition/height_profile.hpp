@@ -23,6 +23,7 @@ struct height_profile {
         double u = 0.0, v = 0.0;              ///< sums of the horizontal coordinates [m]
         double uu = 0.0, uv = 0.0, vv = 0.0;  ///< sums of their products [m^2]
 
+        /// Adds the points of another level.
         level& operator+=(const level& o) {
             points += o.points;
             u += o.u;
@@ -39,7 +40,7 @@ struct height_profile {
     /// the highest one holds everything above, too.
     static constexpr std::size_t count = 48;
 
-    std::array<level, count> levels{};
+    std::array<level, count> levels{};  ///< from the ground upwards
 
     /// Adds a point. Not counted below the second level.
     /// @param height  above the ground [m], finite

@@ -15,11 +15,12 @@ namespace gnomon::recognition {
 
 /// Samples in rows of equal length, with their classes.
 struct labeled_samples {
-    std::size_t columns = 0;
+    std::size_t columns = 0;             ///< numbers per sample
     std::vector<double> values;          ///< rows * columns, finite
     std::vector<std::uint32_t> classes;  ///< of each row
 
-    [[nodiscard]] std::size_t rows() const { return classes.size(); }
+    [[nodiscard]] std::size_t rows() const { return classes.size(); }  ///< the number of samples
+    /// The numbers of sample i.
     [[nodiscard]] std::span<const double> row(std::size_t i) const {
         return {values.data() + i * columns, columns};
     }

@@ -23,7 +23,7 @@ inline constexpr std::string_view background_name = "background";
 
 /// Options of an object_recognizer.
 struct object_recognizer_options {
-    random_trees_options trees{};
+    random_trees_options trees{};  ///< those of the trees
     /// Distance of the feature vectors of a part from the mean of its word, in units of the scales
     /// of the features; words only name the parts in the evidence.
     double max_word_distance = 1.0;
@@ -33,7 +33,7 @@ struct object_recognizer_options {
 /// Descriptions of views with their classes, the words of their parts, and the calibration.
 template <std::size_t D>
 struct learned_views {
-    object_recognizer_options options{};
+    object_recognizer_options options{};       ///< with which they were learned
     std::vector<std::string> names;            ///< of the classes
     std::vector<cluster_statistics<D>> words;  ///< of the parts of all views
     labeled_samples samples;                   ///< descriptions of all views

@@ -37,9 +37,9 @@ enum class test_outcome {
 /// The result of a test whose null hypothesis is a normal distribution with mean and variance
 /// estimated from the samples.
 struct normality_test {
-    test_outcome outcome = test_outcome::too_few_samples;
-    double statistic = 0.0;  ///< 0 unless tested
-    double p_value = 1.0;    ///< 1 unless tested
+    test_outcome outcome = test_outcome::too_few_samples;  ///< whether it was tested
+    double statistic = 0.0;                                ///< 0 unless tested
+    double p_value = 1.0;                                  ///< 1 unless tested
 
     /// Whether the null hypothesis is rejected at a significance level.
     [[nodiscard]] bool rejects(double level) const {

@@ -51,11 +51,11 @@ template <class Features = std::remove_cv_t<decltype(default_features)>,
           class Relations = std::remove_cv_t<decltype(default_relations)>>
 class object_recognizer {
   public:
-    using options_type = object_recognizer_options;
+    using options_type = object_recognizer_options;  ///< those of the constructor
     static constexpr std::size_t features_per_part = feature_count<Features>;
-    using descriptor_type = view_descriptor<Features, Relations>;
+    using descriptor_type = view_descriptor<Features, Relations>;  ///< what describes a view
 
-    using content = learned_views<features_per_part>;
+    using content = learned_views<features_per_part>;  ///< what is learned
 
     /// @param features  with their scales, which are 1 if another type is not given here
     /// @param relations  `no_relations` for parts alone
@@ -110,8 +110,8 @@ class object_recognizer {
 
     [[nodiscard]] std::size_t classes() const { return learned_.names.size(); }
     [[nodiscard]] const std::vector<std::string>& names() const { return learned_.names; }
-    [[nodiscard]] const content& learned() const { return learned_; }
-    [[nodiscard]] const descriptor_type& descriptor() const { return descriptor_; }
+    [[nodiscard]] const content& learned() const { return learned_; }  ///< what a file holds
+    [[nodiscard]] const descriptor_type& descriptor() const { return descriptor_; }  ///< of views
     /// Temperature, P_d, and the class of other things.
     [[nodiscard]] decide_options decision_options() const {
         const auto at = std::find(names().begin(), names().end(), background_name);

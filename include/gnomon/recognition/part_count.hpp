@@ -14,7 +14,7 @@ namespace gnomon::recognition {
 
 /// A normal distribution of a number, rounded to integers and cut at zero.
 struct part_count {
-    double mean = 0.0, deviation = 0.5;
+    double mean = 0.0, deviation = 0.5;  ///< of the number of parts of a view
 
     /// The distribution of these numbers. The deviation is at least 0.5, so that a number that was
     /// always the same does not exclude its neighbors.

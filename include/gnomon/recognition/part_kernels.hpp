@@ -42,8 +42,8 @@ struct part_kernel_options {
 template <class Features, class Relations>
 class part_kernels {
   public:
-    static constexpr std::size_t D = feature_count<Features>;
-    static constexpr std::size_t R = relation_count<Relations>;
+    static constexpr std::size_t D = feature_count<Features>;    ///< numbers that describe a part
+    static constexpr std::size_t R = relation_count<Relations>;  ///< numbers that describe a pair
 
     /// Without views: learn() and calibrate() are to follow.
     /// @throws std::invalid_argument  if bandwidth or least share are not positive, or the weight
@@ -104,7 +104,7 @@ class part_kernels {
         temperature_ = fit_temperature(left_out, of_view_);
     }
 
-    [[nodiscard]] std::size_t classes() const { return parts_.size(); }
+    [[nodiscard]] std::size_t classes() const { return parts_.size(); }  ///< number of classes
     /// That of calibrated probabilities.
     [[nodiscard]] double temperature() const { return temperature_; }
 

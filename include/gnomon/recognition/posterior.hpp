@@ -38,9 +38,10 @@ enum class term_kind : std::uint8_t {
 
 /// The log-likelihood of one thing that was seen, under every class.
 struct term {
+    /// No part, no word.
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-    term_kind kind = term_kind::prior;
+    term_kind kind = term_kind::prior;        ///< what it is about
     std::size_t first = none, second = none;  ///< numbers of parts of the view
     std::size_t word = none;                  ///< of the part or of the pair, by its number
     std::vector<double> log_likelihood = {};  ///< of each class
@@ -63,9 +64,9 @@ struct decide_options {
 
 /// A reason of a decision.
 struct evidence {
-    term_kind kind = term_kind::prior;
+    term_kind kind = term_kind::prior;                    ///< what it is about
     std::size_t first = term::none, second = term::none;  ///< parts of the view
-    std::size_t word = term::none;
+    std::size_t word = term::none;                        ///< of the part or of the pair
     double log_ratio = 0.0;  ///< positive if it is for the best class, and against the second
 };
 

@@ -22,9 +22,9 @@ namespace gnomon::recognition {
 
 /// Two words that are related, and how: by the distribution of the values of a relation.
 struct relation_word {
-    std::size_t first = 0, second = 0;  ///< part words, first <= second
-    std::size_t relation = 0;           ///< its number in the tuple of relations
-    double mean = 0.0, deviation = 1.0;
+    std::size_t first = 0, second = 0;   ///< part words, first <= second
+    std::size_t relation = 0;            ///< its number in the tuple of relations
+    double mean = 0.0, deviation = 1.0;  ///< of the values of the relation
 
     /// Whether a value is an example of the word. Klasing 2010, Eq. (5.4).
     /// @param delta  in standard deviations

@@ -18,7 +18,7 @@ namespace gnomon::recognition {
 /// A segment of a scan.
 struct part {
     std::int32_t segment = unlabeled;  ///< its number among the segments
-    segment_shape shape;
+    segment_shape shape;               ///< its frame, normal and size
     /// Of the lowest and the highest point above the ground [m]; zero if the ground is unknown.
     double lowest = 0.0, highest = 0.0;
     height_profile profile;  ///< empty if the ground is unknown

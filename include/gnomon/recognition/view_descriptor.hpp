@@ -23,7 +23,7 @@ namespace gnomon::recognition {
 /// of pairs.
 template <std::size_t Features, std::size_t Relations>
 struct measured_view {
-    std::vector<std::array<double, Features>> parts;
+    std::vector<std::array<double, Features>> parts;   ///< features of each part
     std::vector<std::array<double, Relations>> pairs;  ///< (0, 1), (0, 2), (1, 2), (0, 3), ...
 
     /// The number of the pair of parts i < j.
@@ -35,12 +35,15 @@ struct measured_view {
 /// Describes views by features, relations, and the height profile if `uses_profile`.
 template <class Features, class Relations>
 struct view_descriptor {
+    /// Numbers that describe a part.
     static constexpr std::size_t features_per_part = feature_count<Features>;
+    /// Numbers that describe a pair.
     static constexpr std::size_t relations_per_pair = relation_count<Relations>;
+    /// What is measured on a view.
     using measured = measured_view<features_per_part, relations_per_pair>;
 
-    Features features;
-    Relations relations;
+    Features features;         ///< a tuple of models of `part_feature`
+    Relations relations;       ///< a tuple of models of `part_relation`
     bool uses_profile = true;  ///< which needs the ground
 
     /// Measures a view. O(parts^2).

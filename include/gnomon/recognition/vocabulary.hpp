@@ -38,7 +38,7 @@ enum class covariance_repair {
 /// Options of a vocabulary. Features are taken as scaled to about [0, 1], Eq. (5.1).
 struct vocabulary_options {
     std::size_t min_members = 4;  ///< n_min: smaller clusters become no words; at least 1
-    covariance_repair repair = covariance_repair::pooled;
+    covariance_repair repair = covariance_repair::pooled;  ///< of words with few examples
     /// Weight of the pooled covariance, in members of a cluster; positive. Chosen: about the number
     /// of features.
     double pooled_members = 5.0;
@@ -66,8 +66,8 @@ struct detection {
 /// and read again member by member.
 template <std::size_t D>
 struct vocabulary {
-    std::vector<word<D>> words;
-    double max_distance = 0.0;  ///< delta_p, a Mahalanobis distance
+    std::vector<word<D>> words;  ///< by their number
+    double max_distance = 0.0;   ///< delta_p, a Mahalanobis distance
 
     /// All words within `max_distance` of a sample, by their numbers: one, several or none.
     /// @throws std::invalid_argument  if a value of the sample is not finite or above 1e100

@@ -23,8 +23,8 @@ enum class difference_sum {
 ///     const double d = rho(a, b);
 template <std::size_t D>
 struct weighted_distance {
-    std::array<double, D> weights = equal();  ///< not negative, not all 0
-    difference_sum sum = difference_sum::absolute;
+    std::array<double, D> weights = equal();        ///< not negative, not all 0
+    difference_sum sum = difference_sum::absolute;  ///< how the features are added up
 
     /// The distance of two vectors of finite values. O(D).
     /// @return not negative

@@ -60,7 +60,7 @@ struct word_histogram_options {
     double max_distance = 0.03;        ///< rho_max of greedy means clustering
     std::size_t min_members = 4;       ///< n_min of a word, and of the values of a relation word
     double inlier_probability = 0.99;  ///< of detections of words and of relations, Sec. 5.6.2
-    covariance_repair repair = covariance_repair::diagonal;
+    covariance_repair repair = covariance_repair::diagonal;  ///< of words with few examples
     bool counts_parts = true;        ///< whether the number of detections is evidence, Eq. (5.17)
     bool one_word_per_part = false;  ///< the nearest word only; the text has all within delta_p
     bool counts_absence = false;     ///< whether relations that are missing are evidence
@@ -71,8 +71,8 @@ struct word_histogram_options {
 template <class Features, class Relations>
 class word_histograms {
   public:
-    static constexpr std::size_t D = feature_count<Features>;
-    static constexpr std::size_t R = relation_count<Relations>;
+    static constexpr std::size_t D = feature_count<Features>;    ///< numbers that describe a part
+    static constexpr std::size_t R = relation_count<Relations>;  ///< numbers that describe a pair
 
     /// Counts the words of training views.
     /// @param views      of all classes
@@ -121,8 +121,9 @@ class word_histograms {
         learn_histograms(views, of_view, classes);
     }
 
-    [[nodiscard]] std::size_t classes() const { return counts_.size(); }
-    [[nodiscard]] const vocabulary<D>& words() const { return detect_.words; }
+    [[nodiscard]] std::size_t classes() const { return counts_.size(); }  ///< number of classes
+    [[nodiscard]] const vocabulary<D>& words() const { return detect_.words; }  ///< of parts
+    /// The words of pairs of parts.
     [[nodiscard]] const std::vector<recognition::relation_word>& relation_words() const {
         return detect_.relation_words;
     }

@@ -12,9 +12,10 @@ namespace gnomon {
 
 /// A rigid motion after which the floor is the plane z = 0.
 struct leveling {
-    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
+    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);  ///< so that the floor is level
     double lift = 0.0;  ///< added to z after the rotation [m]
 
+    /// The point, turned and moved.
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
         Eigen::Vector3d q = detail::product(rotation, p);
         q[2] += lift;

@@ -58,6 +58,7 @@ struct two_thresholds {
 struct joint_distance {
     double radius = 0.14;  ///< r, of no unit, Sec. 4.2.4
 
+    /// Whether two points are in one segment, by their squared distance and normals.
     [[nodiscard]] auto criterion() const {
         const double limit = radius * radius;
         return [limit](double squared_distance, const Eigen::Vector3d& n_i,

@@ -29,10 +29,10 @@ enum class echo_rule : char {
 /// the intensity has fallen to 1/e^2. Without waist and divergence, the default, the beam is a
 /// line. Surfaces nearer to the sensor than the waist may be missed.
 struct beam_footprint {
-    double waist = 0.0;     ///< w at the sensor [m]
-    angle divergence = {};  ///< full angle of the far-field cone
-    int sub_rays = 37;      ///< number of samples; a line needs none
-    echo_rule rule = echo_rule::first;
+    double waist = 0.0;                 ///< w at the sensor [m]
+    angle divergence = {};              ///< full angle of the far-field cone
+    int sub_rays = 37;                  ///< number of samples; a line needs none
+    echo_rule rule = echo_rule::first;  ///< which range is returned
     /// The instrument does not separate echoes nearer to each other than this, half the length of
     /// its pulse [m]: 0.45 to 0.75 for pulses of 3 to 5 ns.
     double echo_separation = 0.6;
@@ -41,6 +41,7 @@ struct beam_footprint {
     [[nodiscard]] double radius(double range) const {
         return std::hypot(waist, range * std::tan(0.5 * divergence.radians()));
     }
+    /// Whether it has no width.
     [[nodiscard]] bool is_line() const { return waist == 0.0 && divergence == radians(0); }
 };
 
@@ -54,8 +55,8 @@ struct beam {
     double grazing = 0.0;
     double clutter = 0.0;  ///< probability of a reading anywhere between 0 and the maximum range
     double failure = 0.0;  ///< probability of no reading at all
-    beam_footprint footprint = {};
-    bool keep_failed = false;  ///< failed readings become points at the maximum range
+    beam_footprint footprint = {};  ///< its width
+    bool keep_failed = false;       ///< failed readings become points at the maximum range
     std::uint64_t seed = 1;
 
     /// @throws std::invalid_argument  unless standard deviations and lengths are finite and not

@@ -23,22 +23,22 @@ enum class chair_back : char {
 
 /// A chair. Its frame lies on the floor below the middle of the seat; it faces +x. Lengths in [m].
 struct chair {
-    double width = 0.42;           ///< of the seat, along y; its diameter if round
-    double depth = 0.42;           ///< of the seat, along x, unless it is round
-    double seat_height = 0.45;     ///< of its upper side
-    double seat_thickness = 0.04;  ///< of the seat, unless it is massive
-    double leg = 0.04;             ///< edge length, or diameter if round
-    chair_back back = chair_back::solid;
-    double back_height = 0.90;     ///< of its upper end
-    double back_thickness = 0.03;  ///< of the back, along x
-    int slats = 5;                 ///< of a lattice or ladder
-    double slat_width = 0.03;      ///< of a lattice; of the posts of a ladder
-    double rail_height = 0.04;     ///< of a lattice; of the slats of a ladder
-    double arm_height = 0.0;       ///< of the upper side of the arms; 0 for none
-    double arm_width = 0.05;       ///< of the arms, along y
-    double arm_thickness = 0.03;   ///< of the arms, unless they are massive
-    bool round = false;            ///< seat and legs
-    bool massive = false;          ///< an armchair: no legs, seat and arms down to the floor
+    double width = 0.42;                  ///< of the seat, along y; its diameter if round
+    double depth = 0.42;                  ///< of the seat, along x, unless it is round
+    double seat_height = 0.45;            ///< of its upper side
+    double seat_thickness = 0.04;         ///< of the seat, unless it is massive
+    double leg = 0.04;                    ///< edge length, or diameter if round
+    chair_back back = chair_back::solid;  ///< what it is made of
+    double back_height = 0.90;            ///< of its upper end
+    double back_thickness = 0.03;         ///< of the back, along x
+    int slats = 5;                        ///< of a lattice or ladder
+    double slat_width = 0.03;             ///< of a lattice; of the posts of a ladder
+    double rail_height = 0.04;            ///< of a lattice; of the slats of a ladder
+    double arm_height = 0.0;              ///< of the upper side of the arms; 0 for none
+    double arm_width = 0.05;              ///< of the arms, along y
+    double arm_thickness = 0.03;          ///< of the arms, unless they are massive
+    bool round = false;                   ///< seat and legs
+    bool massive = false;                 ///< an armchair: no legs, seat and arms down to the floor
 };
 
 /// The chair with all lengths multiplied by `scale`.

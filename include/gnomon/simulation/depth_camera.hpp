@@ -25,8 +25,8 @@ namespace gnomon::simulation {
 
 /// A depth camera. The default is an ideal pinhole camera of the size of a Kinect.
 struct depth_camera {
-    std::size_t columns = 640;
-    std::size_t rows = 480;
+    std::size_t columns = 640;                ///< of pixels
+    std::size_t rows = 480;                   ///< of pixels
     double focal_length = 575.0;              ///< f [pixel]
     noise_curve noise = constant_noise{0.0};  ///< standard deviation of the depth, of the depth
     double baseline = 0.0;                    ///< b, of cameras that triangulate [m]

@@ -20,8 +20,8 @@ namespace gnomon::simulation {
 /// A furniture model and its name. The frame of a scene, as that of the built-in pieces, lies on
 /// the floor below the middle of the piece; z points up.
 struct furniture_model {
-    std::string name;
-    std::variant<chair, table, scene> piece;
+    std::string name;                         ///< of the model
+    std::variant<chair, table, scene> piece;  ///< the model itself
 };
 
 /// Adds a model as one object with the model's name.

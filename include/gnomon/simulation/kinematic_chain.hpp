@@ -29,11 +29,11 @@ enum class joint_kind : char {
 /// axis of the frame before it, a translation by d along this axis, a translation by a along the
 /// new x axis, and a rotation by alpha about this axis.
 struct chain_joint {
-    angle theta = {};  ///< about the old z axis, at the value 0
-    double d = 0.0;    ///< along the old z axis, at the value 0 [m]
-    double a = 0.0;    ///< along the new x axis [m]
-    angle alpha = {};  ///< about the new x axis
-    joint_kind kind = joint_kind::revolute;
+    angle theta = {};                        ///< about the old z axis, at the value 0
+    double d = 0.0;                          ///< along the old z axis, at the value 0 [m]
+    double a = 0.0;                          ///< along the new x axis [m]
+    angle alpha = {};                        ///< about the new x axis
+    joint_kind kind = joint_kind::revolute;  ///< how it moves
 
     /// The pose of the frame behind the joint in the frame before it.
     /// @param value  added to theta [rad] or d [m]
@@ -46,9 +46,9 @@ struct chain_joint {
 
 /// Joints one after the other, between a base in the scene and a sensor.
 struct kinematic_chain {
-    pose base = {};  ///< the frame before the first joint
-    std::vector<chain_joint> joints = {};
-    pose tool = {};  ///< the sensor in the frame behind the last joint
+    pose base = {};                        ///< the frame before the first joint
+    std::vector<chain_joint> joints = {};  ///< from the base to the sensor
+    pose tool = {};                        ///< the sensor in the frame behind the last joint
 
     /// Forward kinematics: the pose of the sensor. O(joints).
     /// @param values  one per joint [rad] or [m]
@@ -65,7 +65,7 @@ struct kinematic_chain {
 /// A motion of all joints at once, each with a constant speed. Models `sensor_trajectory`; calls
 /// throw what the chain throws, for either list of values.
 struct joint_motion {
-    kinematic_chain chain;
+    kinematic_chain chain;     ///< that moves
     std::vector<double> from;  ///< the values at the time 0 [rad] or [m]
     std::vector<double> to;    ///< the values at the end
     double duration = 4.0;     ///< t_s [s]

@@ -18,8 +18,8 @@ using triangle = std::array<std::uint32_t, 3>;
 
 /// Triangles and, for each of them, the number of its surface.
 struct polyhedron {
-    std::vector<Eigen::Vector3d> vertices;  ///< [m]
-    std::vector<triangle> triangles;
+    std::vector<Eigen::Vector3d> vertices;          ///< [m]
+    std::vector<triangle> triangles;                ///< its surface
     std::vector<std::int32_t> surface_of_triangle;  ///< one per triangle; empty: all are surface 0
 };
 

@@ -14,6 +14,7 @@ namespace gnomon::simulation {
 /// A rigid motion: the point x of the local frame is rotation * x + position in the outer frame.
 /// Frames: x forward, y left, z up.
 struct pose {
+    /// From the object's frame to the world's.
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
 

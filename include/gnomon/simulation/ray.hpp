@@ -16,6 +16,7 @@ struct ray {
     Eigen::Vector3d direction;                               ///< unit length
     double reach = std::numeric_limits<double>::infinity();  ///< [m]
 
+    /// The point at a range [m].
     [[nodiscard]] Eigen::Vector3d point_at(double range) const {
         return origin + direction * range;
     }

@@ -116,9 +116,11 @@ namespace scanners {
 /// The three densities of Fig. 2.16: 7,200, 28,800 and 115,200 points in 4 seconds.
 namespace densities {
 
+/// 7,200 points.
 [[nodiscard]] inline scanner low() { return {.resolution = degrees(1.0), .frequency = 10.0}; }
+/// 28,800 points.
 [[nodiscard]] inline scanner medium() { return {.resolution = degrees(0.5), .frequency = 20.0}; }
-[[nodiscard]] inline scanner high() { return {}; }
+[[nodiscard]] inline scanner high() { return {}; }  ///< 115,200 points
 
 }  // namespace densities
 

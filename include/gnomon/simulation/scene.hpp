@@ -40,7 +40,7 @@ struct scene_surface {
 
 /// A part of a scene.
 struct scene_part {
-    std::string name;
+    std::string name;     ///< given when it was added
     std::int32_t object;  ///< that it belongs to
 };
 
@@ -52,10 +52,10 @@ struct opening {
 
 /// A shape and its pose in a scene.
 struct placed_shape {
-    std::shared_ptr<const detail::any_shape> shape;
-    gnomon::simulation::pose pose;
-    bounds extent;               ///< in the scene's frame
-    std::int32_t first_surface;  ///< number of its surface 0; the others follow
+    std::shared_ptr<const detail::any_shape> shape;  ///< in its own frame
+    gnomon::simulation::pose pose;  ///< from the frame of the shape to that of the scene
+    bounds extent;                  ///< in the scene's frame
+    std::int32_t first_surface;     ///< number of its surface 0; the others follow
 
     /// The first hit, in the scene's frame and with the scene's surface numbers.
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
@@ -123,9 +123,13 @@ class scene {
     friend std::int32_t add(scene& world, const scene& model, const pose& at);
     friend std::int32_t add(scene& world, std::string name, const scene& model, const pose& at);
 
+    /// Their names.
     [[nodiscard]] const std::vector<std::string>& objects() const { return objects_; }
+    /// By their number.
     [[nodiscard]] const std::vector<scene_part>& parts() const { return parts_; }
+    /// By their number.
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
+    /// In their order of addition.
     [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
 
     /// The bounds of all shapes [m]; empty if there are none. O(shapes).

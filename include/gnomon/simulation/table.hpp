@@ -23,14 +23,14 @@ enum class table_base : char {
 
 /// A table. Its frame lies on the floor below the middle of the top. Lengths in [m].
 struct table {
-    double length = 1.20;     ///< of the top, along x; its diameter if round
-    double width = 0.80;      ///< of the top, along y, unless it is round
-    double height = 0.74;     ///< of its upper side
-    double thickness = 0.03;  ///< of the top
-    double leg = 0.05;        ///< edge length, or diameter if round
-    double inset = 0.05;      ///< of the legs from the edges of the top
-    table_base base = table_base::legs;
-    bool round = false;             ///< top and legs
+    double length = 1.20;                ///< of the top, along x; its diameter if round
+    double width = 0.80;                 ///< of the top, along y, unless it is round
+    double height = 0.74;                ///< of its upper side
+    double thickness = 0.03;             ///< of the top
+    double leg = 0.05;                   ///< edge length, or diameter if round
+    double inset = 0.05;                 ///< of the legs from the edges of the top
+    table_base base = table_base::legs;  ///< what carries it
+    bool round = false;                  ///< top and legs
     double shelf_height = 0.0;      ///< of the upper side of a shelf between the legs; 0 for none
     double shelf_thickness = 0.02;  ///< of the shelf
     double foot_width = 0.55;       ///< diameter of the foot of a pedestal

@@ -71,7 +71,7 @@ struct rotational {
 
 /// Does not move.
 struct fixed {
-    pose mount = {};
+    pose mount = {};        ///< at all times
     double duration = 1.0;  ///< t_s [s]
 
     [[nodiscard]] pose operator()(double) const { return mount; }
@@ -103,6 +103,7 @@ struct along {
     double duration;  ///< t_s [s]
     F pose_at;        ///< seconds -> pose
 
+    /// @param function  the pose at a time [s]
     along(double seconds, F function) : duration(seconds), pose_at(std::move(function)) {}
 
     [[nodiscard]] pose operator()(double seconds) const { return pose_at(seconds); }
