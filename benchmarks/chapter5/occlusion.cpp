@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSL-1.0
 // Occluded objects, Fig. 5.11: a board in front of an object hides a share of its points. All
-// methods learn the same views; all but soft words, and the thesis as printed, also versions of
-// these of which a part is hidden.
+// methods learn the same views; all but the thesis as printed also versions of these of which a
+// part is hidden.
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -18,7 +18,6 @@
 #include <gnomon/recognition/height_profile.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_features.hpp>
-#include <gnomon/recognition/part_kernels.hpp>
 #include <gnomon/recognition/part_relation.hpp>
 #include <gnomon/recognition/word_histograms.hpp>
 
@@ -113,9 +112,7 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
     learn(model, training, names_of(models));
     profile_trees profiles({}, boost::hana::make_tuple(rec::box_edge<0>{}), rec::no_relations);
     learn(profiles, profiles_of(scans), names_of(models));
-    const view_set seen_once = views_of(once), once50 = views_of(once, thesis_density);
-    const rec::part_kernels soft(seen_once.views, seen_once.classes, models.size(),
-                                 rec::default_features, rec::default_relations);
+    const view_set once50 = views_of(once, thesis_density);
     const rec::word_histograms thesis(once50.views, once50.classes, models.size(),
                                       rec::scaled_by_largest(rec::thesis_features, once50.views),
                                       rec::thesis_relations);
@@ -138,14 +135,12 @@ void add_seed(outcomes_by_row& rows, const effort& much, std::uint64_t seed) {
             rows.add({{"hidden", share}, {"method", method}}, std::move(found));
         };
         add("default", outcomes_of(seen, [&](const rec::view& v) { return model.decide(v); }));
-        // Slow methods only where relations compare them, and at the largest share.
-        const bool has_all = share == 0.0 || share == 0.5 || share == 0.8;
-        if (has_all) add("soft words", outcomes_of(soft, seen, soft.temperature()));
         add("thesis, as printed", outcomes_of(thesis, seen50, 1.0));
         add("thesis, repaired", outcomes_of(repaired, seen15, 1.0));
         add("height profile", outcomes_of_profiles(profiles, tests));
 #ifdef CHAPTER5_PCL
-        if (has_all) {
+        // ESF is slow: only where relations compare it, and at the largest share.
+        if (share == 0.0 || share == 0.5 || share == 0.8) {
             const described_set vfh_tests(peers::vfh, tests), esf_tests(peers::esf, tests);
             add("VFH, nearest", outcomes_of_nearest(vfh, vfh_tests, false));
             add("ESF, nearest", outcomes_of_nearest(esf, esf_tests, false));

@@ -45,14 +45,15 @@ SECTIONS = [
      "next to other work of the machine."),
     ("occlusion", "Fig. 5.11: occluded objects",
      "A board in front of the object hides a share of its points, on the left, on the right or at the bottom. All "
-     "methods learn the same views with the same two versions of which a part is hidden, but for soft words and the "
-     "thesis as printed, which learn the views alone, and the peers once more without. VFH and ESF are of PCL, with the nearest neighbor by the sum of absolute "
+     "methods learn the same views with the same two versions of which a part is hidden, but for the thesis "
+     "as printed, which learns the views alone, and the peers once more without. VFH and ESF are of PCL, with the nearest neighbor by the sum of absolute "
      "differences; they have no probability, and decide on all views. The height profile is that of all points of the "
      "scan, without any parts, with the same trees as the default. The repaired method of the thesis has seen hidden versions, too, "
      "and does not count parts."),
     ("skimmed", "Sec. 5.8.4: skimmed points",
      "Scans by a beam of 10 mrad, of 9 sub-rays, that averages the ranges of all surfaces that it meets, tested "
-     "after learning scans by thin beams, and after learning both."),
+     "after learning scans by thin beams, and after learning both. Where the width of the beam is given, points "
+     "at silhouettes are removed first (`remove_silhouettes`)."),
     ("backs", "Models that differ in their backs only",
      "Four chairs of the same seat, legs and back, which stands at the rear edge, 8 or 16 cm inwards, or 12 cm "
      "to the side, up to 3 m ahead, where seats are seen: 120 views of each to learn, and the same number to test."),
