@@ -138,7 +138,7 @@ averaging(triangle_sign, Weight) -> averaging<Weight>;
 using equally_weighted = detail::averaging<detail::equal_weight>;      ///< the same for all
 using area_weighted = detail::averaging<detail::area_weight>;          ///< Eq. (3.10)
 using angle_weighted = detail::averaging<detail::angle_weight>;        ///< Eq. (3.11)
-using centroid_weighted = detail::averaging<detail::centroid_weight>;  ///< Chen 2004
+using centroid_weighted = detail::averaging<detail::centroid_weight>;  ///< Chen and Wu 2004
 /// By area over the squared distance of the centroid.
 using gravitationally_weighted = detail::averaging<detail::gravitational_weight>;
 

@@ -38,7 +38,7 @@ struct observation_count {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
-    /// Of all.
+    /// The count of all kinds.
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3] + of[4]; }
 };
 

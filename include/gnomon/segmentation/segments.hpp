@@ -80,7 +80,7 @@ class segments {
 
     /// The label of each point: its segment, or `unlabeled`.
     [[nodiscard]] const std::vector<std::int32_t>& labels() const& { return labels_; }
-    /// Moved out.
+    /// The labels, moved out of a temporary.
     [[nodiscard]] std::vector<std::int32_t> labels() && { return std::move(labels_); }
 
     friend bool operator==(const segments&, const segments&) = default;

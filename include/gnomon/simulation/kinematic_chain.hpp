@@ -65,7 +65,7 @@ struct kinematic_chain {
 /// A motion of all joints at once, each with a constant speed. Models `sensor_trajectory`; calls
 /// throw what the chain throws, for either list of values.
 struct joint_motion {
-    kinematic_chain chain;     ///< that moves
+    kinematic_chain chain;     ///< whose joints move
     std::vector<double> from;  ///< the values at the time 0 [rad] or [m]
     std::vector<double> to;    ///< the values at the end
     double duration = 4.0;     ///< t_s [s]

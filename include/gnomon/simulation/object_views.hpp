@@ -60,7 +60,7 @@ struct object_view_options {
     /// Positions of the object's frame: uniform in these bounds [m], where they are not nearer to
     /// the sensor than `nearest`, seen from above [m].
     bounds places = {{0.5, -2.5, 0.0}, {5.5, 2.5, 0.0}};
-    double nearest = 1.2;  ///< of the object's frame to the sensor [m]
+    double nearest = 1.2;  ///< least distance of the object's frame from the sensor [m]
     /// The share of the object's points, from 0 to 1, that a board in front of it hides: those on
     /// the left, on the right or at the bottom, with equal probability.
     double occluded_share = 0.0;

@@ -123,13 +123,13 @@ class scene {
     friend std::int32_t add(scene& world, const scene& model, const pose& at);
     friend std::int32_t add(scene& world, std::string name, const scene& model, const pose& at);
 
-    /// Their names.
+    /// The names of the objects, by number.
     [[nodiscard]] const std::vector<std::string>& objects() const { return objects_; }
-    /// By their number.
+    /// The parts, by number.
     [[nodiscard]] const std::vector<scene_part>& parts() const { return parts_; }
-    /// By their number.
+    /// The surfaces, by number.
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
-    /// In their order of addition.
+    /// The shapes, in the order in which they were added.
     [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
 
     /// The bounds of all shapes [m]; empty if there are none. O(shapes).
