@@ -51,8 +51,11 @@
 #error "gnomon needs C++20: -std=c++20, or target_compile_features(... cxx_std_20)"
 #endif
 
+/// The version of these headers, in three numbers: docs/versions.md.
 #define GNOMON_VERSION_MAJOR 0
+/// The second number.
 #define GNOMON_VERSION_MINOR 2
+/// The third number.
 #define GNOMON_VERSION_PATCH 0
 
 // -------- gnomon/core/detail/cmath.hpp -----------------------------------------------------------
@@ -183,8 +186,8 @@ class angle {
     friend constexpr auto operator<=>(const angle&, const angle&) = default;
     friend constexpr angle radians(double value);
 
-    [[nodiscard]] friend double cos(angle a) { return std::cos(a.radians_); }
-    [[nodiscard]] friend double sin(angle a) { return std::sin(a.radians_); }
+    [[nodiscard]] friend double cos(angle a) { return std::cos(a.radians_); }  ///< its cosine
+    [[nodiscard]] friend double sin(angle a) { return std::sin(a.radians_); }  ///< its sine
 
   private:
     double radians_ = 0.0;
@@ -772,7 +775,7 @@ struct constant_noise {
 /// The standard deviation a + b x + c x^2 at the range x.
 struct quadratic_noise {
     double a = 0.0;  ///< [m]
-    double b = 0.0;
+    double b = 0.0;  ///< coefficient of the linear term
     double c = 0.0;  ///< [1/m]
 
     [[nodiscard]] constexpr double operator()(double x) const { return a + x * (b + x * c); }
@@ -1857,6 +1860,7 @@ namespace gnomon {
 /// What an algorithm throws whose stop was requested.
 class stopped : public std::exception {
   public:
+    /// The message.
     [[nodiscard]] const char* what() const noexcept override { return "stopped on request"; }
 };
 
@@ -1866,6 +1870,7 @@ class stop_token {
   public:
     stop_token() = default;
 
+    /// Whether a stop was requested. Thread-safe.
     [[nodiscard]] bool stop_requested() const {
         return requested_ && requested_->load(std::memory_order_relaxed);
     }
@@ -1883,9 +1888,10 @@ class stop_source {
   public:
     stop_source() : requested_(std::make_shared<std::atomic<bool>>(false)) {}
 
-    void request_stop() { requested_->store(true, std::memory_order_relaxed); }
+    void request_stop() { requested_->store(true, std::memory_order_relaxed); }  ///< thread-safe
     /// Lets the tokens be used for the next call.
     void reset() { requested_->store(false, std::memory_order_relaxed); }
+    /// For a `supervised` execution.
     [[nodiscard]] stop_token token() const { return stop_token(requested_); }
 
   private:
@@ -1913,6 +1919,7 @@ void begin_step(const X& run, const char* name, std::size_t step, std::size_t st
 template <execution X, class OnStep = detail::no_progress>
 class supervised {
   public:
+    /// @param run  the execution that does the work
     explicit supervised(X run, stop_token stop = {}, OnStep on_step = {})
         : run_(std::move(run)), stop_(std::move(stop)), on_step_(std::move(on_step)) {}
 
@@ -2667,9 +2674,10 @@ namespace gnomon {
 /// A point found by a search. The canonical order is by distance, ties by index.
 struct neighbor {
     double squared_distance;  ///< [m^2], of the metric of the search; by default squared_distance()
-    point_index index;
+    point_index index;        ///< in the range of points
 
     friend bool operator==(const neighbor&, const neighbor&) = default;
+    /// The nearer one is less; of equally near ones, that of the smaller index.
     friend bool operator<(const neighbor& a, const neighbor& b) {
         if (a.squared_distance != b.squared_distance)
             return a.squared_distance < b.squared_distance;
@@ -3503,7 +3511,7 @@ struct metric {
 
     /// |dx| + |dy| + |dz|
     [[nodiscard]] static constexpr metric manhattan() { return {1.0}; }
-    [[nodiscard]] static constexpr metric euclidean() { return {2.0}; }
+    [[nodiscard]] static constexpr metric euclidean() { return {2.0}; }  ///< p = 2
     /// The largest of |dx|, |dy| and |dz|.
     [[nodiscard]] static constexpr metric maximum() {
         return {std::numeric_limits<double>::infinity()};
@@ -3746,7 +3754,7 @@ struct search_options {
     /// Found neighbors may be up to (1 + epsilon) times as far as the true ones, rank by rank; the
     /// search then reads fewer points. Not negative. Radii are exact all the same.
     double epsilon = 0.0;
-    tie_rule ties = tie_rule::by_index;
+    tie_rule ties = tie_rule::by_index;  ///< what happens to neighbors at equal distances
 };
 
 }  // namespace gnomon
@@ -5971,10 +5979,10 @@ struct prefer_small_error {
 /// Models `indexed_neighborhood`. Neighbors come in canonical order, nearest first.
 template <size_preference Preference = prefer_isotropic>
 struct adaptive_knn {
-    std::size_t min_k = 10;
-    std::size_t max_k = 80;
-    double growth = 2.0;  ///< from one size to the next
-    Preference preference = {};
+    std::size_t min_k = 10;      ///< smallest size
+    std::size_t max_k = 80;      ///< largest size
+    double growth = 2.0;         ///< from one size to the next
+    Preference preference = {};  ///< which of the sizes is taken
 
     /// The stored graph of points, or of an index of them. O(n (log n + max_k log max_k)).
     /// @throws std::invalid_argument  unless 1 <= min_k <= max_k and growth >= 1.1
@@ -7120,6 +7128,7 @@ struct noise_knn {
             [&](const auto& tree) { return detail::nearest_search(tree, {.k = k}); },
             [&] { return gate(*this, index, make_visitor(), make_visitor_of_all()); });
     }
+    /// The same without visitors of all candidates.
     template <execution X>
     void sweep(const spatial_index& index, const X& run, auto&& make_visitor) const {
         sweep(index, run, make_visitor, [] { return [](std::size_t, const auto&) {}; });
@@ -7480,6 +7489,7 @@ class neighborhood_view : public std::span<const Eigen::Vector3d> {
   public:
     using std::span<const Eigen::Vector3d>::span;
 
+    /// @param open  whether the fan ends at a boundary
     explicit(false) neighborhood_view(std::span<const Eigen::Vector3d> positions, bool open = false)
         : std::span<const Eigen::Vector3d>(positions), open_(open) {}
 
@@ -7501,8 +7511,8 @@ concept normal_estimate = std::default_initializable<T> && requires(T& estimate)
 /// An estimate with these members only: of methods that compute nothing else, and of estimators
 /// that return a 3-vector, which `estimate_normals` normalizes.
 struct normal_fit {
-    Eigen::Vector3d normal{0.0, 0.0, 0.0};  ///< unit length, or zero if not usable
-    gnomon::trust trust = gnomon::trust::too_few_neighbors;
+    Eigen::Vector3d normal{0.0, 0.0, 0.0};                   ///< unit length, or zero if not usable
+    gnomon::trust trust = gnomon::trust::too_few_neighbors;  ///< why there is a normal, or none
 };
 
 namespace detail {
@@ -7577,6 +7587,7 @@ enum class sensitivity : unsigned {
     units = 2,  ///< of length: parameters are in metres, or the method is not invariant to scaling
     axes = 4    ///< the directions of the coordinate axes
 };
+/// The flags of both.
 [[nodiscard]] constexpr sensitivity operator|(sensitivity a, sensitivity b) {
     return static_cast<sensitivity>(static_cast<unsigned>(a) | static_cast<unsigned>(b));
 }
@@ -7735,10 +7746,11 @@ averaging(triangle_sign, Weight) -> averaging<Weight>;
 
 }  // namespace detail
 
-using equally_weighted = detail::averaging<detail::equal_weight>;
-using area_weighted = detail::averaging<detail::area_weight>;    ///< Eq. (3.10)
-using angle_weighted = detail::averaging<detail::angle_weight>;  ///< Eq. (3.11)
-using centroid_weighted = detail::averaging<detail::centroid_weight>;
+using equally_weighted = detail::averaging<detail::equal_weight>;      ///< the same for all
+using area_weighted = detail::averaging<detail::area_weight>;          ///< Eq. (3.10)
+using angle_weighted = detail::averaging<detail::angle_weight>;        ///< Eq. (3.11)
+using centroid_weighted = detail::averaging<detail::centroid_weight>;  ///< Chen and Wu 2004
+/// By area over the squared distance of the centroid.
 using gravitationally_weighted = detail::averaging<detail::gravitational_weight>;
 
 }  // namespace gnomon
@@ -10732,7 +10744,7 @@ namespace detail {
 /// 0.1 rad^2, or would be for a plane whose slope across the ray is 3 standard deviations less.
 struct plane_eif {
     noise_curve noise = constant_noise{};  ///< of the sensor
-    ray_ls fit = {};
+    ray_ls fit = {};                       ///< the regression
 
     /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<ray_fit> operator()(const Eigen::Vector3d& p,
@@ -12343,7 +12355,7 @@ struct with_covariance {
     static constexpr auto sensitive_to = detail::sensitivity_of<E>();
 
     noise_curve noise = constant_noise{};  ///< of the sensor
-    E estimate = {};
+    E estimate = {};                       ///< the estimator whose normals these are
 
     /// @throws std::invalid_argument  if the noise is 0
     [[nodiscard]] normal_belief<estimate_t<E>> operator()(const Eigen::Vector3d& p,
@@ -13599,6 +13611,7 @@ class segments {
 
     /// The label of each point: its segment, or `unlabeled`.
     [[nodiscard]] const std::vector<std::int32_t>& labels() const& { return labels_; }
+    /// The labels, moved out of a temporary.
     [[nodiscard]] std::vector<std::int32_t> labels() && { return std::move(labels_); }
 
     friend bool operator==(const segments&, const segments&) = default;
@@ -14313,9 +14326,10 @@ namespace gnomon {
 
 /// A rigid motion after which the floor is the plane z = 0.
 struct leveling {
-    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);
+    Eigen::Matrix3d rotation = detail::diagonal(1.0, 1.0, 1.0);  ///< so that the floor is level
     double lift = 0.0;  ///< added to z after the rotation [m]
 
+    /// The point, turned and moved.
     [[nodiscard]] Eigen::Vector3d operator()(const Eigen::Vector3d& p) const {
         Eigen::Vector3d q = detail::product(rotation, p);
         q[2] += lift;
@@ -15137,6 +15151,7 @@ struct two_thresholds {
 struct joint_distance {
     double radius = 0.14;  ///< r, of no unit, Sec. 4.2.4
 
+    /// Whether two points are in one segment, by their squared distance and normals.
     [[nodiscard]] auto criterion() const {
         const double limit = radius * radius;
         return [limit](double squared_distance, const Eigen::Vector3d& n_i,
@@ -16363,16 +16378,19 @@ enum class observation : char {
 
 /// How often something was seen, by kind of observation.
 struct observation_count {
-    std::array<std::size_t, 5> of{};
+    std::array<std::size_t, 5> of{};  ///< one count for each kind
 
+    /// The count of one kind.
     [[nodiscard]] std::size_t operator[](observation s) const {
         return of[static_cast<std::size_t>(s)];
     }
-    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }
+    void add(observation s) { ++of[static_cast<std::size_t>(s)]; }  ///< counts one
+    /// Adds the counts of another.
     observation_count& operator+=(const observation_count& other) {
         for (std::size_t s = 0; s < of.size(); ++s) of[s] += other.of[s];
         return *this;
     }
+    /// The count of all kinds.
     [[nodiscard]] std::size_t total() const { return of[0] + of[1] + of[2] + of[3] + of[4]; }
 };
 
@@ -16748,9 +16766,9 @@ class range_image {
             p, some.size(), [some](std::size_t s) { return some[s]; }, format.pole);
     }
 
-    [[nodiscard]] std::size_t width() const { return width_; }
-    [[nodiscard]] std::size_t height() const { return height_; }
-    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }
+    [[nodiscard]] std::size_t width() const { return width_; }                     ///< in pixels
+    [[nodiscard]] std::size_t height() const { return height_; }                   ///< in pixels
+    [[nodiscard]] const Eigen::Vector3d& viewpoint() const { return viewpoint_; }  ///< [m]
 
     /// Where a point is seen; (0, 0) in the view point. Azimuth pi is -pi, and the pole belongs to
     /// the last row. Precondition: its distance, squared, is finite. (A template, so that only its
@@ -17396,7 +17414,7 @@ struct considered_gap {
     /// each of two cells, one in each segment, and `distance` is between the means of these cells.
     std::vector<detail::boundary_pair> lines;
     observation_count seen;  ///< along all of them
-    bool merged;
+    bool merged;             ///< whether both are one segment now
 
     /// rho_c, the least length of the lines [m], Eq. (4.7); infinite if there are none.
     [[nodiscard]] double width() const { return detail::coplanar_distance(lines); }
@@ -17404,8 +17422,8 @@ struct considered_gap {
 
 /// Segments after merging, and every gap that was considered, in the order of the rounds.
 struct merged_segments {
-    gnomon::segments segments;
-    std::vector<considered_gap> gaps;
+    gnomon::segments segments;         ///< largest first
+    std::vector<considered_gap> gaps;  ///< one for each pair that was considered
 };
 
 namespace detail {
@@ -17959,7 +17977,9 @@ class properties {
             for (const property& column : group) columns_.push_back(property(column));
     }
 
+    /// The first column.
     [[nodiscard]] std::vector<property>::const_iterator begin() const { return columns_.begin(); }
+    /// The end of the columns.
     [[nodiscard]] std::vector<property>::const_iterator end() const { return columns_.end(); }
     [[nodiscard]] std::size_t size() const { return columns_.size(); }
 
@@ -22142,7 +22162,7 @@ enum class hull_shape {
 
 /// The convex hull of the finite points of a range.
 struct convex_hull {
-    hull_shape shape = hull_shape::none;
+    hull_shape shape = hull_shape::none;  ///< its dimension
     /// The extreme points: ascending; of a planar hull in their order around it. Points on its
     /// edges or facets are not extreme; of points at one place the smallest index is.
     std::vector<point_index> vertices;
@@ -23067,9 +23087,9 @@ struct segment_shape {
         volume
     };
 
-    extent spread = extent::none;
-    std::size_t points = 0;  ///< that are finite
-    principal_frame frame;   ///< centroid, principal axes, variances along them, and box
+    extent spread = extent::none;  ///< dimension of the set of points
+    std::size_t points = 0;        ///< that are finite
+    principal_frame frame;         ///< centroid, principal axes, variances along them, and box
     /// The axis of smallest variance, towards the view points; where none is known on the side of
     /// the mean normal. The zero vector without a surface.
     Eigen::Vector3d normal{0.0, 0.0, 0.0};
@@ -23719,6 +23739,7 @@ namespace gnomon {
 /// The outcome of a least-squares fit. Base of `sphere_estimate`, `cylinder_estimate` and
 /// `cone_estimate`.
 struct surface_fit {
+    /// What a fit can come to.
     enum class outcome : std::uint8_t {
         good,           ///< the surface explains the points
         poor_fit,       ///< it does not: noise has this chi-square in .3 % of cases
@@ -23733,7 +23754,7 @@ struct surface_fit {
         degenerate
     };
 
-    outcome status = outcome::too_few_points;
+    outcome status = outcome::too_few_points;  ///< of this fit
     /// Whose residuals are in the fit; the finite points if it was not tried, for the points are
     /// too few or have no volume.
     std::size_t points = 0;
@@ -24770,9 +24791,10 @@ struct spin_image {
 /// Normals count as axes, without a sign; neighbors without a normal are left out. Bins and trust
 /// are those of `spin_image`, whose member `normalize` has no effect; the distance is Euclidean.
 struct angular_spin_image {
-    spin_image bins = {};
+    spin_image bins = {};  ///< those of the positions
 
-    [[nodiscard]] double support_radius() const { return bins.support_radius(); }
+    [[nodiscard]] double support_radius() const { return bins.support_radius(); }  ///< [m]
+    /// The number of bins.
     [[nodiscard]] std::size_t dimension() const { return bins.dimension(); }
     /// @throws std::invalid_argument  if the numbers of entries differ
     [[nodiscard]] double distance(std::span<const float> a, std::span<const float> b) const {
@@ -25125,7 +25147,7 @@ struct harmonic_shape_context {
     /// The thesis has one; radii of several shells have equal ratios, Frome's Eq. (1). There are at
     /// most 2^20 entries.
     std::size_t radial_bins = 1;
-    bool per_degree = false;
+    bool per_degree = false;        ///< whether the power of each degree is summed over the orders
     bool normalize = false;         ///< entries are divided by the number of neighbors
     std::size_t min_neighbors = 1;  ///< above 0
 
@@ -25977,7 +25999,7 @@ struct raster {
     /// `segment_surfaces` separates surfaces.
     angle precision = degrees(2.5);
 
-    static constexpr bool needs_no_index = true;
+    static constexpr bool needs_no_index = true;  ///< the pixels are the index
 
     /// The stored graph of the points of an image. O(n m) for windows of m pixels, in memory too.
     /// @throws std::invalid_argument  if the width is not known, or the number of points is not a
@@ -27728,8 +27750,8 @@ template <class Estimate = plane_fit>
 struct perception_result {
     /// A step and how long it took [s].
     struct timed_step {
-        std::string_view name;
-        double seconds;
+        std::string_view name;  ///< of the step
+        double seconds;         ///< of wall-clock time
     };
     /// The noise of the points, which all steps share.
     struct known_noise {
@@ -27743,12 +27765,12 @@ struct perception_result {
         std::string_view reason = {};  ///< why it is so
     };
 
-    std::optional<plane> floor;     ///< if it was searched for and found
-    std::optional<double> ceiling;  ///< its height above the floor [m]
-    std::vector<point_index> kept;  ///< the points that were not removed, ascending
-    spatial_index index;            ///< of the kept points; empty if an index was
-                                    ///< given and no point was removed
-    known_noise noise;
+    std::optional<plane> floor;             ///< if it was searched for and found
+    std::optional<double> ceiling;          ///< its height above the floor [m]
+    std::vector<point_index> kept;          ///< the points that were not removed, ascending
+    spatial_index index;                    ///< of the kept points; empty if an index was
+                                            ///< given and no point was removed
+    known_noise noise;                      ///< by which the steps went
     std::vector<surfel<Estimate>> surface;  ///< n; without a normal where removed
     segments initial_segments;              ///< of the n points, before merging behind occluders
     segments surfaces;                      ///< of the n points, after all steps
@@ -28312,9 +28334,9 @@ namespace gnomon {
 /// What is removed first: floor and ceiling, where they are found.
 struct floor_and_ceiling {
     Eigen::Vector3d up = Eigen::Vector3d(0.0, 0.0, 1.0);  ///< against gravity, of unit length
-    find_floor_options floor{};
-    find_ceiling_options ceiling{};
-    crop_height_options bands{};
+    find_floor_options floor{};                           ///< how the floor is found
+    find_ceiling_options ceiling{};                       ///< how the ceiling is found
+    crop_height_options bands{};                          ///< which points are left out with them
 
     /// @throws std::invalid_argument  what the search throws for parameters out of range
     void require_valid() const {
@@ -28332,12 +28354,12 @@ struct no_merging {};
 /// planes are found follow from its noise and a flatness of 2 mm. Curved surfaces are several
 /// planes. `min_points` counts cells.
 struct planes_on_cells {
-    segment_planes_options planes{};
+    segment_planes_options planes{};  ///< angle and number of cells
 };
 
 /// The segmentation of the thesis: smooth surfaces, from the normals of all points.
 struct smooth_surfaces {
-    segment_surfaces_options surfaces{};
+    segment_surfaces_options surfaces{};  ///< thresholds of Alg. 4.2
     /// Anisotropic neighborhoods are estimated again from doubled k (Eq. 3.19), where policy and
     /// estimator can.
     repair_anisotropic_options repair{};
@@ -28356,18 +28378,19 @@ struct perception {
     static_assert(std::same_as<Segmentation, planes_on_cells> ||
                       std::same_as<Segmentation, smooth_surfaces>,
                   "perception: the segmentation is planes_on_cells, or smooth_surfaces");
+    /// Whether planes are found on cells.
     static constexpr bool is_on_cells = std::same_as<Segmentation, planes_on_cells>;
 
-    Neighborhood neighborhood{};
-    Estimator estimate{};
-    Merge merge{};
-    Segmentation segmentation{};
+    Neighborhood neighborhood{};  ///< for the normals
+    Estimator estimate{};         ///< of normals
+    Merge merge{};                ///< which gaps are closed: a `merge_policy`
+    Segmentation segmentation{};  ///< `planes_on_cells` or `smooth_surfaces`
     /// Along the rays; by default it is measured. Planes on cells that scatter by more than the
     /// given noise have the measured one.
     std::optional<noise_curve> noise = std::nullopt;
-    std::optional<floor_and_ceiling> leave_out = std::nullopt;
-    merge_occluded_options merging{};
-    visibility_options visibility{};
+    std::optional<floor_and_ceiling> leave_out = std::nullopt;  ///< by default nothing is
+    merge_occluded_options merging{};                           ///< which segments are coplanar
+    visibility_options visibility{};                            ///< the range images of the merging
 
     /// @throws std::invalid_argument  what the steps throw for parameters of the chain, its
     ///                                neighborhood and its options out of range
@@ -28382,7 +28405,7 @@ struct perception {
             detail::require_valid(segmentation.surfaces);
     }
 
-    using result_type = perception_result<estimate_t<Estimator>>;
+    using result_type = perception_result<estimate_t<Estimator>>;  ///< what is returned
 
     /// Perceives n points: any point range, or an index of it; a range without view points counts
     /// as seen from the origin.
@@ -28464,10 +28487,10 @@ enum class echo_rule : char {
 /// the intensity has fallen to 1/e^2. Without waist and divergence, the default, the beam is a
 /// line. Surfaces nearer to the sensor than the waist may be missed.
 struct beam_footprint {
-    double waist = 0.0;     ///< w at the sensor [m]
-    angle divergence = {};  ///< full angle of the far-field cone
-    int sub_rays = 37;      ///< number of samples; a line needs none
-    echo_rule rule = echo_rule::first;
+    double waist = 0.0;                 ///< w at the sensor [m]
+    angle divergence = {};              ///< full angle of the far-field cone
+    int sub_rays = 37;                  ///< number of samples; a line needs none
+    echo_rule rule = echo_rule::first;  ///< which range is returned
     /// The instrument does not separate echoes nearer to each other than this, half the length of
     /// its pulse [m]: 0.45 to 0.75 for pulses of 3 to 5 ns.
     double echo_separation = 0.6;
@@ -28476,6 +28499,7 @@ struct beam_footprint {
     [[nodiscard]] double radius(double range) const {
         return std::hypot(waist, range * std::tan(0.5 * divergence.radians()));
     }
+    /// Whether it has no width.
     [[nodiscard]] bool is_line() const { return waist == 0.0 && divergence == radians(0); }
 };
 
@@ -28489,8 +28513,8 @@ struct beam {
     double grazing = 0.0;
     double clutter = 0.0;  ///< probability of a reading anywhere between 0 and the maximum range
     double failure = 0.0;  ///< probability of no reading at all
-    beam_footprint footprint = {};
-    bool keep_failed = false;  ///< failed readings become points at the maximum range
+    beam_footprint footprint = {};  ///< its width
+    bool keep_failed = false;       ///< failed readings become points at the maximum range
     std::uint64_t seed = 1;
 
     /// @throws std::invalid_argument  unless standard deviations and lengths are finite and not
@@ -28573,8 +28597,8 @@ using triangle = std::array<std::uint32_t, 3>;
 
 /// Triangles and, for each of them, the number of its surface.
 struct polyhedron {
-    std::vector<Eigen::Vector3d> vertices;  ///< [m]
-    std::vector<triangle> triangles;
+    std::vector<Eigen::Vector3d> vertices;          ///< [m]
+    std::vector<triangle> triangles;                ///< its surface
     std::vector<std::int32_t> surface_of_triangle;  ///< one per triangle; empty: all are surface 0
 };
 
@@ -28603,6 +28627,7 @@ struct ray {
     Eigen::Vector3d direction;                               ///< unit length
     double reach = std::numeric_limits<double>::infinity();  ///< [m]
 
+    /// The point at a range [m].
     [[nodiscard]] Eigen::Vector3d point_at(double range) const {
         return origin + direction * range;
     }
@@ -29006,6 +29031,7 @@ namespace gnomon::simulation {
 /// A rigid motion: the point x of the local frame is rotation * x + position in the outer frame.
 /// Frames: x forward, y left, z up.
 struct pose {
+    /// From the object's frame to the world's.
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
     Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
 
@@ -29110,7 +29136,7 @@ struct scene_surface {
 
 /// A part of a scene.
 struct scene_part {
-    std::string name;
+    std::string name;     ///< given when it was added
     std::int32_t object;  ///< that it belongs to
 };
 
@@ -29122,10 +29148,10 @@ struct opening {
 
 /// A shape and its pose in a scene.
 struct placed_shape {
-    std::shared_ptr<const detail::any_shape> shape;
-    gnomon::simulation::pose pose;
-    bounds extent;               ///< in the scene's frame
-    std::int32_t first_surface;  ///< number of its surface 0; the others follow
+    std::shared_ptr<const detail::any_shape> shape;  ///< in its own frame
+    gnomon::simulation::pose pose;  ///< from the frame of the shape to that of the scene
+    bounds extent;                  ///< in the scene's frame
+    std::int32_t first_surface;     ///< number of its surface 0; the others follow
 
     /// The first hit, in the scene's frame and with the scene's surface numbers.
     [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
@@ -29193,9 +29219,13 @@ class scene {
     friend std::int32_t add(scene& world, const scene& model, const pose& at);
     friend std::int32_t add(scene& world, std::string name, const scene& model, const pose& at);
 
+    /// The names of the objects, by number.
     [[nodiscard]] const std::vector<std::string>& objects() const { return objects_; }
+    /// The parts, by number.
     [[nodiscard]] const std::vector<scene_part>& parts() const { return parts_; }
+    /// The surfaces, by number.
     [[nodiscard]] const std::vector<scene_surface>& surfaces() const { return surfaces_; }
+    /// The shapes, in the order in which they were added.
     [[nodiscard]] const std::vector<placed_shape>& shapes() const { return shapes_; }
 
     /// The bounds of all shapes [m]; empty if there are none. O(shapes).
@@ -29488,9 +29518,11 @@ namespace scanners {
 /// The three densities of Fig. 2.16: 7,200, 28,800 and 115,200 points in 4 seconds.
 namespace densities {
 
+/// 7,200 points.
 [[nodiscard]] inline scanner low() { return {.resolution = degrees(1.0), .frequency = 10.0}; }
+/// 28,800 points.
 [[nodiscard]] inline scanner medium() { return {.resolution = degrees(0.5), .frequency = 20.0}; }
-[[nodiscard]] inline scanner high() { return {}; }
+[[nodiscard]] inline scanner high() { return {}; }  ///< 115,200 points
 
 }  // namespace densities
 
@@ -29511,8 +29543,8 @@ namespace gnomon::simulation {
 
 /// A depth camera. The default is an ideal pinhole camera of the size of a Kinect.
 struct depth_camera {
-    std::size_t columns = 640;
-    std::size_t rows = 480;
+    std::size_t columns = 640;                ///< of pixels
+    std::size_t rows = 480;                   ///< of pixels
     double focal_length = 575.0;              ///< f [pixel]
     noise_curve noise = constant_noise{0.0};  ///< standard deviation of the depth, of the depth
     double baseline = 0.0;                    ///< b, of cameras that triangulate [m]
@@ -29922,7 +29954,7 @@ struct rotational {
 
 /// Does not move.
 struct fixed {
-    pose mount = {};
+    pose mount = {};        ///< at all times
     double duration = 1.0;  ///< t_s [s]
 
     [[nodiscard]] pose operator()(double) const { return mount; }
@@ -29954,6 +29986,7 @@ struct along {
     double duration;  ///< t_s [s]
     F pose_at;        ///< seconds -> pose
 
+    /// @param function  the pose at a time [s]
     along(double seconds, F function) : duration(seconds), pose_at(std::move(function)) {}
 
     [[nodiscard]] pose operator()(double seconds) const { return pose_at(seconds); }
@@ -30619,22 +30652,22 @@ enum class chair_back : char {
 
 /// A chair. Its frame lies on the floor below the middle of the seat; it faces +x. Lengths in [m].
 struct chair {
-    double width = 0.42;           ///< of the seat, along y; its diameter if round
-    double depth = 0.42;           ///< of the seat, along x, unless it is round
-    double seat_height = 0.45;     ///< of its upper side
-    double seat_thickness = 0.04;  ///< of the seat, unless it is massive
-    double leg = 0.04;             ///< edge length, or diameter if round
-    chair_back back = chair_back::solid;
-    double back_height = 0.90;     ///< of its upper end
-    double back_thickness = 0.03;  ///< of the back, along x
-    int slats = 5;                 ///< of a lattice or ladder
-    double slat_width = 0.03;      ///< of a lattice; of the posts of a ladder
-    double rail_height = 0.04;     ///< of a lattice; of the slats of a ladder
-    double arm_height = 0.0;       ///< of the upper side of the arms; 0 for none
-    double arm_width = 0.05;       ///< of the arms, along y
-    double arm_thickness = 0.03;   ///< of the arms, unless they are massive
-    bool round = false;            ///< seat and legs
-    bool massive = false;          ///< an armchair: no legs, seat and arms down to the floor
+    double width = 0.42;                  ///< of the seat, along y; its diameter if round
+    double depth = 0.42;                  ///< of the seat, along x, unless it is round
+    double seat_height = 0.45;            ///< of its upper side
+    double seat_thickness = 0.04;         ///< of the seat, unless it is massive
+    double leg = 0.04;                    ///< edge length, or diameter if round
+    chair_back back = chair_back::solid;  ///< what it is made of
+    double back_height = 0.90;            ///< of its upper end
+    double back_thickness = 0.03;         ///< of the back, along x
+    int slats = 5;                        ///< of a lattice or ladder
+    double slat_width = 0.03;             ///< of a lattice; of the posts of a ladder
+    double rail_height = 0.04;            ///< of a lattice; of the slats of a ladder
+    double arm_height = 0.0;              ///< of the upper side of the arms; 0 for none
+    double arm_width = 0.05;              ///< of the arms, along y
+    double arm_thickness = 0.03;          ///< of the arms, unless they are massive
+    bool round = false;                   ///< seat and legs
+    bool massive = false;                 ///< an armchair: no legs, seat and arms down to the floor
 };
 
 /// The chair with all lengths multiplied by `scale`.
@@ -30744,14 +30777,14 @@ enum class table_base : char {
 
 /// A table. Its frame lies on the floor below the middle of the top. Lengths in [m].
 struct table {
-    double length = 1.20;     ///< of the top, along x; its diameter if round
-    double width = 0.80;      ///< of the top, along y, unless it is round
-    double height = 0.74;     ///< of its upper side
-    double thickness = 0.03;  ///< of the top
-    double leg = 0.05;        ///< edge length, or diameter if round
-    double inset = 0.05;      ///< of the legs from the edges of the top
-    table_base base = table_base::legs;
-    bool round = false;             ///< top and legs
+    double length = 1.20;                ///< of the top, along x; its diameter if round
+    double width = 0.80;                 ///< of the top, along y, unless it is round
+    double height = 0.74;                ///< of its upper side
+    double thickness = 0.03;             ///< of the top
+    double leg = 0.05;                   ///< edge length, or diameter if round
+    double inset = 0.05;                 ///< of the legs from the edges of the top
+    table_base base = table_base::legs;  ///< what carries it
+    bool round = false;                  ///< top and legs
     double shelf_height = 0.0;      ///< of the upper side of a shelf between the legs; 0 for none
     double shelf_thickness = 0.02;  ///< of the shelf
     double foot_width = 0.55;       ///< diameter of the foot of a pedestal
@@ -30828,8 +30861,8 @@ namespace gnomon::simulation {
 /// A furniture model and its name. The frame of a scene, as that of the built-in pieces, lies on
 /// the floor below the middle of the piece; z points up.
 struct furniture_model {
-    std::string name;
-    std::variant<chair, table, scene> piece;
+    std::string name;                         ///< of the model
+    std::variant<chair, table, scene> piece;  ///< the model itself
 };
 
 /// Adds a model as one object with the model's name.
@@ -31558,11 +31591,11 @@ enum class joint_kind : char {
 /// axis of the frame before it, a translation by d along this axis, a translation by a along the
 /// new x axis, and a rotation by alpha about this axis.
 struct chain_joint {
-    angle theta = {};  ///< about the old z axis, at the value 0
-    double d = 0.0;    ///< along the old z axis, at the value 0 [m]
-    double a = 0.0;    ///< along the new x axis [m]
-    angle alpha = {};  ///< about the new x axis
-    joint_kind kind = joint_kind::revolute;
+    angle theta = {};                        ///< about the old z axis, at the value 0
+    double d = 0.0;                          ///< along the old z axis, at the value 0 [m]
+    double a = 0.0;                          ///< along the new x axis [m]
+    angle alpha = {};                        ///< about the new x axis
+    joint_kind kind = joint_kind::revolute;  ///< how it moves
 
     /// The pose of the frame behind the joint in the frame before it.
     /// @param value  added to theta [rad] or d [m]
@@ -31575,9 +31608,9 @@ struct chain_joint {
 
 /// Joints one after the other, between a base in the scene and a sensor.
 struct kinematic_chain {
-    pose base = {};  ///< the frame before the first joint
-    std::vector<chain_joint> joints = {};
-    pose tool = {};  ///< the sensor in the frame behind the last joint
+    pose base = {};                        ///< the frame before the first joint
+    std::vector<chain_joint> joints = {};  ///< from the base to the sensor
+    pose tool = {};                        ///< the sensor in the frame behind the last joint
 
     /// Forward kinematics: the pose of the sensor. O(joints).
     /// @param values  one per joint [rad] or [m]
@@ -31594,7 +31627,7 @@ struct kinematic_chain {
 /// A motion of all joints at once, each with a constant speed. Models `sensor_trajectory`; calls
 /// throw what the chain throws, for either list of values.
 struct joint_motion {
-    kinematic_chain chain;
+    kinematic_chain chain;     ///< whose joints move
     std::vector<double> from;  ///< the values at the time 0 [rad] or [m]
     std::vector<double> to;    ///< the values at the end
     double duration = 4.0;     ///< t_s [s]
@@ -31807,7 +31840,7 @@ struct object_view_options {
     /// Positions of the object's frame: uniform in these bounds [m], where they are not nearer to
     /// the sensor than `nearest`, seen from above [m].
     bounds places = {{0.5, -2.5, 0.0}, {5.5, 2.5, 0.0}};
-    double nearest = 1.2;
+    double nearest = 1.2;  ///< least distance of the object's frame from the sensor [m]
     /// The share of the object's points, from 0 to 1, that a board in front of it hides: those on
     /// the left, on the right or at the bottom, with equal probability.
     double occluded_share = 0.0;
@@ -32519,20 +32552,20 @@ namespace gnomon::simulation {
 
 /// A car. Its frame lies on the road below the middle of the body; it faces +x. Lengths in [m].
 struct vehicle {
-    double length = 4.30;       ///< of the body, along x
-    double width = 1.76;        ///< of the body, along y
-    double height = 1.47;       ///< of the roof
-    double clearance = 0.22;    ///< height of the lower side of the body
-    double belt_height = 0.92;  ///< of the upper side of the body, where the cabin begins
-    double nose_height = 0.72;  ///< of the front end of the bonnet
-    double bonnet = 1.05;       ///< length of the bonnet
-    double boot = 0.45;         ///< length of the boot, behind the cabin
-    double windscreen = 0.75;   ///< how far the top of the windscreen lies behind its bottom
-    double rear_window = 0.40;  ///< how far the top of the rear window lies before its bottom
-    double roof_inset = 0.14;   ///< how far the roof is narrower than the body, at each side
-    double wheel_diameter = 0.63;
-    double wheel_width = 0.21;
-    double wheel_base = 2.60;  ///< distance between the axles
+    double length = 4.30;          ///< of the body, along x
+    double width = 1.76;           ///< of the body, along y
+    double height = 1.47;          ///< of the roof
+    double clearance = 0.22;       ///< height of the lower side of the body
+    double belt_height = 0.92;     ///< of the upper side of the body, where the cabin begins
+    double nose_height = 0.72;     ///< of the front end of the bonnet
+    double bonnet = 1.05;          ///< length of the bonnet
+    double boot = 0.45;            ///< length of the boot, behind the cabin
+    double windscreen = 0.75;      ///< how far the top of the windscreen lies behind its bottom
+    double rear_window = 0.40;     ///< how far the top of the rear window lies before its bottom
+    double roof_inset = 0.14;      ///< how far the roof is narrower than the body, at each side
+    double wheel_diameter = 0.63;  ///< [m]
+    double wheel_width = 0.21;     ///< [m]
+    double wheel_base = 2.60;      ///< distance between the axles
 };
 
 /// A delivery van.
