@@ -6,6 +6,7 @@
 
 - Deduction guides are left out: they have the name of their class. So are overloads that refuse a call,
   by their comment, which exist for their messages.
+- What follows `Complexity:` is a paragraph of its own, also after a `@throws`.
 - `explicit(...)` is `explicit`, as doxygen 1.9.4 takes the parentheses for a function's.
 - `double u = 0.0, v = 0.0;  ///< text` is one declaration with the text for each name.
 - Members without a comment that mean the same everywhere get the text of members.txt.
@@ -97,6 +98,7 @@ def main():
         text = without_refusals(text)
         text = GUIDE.sub(lambda guide: "\n" * guide[0].count("\n"), text)
         text = re.sub(r"\bexplicit\([^()]*\)", "explicit", text)
+        text = re.sub(r"^( *///) Complexity: ", r"\1 @complexity ", text, flags=re.M)
         target = copy / path.relative_to(folder)
         target.parent.mkdir(parents=True, exist_ok=True)
         target.write_text(one_by_one(with_comments(text, path.parent.name)), encoding="utf-8")

@@ -302,9 +302,12 @@ def list_of_pages(site, pages, rows):
 
 def with_links(text, site):
     """A header with links in its comments, but for blocks of code and names of members in it."""
+    def member(name):
+        return re.compile(rf"(?<!\bconcept)(?<!\busing)(?<=[\w>&*\]]) {name}(?: = [^;]*|\{{[^;]*)?;")
+
     def link(span):
         name = span[1]
-        if name not in site.short or re.search(rf"[\w>&*\]] {name}(?: = [^;]*|\{{[^;]*)?;", text):
+        if name not in site.short or member(name).search(text):
             return span[0]
         return f'<a href="{site.short[name]}"><code>{name}</code></a>'
 
