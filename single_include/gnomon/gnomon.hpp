@@ -77,38 +77,32 @@
 #include <cstdlib>
 #endif
 
-/// Throws an exception. (A macro for compile time only.)
+// try, catch (...), throw and throw; of the exception caught. (Macros for compile time only.)
 #if defined(GNOMON_NO_EXCEPTIONS)
+#define GNOMON_TRY if constexpr (true)
+#define GNOMON_CATCH if constexpr (false)
 #define GNOMON_THROW(...) ::gnomon::detail::end_with(__VA_ARGS__)
+#define GNOMON_RETHROW static_cast<void>(0)
 #else
+#define GNOMON_TRY try
+#define GNOMON_CATCH catch (...)
 #define GNOMON_THROW(...) throw __VA_ARGS__
+#define GNOMON_RETHROW throw
 #endif
+
+#if defined(GNOMON_NO_EXCEPTIONS)
 
 namespace gnomon::detail {
 
-#if defined(GNOMON_NO_EXCEPTIONS)
 template <class Problem>
 [[noreturn]] void end_with(const Problem& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
     std::abort();
 }
-#endif
-
-/// Calls work(). If it throws, calls otherwise(), where the exception is std::current_exception().
-template <class Work, class Otherwise>
-void attempt(const Work& work, [[maybe_unused]] const Otherwise& otherwise) {
-#if defined(GNOMON_NO_EXCEPTIONS)
-    work();
-#else
-    try {
-        work();
-    } catch (...) {
-        otherwise();
-    }
-#endif
-}
 
 }  // namespace gnomon::detail
+
+#endif
 
 // -------- gnomon/core/error.hpp ------------------------------------------------------------------
 
@@ -311,14 +305,14 @@ class thread_team {
         mutex guard;
         const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
-                attempt([&] { work(c); },
-                        [&] {
-                            const guard_of locked(guard);
-                            if (c < failed) {
-                                failed = c;
-                                failure = std::current_exception();
-                            }
-                        });
+                GNOMON_TRY { work(c); }
+                GNOMON_CATCH {
+                    const guard_of locked(guard);
+                    if (c < failed) {
+                        failed = c;
+                        failure = std::current_exception();
+                    }
+                }
             }
         };
         if (chunks > 1 && size_ > 1 && !busy_.exchange(true)) {
@@ -335,12 +329,11 @@ class thread_team {
     /// Where the machine refuses threads or memory, the team stays as small as it is. (A template,
     /// so that only users of threads compile it.)
     void grow_to(std::integral auto size) noexcept {
-        attempt(
-            [&] {
-                while (helpers_.size() + 1 < size)
-                    helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
-            },
-            [] {});
+        GNOMON_TRY {
+            while (helpers_.size() + 1 < size)
+                helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
+        }
+        GNOMON_CATCH {}
     }
 
     /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all
@@ -3901,18 +3894,18 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
-        struct clear_unless_done {
-            spatial_index* index;
-            ~clear_unless_done() {
-                if (index != nullptr) index->clear();
-            }
-        } guard{this};
         kept.forget();
-        detail::with_table_of(
-            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
-        epsilon_ = detail::epsilon_of<view>(points);
-        tree_.rebuild(view(points, std::move(projection)), run);
-        guard.index = nullptr;
+        GNOMON_TRY {
+            detail::with_table_of(points, [this](auto&& table) {
+                viewpoints = std::forward<decltype(table)>(table);
+            });
+            epsilon_ = detail::epsilon_of<view>(points);
+            tree_.rebuild(view(points, std::move(projection)), run);
+        }
+        GNOMON_CATCH {
+            clear();
+            GNOMON_RETHROW;
+        }
     }
 
     /// The number of points, finite or not.

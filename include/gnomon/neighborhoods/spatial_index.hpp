@@ -22,6 +22,7 @@
 #include <Eigen/Core>
 
 #include <gnomon/core/detail/assigned_whole.hpp>
+#include <gnomon/core/detail/exceptions.hpp>
 #include <gnomon/core/detail/index_iterator.hpp>
 #include <gnomon/core/detail/made_when_asked.hpp>
 #include <gnomon/core/detail/scratch.hpp>
@@ -77,18 +78,18 @@ class spatial_index : public detail::index_queries<spatial_index> {
         requires point_range<R, Proj> && (!std::same_as<R, spatial_index>)
     void rebuild(const R& points, const X& run = {}, Proj projection = {}) {
         using view = position_view<R, Proj>;
-        struct clear_unless_done {
-            spatial_index* index;
-            ~clear_unless_done() {
-                if (index != nullptr) index->clear();
-            }
-        } guard{this};
         kept.forget();
-        detail::with_table_of(
-            points, [this](auto&& table) { viewpoints = std::forward<decltype(table)>(table); });
-        epsilon_ = detail::epsilon_of<view>(points);
-        tree_.rebuild(view(points, std::move(projection)), run);
-        guard.index = nullptr;
+        GNOMON_TRY {
+            detail::with_table_of(points, [this](auto&& table) {
+                viewpoints = std::forward<decltype(table)>(table);
+            });
+            epsilon_ = detail::epsilon_of<view>(points);
+            tree_.rebuild(view(points, std::move(projection)), run);
+        }
+        GNOMON_CATCH {
+            clear();
+            GNOMON_RETHROW;
+        }
     }
 
     /// The number of points, finite or not.

@@ -10,35 +10,29 @@
 #include <cstdlib>
 #endif
 
-/// Throws an exception. (A macro for compile time only.)
+// try, catch (...), throw and throw; of the exception caught. (Macros for compile time only.)
 #if defined(GNOMON_NO_EXCEPTIONS)
+#define GNOMON_TRY if constexpr (true)
+#define GNOMON_CATCH if constexpr (false)
 #define GNOMON_THROW(...) ::gnomon::detail::end_with(__VA_ARGS__)
+#define GNOMON_RETHROW static_cast<void>(0)
 #else
+#define GNOMON_TRY try
+#define GNOMON_CATCH catch (...)
 #define GNOMON_THROW(...) throw __VA_ARGS__
+#define GNOMON_RETHROW throw
 #endif
+
+#if defined(GNOMON_NO_EXCEPTIONS)
 
 namespace gnomon::detail {
 
-#if defined(GNOMON_NO_EXCEPTIONS)
 template <class Problem>
 [[noreturn]] void end_with(const Problem& problem) {
     std::fprintf(stderr, "%s\n", problem.what());
     std::abort();
 }
-#endif
-
-/// Calls work(). If it throws, calls otherwise(), where the exception is std::current_exception().
-template <class Work, class Otherwise>
-void attempt(const Work& work, [[maybe_unused]] const Otherwise& otherwise) {
-#if defined(GNOMON_NO_EXCEPTIONS)
-    work();
-#else
-    try {
-        work();
-    } catch (...) {
-        otherwise();
-    }
-#endif
-}
 
 }  // namespace gnomon::detail
+
+#endif

@@ -97,14 +97,14 @@ class thread_team {
         mutex guard;
         const auto drain = [&]() noexcept {
             for (std::size_t c = next++; c < failed; c = next++) {
-                attempt([&] { work(c); },
-                        [&] {
-                            const guard_of locked(guard);
-                            if (c < failed) {
-                                failed = c;
-                                failure = std::current_exception();
-                            }
-                        });
+                GNOMON_TRY { work(c); }
+                GNOMON_CATCH {
+                    const guard_of locked(guard);
+                    if (c < failed) {
+                        failed = c;
+                        failure = std::current_exception();
+                    }
+                }
             }
         };
         if (chunks > 1 && size_ > 1 && !busy_.exchange(true)) {
@@ -121,12 +121,11 @@ class thread_team {
     /// Where the machine refuses threads or memory, the team stays as small as it is. (A template,
     /// so that only users of threads compile it.)
     void grow_to(std::integral auto size) noexcept {
-        attempt(
-            [&] {
-                while (helpers_.size() + 1 < size)
-                    helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
-            },
-            [] {});
+        GNOMON_TRY {
+            while (helpers_.size() + 1 < size)
+                helpers_.emplace_back([this, heard = calls_.load()] { help(heard); });
+        }
+        GNOMON_CATCH {}
     }
 
     /// Opens the work to the helpers, does it with those that enter, closes it, and waits until all
