@@ -162,6 +162,7 @@ def draw(results, path):
     draw_by_hidden(grid[1][0], hidden, "top 1", "Best class is right, of all views")
     draw_by_hidden(grid[1][1], hidden, "right", "Right and decided at P_d 0.90, of all views")
     for axes in grid.flat:
+        axes.set_visible(bool(axes.lines))  # not those of a program that was left out
         axes.grid(color="0.9")
         if axes.lines:
             axes.legend(fontsize=8)

@@ -254,8 +254,9 @@ def evidence(tables):
 
 @relation("default_mode", "5.o.8", "480 views are simulated and learned in 20 s, on two cores", OWN)
 def learning_time(tables):
-    seconds = [r["all [s]"] for r in tables["learning"]]
-    return f"{median(seconds)} s ({min(seconds)} to {max(seconds)})", median(seconds) <= 20
+    # Of the processor: on one core it takes as long, on two no longer.
+    seconds = [r["time of the processor [s]"] for r in tables["learning"]]
+    return f"{median(seconds)} s of one core ({min(seconds)} to {max(seconds)})", median(seconds) <= 20
 
 
 @relation("default_mode", "5.o.9", "a decision takes 1 ms from segments, and 20 ms from 2,000 points, on one core", OWN)
