@@ -71,6 +71,16 @@ std::vector<task> tasks_of(const std::vector<example>& examples) {
     return tasks;
 }
 
+/// "0.70 x 0.70 x 1.10": length, width and height [m].
+std::string size_of(const sim::furniture_model& model) {
+    sim::scene alone;
+    sim::add(alone, model);
+    const Eigen::Vector3d size = alone.extent().size();
+    char text[64];
+    std::snprintf(text, sizeof text, "%.2f x %.2f x %.2f", size.x(), size.y(), size.z());
+    return text;
+}
+
 void learn_objects(const options& o) {
     const stopwatch watch;
     const auto examples = examples_of(o);
@@ -85,6 +95,12 @@ void learn_objects(const options& o) {
         });
     }
     rec::object_recognizer model;
+    std::map<std::string, std::string> sizes;
+    for (const example& e : examples) {
+        constexpr std::size_t most = 60;  // characters: the first few models of a class
+        std::string& line = sizes[e.name];
+        if (line.size() < most) line += (line.empty() ? "" : ", ") + size_of(e.model);
+    }
     std::map<std::string, std::pair<std::size_t, std::size_t>> counts;  // scans, versions
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         auto& [scans, versions] = counts[tasks[i].of->name];
@@ -93,13 +109,17 @@ void learn_objects(const options& o) {
         if (!views[i].empty()) model.learn(views[i], tasks[i].of->name);
     }
     if (model.classes() < 2)
-        throw gnomon::error(o.models, "", "surfaces were seen of one class only, or of none");
+        throw gnomon::error(
+            o.models, "",
+            "surfaces were seen of one class only, or of none: are lengths in metres?");
     model.fit(o.threads);
     rec::write_model(o.out, model);
 
-    std::printf("class                     scans   views\n");
+    // Sizes show a wrong unit, or an axis that does not point up.
+    std::printf("class                     scans   views   of [m]\n");
     for (const auto& [name, count] : counts)
-        std::printf("%-24s %6zu  %6zu\n", name.c_str(), count.first, count.second);
+        std::printf("%-24s %6zu  %6zu   %s\n", name.c_str(), count.first, count.second,
+                    sizes[name].c_str());
     std::printf("\nlearned %zu views of %zu classes, %zu words, in %.1f s\nwrote %s\n",
                 model.learned().samples.rows(), model.classes(), model.learned().words.size(),
                 watch.seconds(), o.out.c_str());

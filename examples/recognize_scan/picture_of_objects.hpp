@@ -48,8 +48,9 @@ inline picture::image picture_of(const gnomon::scan& scan, const scan_objects& f
         drawing.texts.push_back({o.box.center + 0.5 * o.box.lengths[2] * up, text, tint});
     }
     constexpr std::size_t k = 12;
-    const auto surface =
+    auto surface =
         gnomon::estimate_normals(scan, gnomon::knn{.k = k}, gnomon::plane_pca{}, threads);
+    gnomon::orient_normals(scan, surface, threads);  // those away from the viewer are left out
     std::vector<picture::splat> splats;
     for (std::size_t i = 0; i < scan.size(); ++i) {
         if (!gnomon::is_finite(scan.points[i])) continue;

@@ -37,8 +37,11 @@ inline sim::scene scene_in_file(const std::string& path) {
 inline sim::scene furnished_room(const options& o) {
     sim::scenes::room_options room{.seed = o.beam.seed, .openings = o.openings};
     if (!o.furniture.empty())
-        for (auto& file : common::furniture_in("--furniture", o.furniture, o.y_up))
+        for (auto& file : common::furniture_in("--furniture", o.furniture, o.y_up)) {
+            if (file.class_name != file.model.name)
+                file.model.name = file.class_name + "/" + file.model.name;
             room.models.push_back(std::move(file.model));
+        }
     return sim::scenes::furnished_room(room);
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
-/// Removes points at silhouettes, where a wide beam returns what it should not: next to a surface
-/// it still hits its edge, so that the leg of a chair seems wider by a beam, and between two
-/// surfaces it returns a mean of their ranges (skimmed points, or mixed pixels; Klasing 2010,
-/// Sec. 5.8.4). What is left of each surface is about as wide as the surface truly is.
+/// Removes the points at silhouettes that wide beams return wrongly: next to an edge, where a part
+/// of the beam still hits the surface, which makes the leg of a chair seem wider; and between two
+/// surfaces, at a mean of their ranges (mixed pixels; skimmed points in Klasing 2010, Sec. 5.8.4).
+/// What is left of each surface is about as wide as the surface truly is.
 ///
 ///     auto kept = gnomon::remove_silhouettes(scan, {.divergence = gnomon::radians(0.010)});
 ///     gnomon::scan seen = gnomon::subset(scan, kept);
@@ -30,6 +30,7 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/random.hpp>
 #include <gnomon/core/viewpoints.hpp>
 #include <gnomon/filters/detail/flagged.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -116,8 +117,9 @@ class ray_sphere {
         return widest <= widest_sector.radians();
     }
 
+    static constexpr double same_ray = 1e-6;  ///< rays closer together are one [rad]; rounding
+
   private:
-    static constexpr double same_ray = 1e-6;  // [rad]; rounding
     // A ray of a raster has neighbors in four directions, 90 degrees apart; and rounding and
     // jitter.
     static constexpr angle widest_sector = degrees(100.0);
@@ -131,12 +133,13 @@ class ray_sphere {
 /// How far apart rays are in the wider direction of a scan [rad]: most rays are surrounded by
 /// others within this distance. Zero if there is no such distance, as in a single scan line.
 [[nodiscard]] inline double reach_of_raster(const ray_sphere& rays) {
-    constexpr std::size_t most = 1000;  // rays looked at; performance
-    const std::size_t step = std::max<std::size_t>(1, rays.size() / most);
+    constexpr std::size_t about = 1000;  // rays looked at; performance
+    const std::size_t thinning = std::max<std::size_t>(1, rays.size() / about);
     scratch<std::size_t> some;
     scratch<double> nearest;
-    for (std::size_t i = 0; i < rays.size(); i += step) {
-        if (!rays.has_ray(i)) continue;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+        // At random: regular steps may always hit the border of a raster.
+        if (!rays.has_ray(i) || random_stream(i).bits() % thinning != 0) continue;
         some.push_back(i);
         nearest.push_back(rays.distance_of(i, 4));  // formula: as many as directions of a raster
     }
@@ -144,7 +147,8 @@ class ray_sphere {
     const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
     std::nth_element(nearest.begin(), middle, nearest.end());
     constexpr double widest = 0.2, growth = 1.25;  // rad: coarser than any scanner; performance
-    for (double reach = growth * *middle; reach < widest; reach *= growth) {
+    for (double reach = growth * std::max(*middle, ray_sphere::same_ray); reach < widest;
+         reach *= growth) {
         const auto surrounded = std::count_if(
             some.begin(), some.end(), [&](std::size_t i) { return rays.is_surrounded(i, reach); });
         if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
@@ -156,16 +160,21 @@ class ray_sphere {
 
 /// The indices of the points that are at no silhouette, ascending; see subset.
 ///
-/// A point is at a silhouette if the surface ends at it, against nothing or a surface of another
-/// range, or if its ray is less than half a beam from the ray of such a point, as far as rays are
-/// closer together than that. So a beam as wide as the rays are apart costs one ray at each side of
-/// a leg, and a beam of zero width does, too: only use it for beams that are wide. Points without a
-/// ray, not finite or at their view point, are left out. If rays are not next to each other in two
-/// directions, as in a single scan line, no silhouette is found, and all points with a ray are
-/// kept.
+/// A point is at a silhouette if the surface ends at it: against nothing, or against a surface
+/// whose range differs by more than max_jump. Points whose rays are nearer to such a ray than half
+/// the divergence, less the distance to their nearest ray, are removed too: the ray at the
+/// silhouette is itself part of the half beam. So any beam, even one of zero width, costs at least
+/// one ray at each side of a leg: only use it for beams that are wider than rays are apart.
+///
+/// Rays should be about equally dense: where they are much farther apart than most, points are
+/// removed. So are those of surfaces at grazing incidence, where neighboring ranges differ by more
+/// than max_jump. Points without a ray, not finite or at their view point, are left out. If rays
+/// are not next to each other in two directions, as in a single scan line, no silhouette is found,
+/// and all points with a ray are kept.
 ///
 /// @param points      any point range of n points [m]; seen from the origin without view points.
-///                    Scans from view points farther apart than 2 m do not count as neighbors
+///                    Scans from view points farther apart than 2 m do not count as neighbors;
+///                    those from nearer ones mix: use one call per scan
 /// @param options     divergence of the beams, and what a jump is
 /// @param run         `sequential{}` or `threads{n}`; the result does not depend on it
 /// @param projection  maps an element of the range to a point

@@ -61,8 +61,8 @@ struct perceive_views_options {
     /// Heights that are left out. Legs without a floor are cut as those on a floor.
     crop_height_options bands{};
     std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
-    /// Full angle of beams that are wide: points at silhouettes are removed, see
-    /// remove_silhouettes(). Of narrow beams it is 0.
+    /// Full angle of the beams. If not 0, points at silhouettes are removed first, by
+    /// remove_silhouettes(); 0 for narrow beams.
     angle divergence = degrees(0.0);
     double gap = 0.10;          ///< between nearest points of a view, at most [m]; Sec. 5.5.1
     std::size_t min_parts = 1;  ///< views of fewer parts are dropped
