@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include <gnomon/core/detail/exceptions.hpp>
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/scan.hpp>
 #include <gnomon/io/detail/las_reader.hpp>
@@ -46,11 +47,13 @@ template <class = void>
 void refuse_unread(const input& file) {
     const std::string_view bytes = file.bytes;
     if (bytes.starts_with("LASF"))
-        throw error(file.name, "byte 0", "a LAS file: include <gnomon/io/read_las.hpp> to read it");
+        GNOMON_THROW(
+            error(file.name, "byte 0", "a LAS file: include <gnomon/io/read_las.hpp> to read it"));
     if (bytes.starts_with("ASTM-E57"))
-        throw error(file.name, "byte 0",
-                    "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
-                    "a.las\" or CloudCompare");
+        GNOMON_THROW(
+            error(file.name, "byte 0",
+                  "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
+                  "a.las\" or CloudCompare"));
 }
 
 }  // namespace detail
