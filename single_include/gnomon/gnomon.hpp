@@ -27013,7 +27013,7 @@ template <class = void>
 
 /// Whether numbers of 32 bits reach from `lowest` to `highest`.
 [[nodiscard]] inline bool fits_las(double lowest, double highest, double scale, double offset) {
-    constexpr double most = 2147483647.0;
+    constexpr double most = 2147483647.0;  // of 32 bits
     return std::abs((lowest - offset) / scale) < most - 1 &&
            std::abs((highest - offset) / scale) < most - 1;
 }
@@ -32557,7 +32557,7 @@ namespace gnomon::simulation {
 struct vehicle {
     double length = 4.30;          ///< of the body, along x
     double width = 1.76;           ///< of the body, along y
-    double height = 1.47;          ///< of the roof
+    double height = 1.47;          ///< of the roof [m]
     double clearance = 0.22;       ///< height of the lower side of the body
     double belt_height = 0.92;     ///< of the upper side of the body, where the cabin begins
     double nose_height = 0.72;     ///< of the front end of the bonnet
@@ -32565,7 +32565,7 @@ struct vehicle {
     double boot = 0.45;            ///< length of the boot, behind the cabin
     double windscreen = 0.75;      ///< how far the top of the windscreen lies behind its bottom
     double rear_window = 0.40;     ///< how far the top of the rear window lies before its bottom
-    double roof_inset = 0.14;      ///< how far the roof is narrower than the body, at each side
+    double roof_inset = 0.14;      ///< of the roof from each side of the body [m]
     double wheel_diameter = 0.63;  ///< [m]
     double wheel_width = 0.21;     ///< [m]
     double wheel_base = 2.60;      ///< distance between the axles

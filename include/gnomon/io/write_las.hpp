@@ -84,7 +84,7 @@ template <class = void>
 
 /// Whether numbers of 32 bits reach from `lowest` to `highest`.
 [[nodiscard]] inline bool fits_las(double lowest, double highest, double scale, double offset) {
-    constexpr double most = 2147483647.0;
+    constexpr double most = 2147483647.0;  // of 32 bits
     return std::abs((lowest - offset) / scale) < most - 1 &&
            std::abs((highest - offset) / scale) < most - 1;
 }
