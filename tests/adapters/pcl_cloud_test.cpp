@@ -123,6 +123,7 @@ TEST(adapters_pcl_cloud, normals_come_back) {
         EXPECT_NEAR((again[i].normal - surface[i].normal).norm(), 0, 2e-7);
         EXPECT_NEAR(again[i].normal.norm(), 1, 1e-15);
         EXPECT_EQ(again[i].curvature, static_cast<float>(surface[i].surface_variation()));
+        EXPECT_EQ(again[i].surface_variation(), again[i].curvature);  // as put_normals() takes it
     }
 }
 

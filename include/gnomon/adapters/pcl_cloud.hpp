@@ -84,6 +84,9 @@ struct pcl_surfel {
     Eigen::Vector3d normal = Eigen::Vector3d::Zero();  ///< a unit vector; zero without a normal
     gnomon::trust trust = trust::degenerate;           ///< good, or not_finite for a NaN
     double curvature = 0.0;                            ///< surface variation; 0 if there is none
+
+    /// The curvature, by the name that surface elements have for it, so that put_normals() keeps it.
+    [[nodiscard]] double surface_variation() const { return curvature; }
 };
 
 /// The points of a cloud, seen from `sensor_origin_`, with the width of an organized image. Refers
