@@ -85,7 +85,8 @@ struct pcl_surfel {
     gnomon::trust trust = trust::degenerate;           ///< good, or not_finite for a NaN
     double curvature = 0.0;                            ///< surface variation; 0 if there is none
 
-    /// The curvature, by the name that surface elements have for it, so that put_normals() keeps it.
+    /// The curvature, by the name that surface elements have for it, so that put_normals() keeps
+    /// it.
     [[nodiscard]] double surface_variation() const { return curvature; }
 };
 
