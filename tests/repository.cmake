@@ -27,6 +27,13 @@ add_style_test(snippets Python3::Interpreter ${tools}/check_snippets.py)
 # The reference has no undocumented name, no broken link, and all names near its start; without doxygen
 # it is not built.
 add_style_test(site sh docs/build.sh --test ${CMAKE_CURRENT_BINARY_DIR}/site)
+# The pages of results in the repository are what their measurements say.
+file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/*/page.py)
+foreach(page IN LISTS pages)
+    cmake_path(GET page PARENT_PATH folder)
+    cmake_path(GET folder FILENAME name)
+    add_style_test(page_of_${name} Python3::Interpreter ${page} --check ${PROJECT_SOURCE_DIR}/docs/results)
+endforeach()
 add_style_test(format sh ${tools}/check_format.sh)
 # GCC collects its garbage each time that its memory has doubled, which at some size makes one line
 # more cost a twelfth of everything, and at another size on another machine: it need not, for this.

@@ -6,6 +6,6 @@ set -eu
 make=$1 programs=$2
 . "$(dirname "$0")/../refused.sh"
 
-refused_by_make "$make" "$programs" "$programs/chapter3_out" report.py
+refused_by_make "$make" "$programs" "$programs/chapter3_out" page.py
 refused "$programs/fig_3_5" --slow
 refused "$programs/fig_3_9" more

@@ -27,4 +27,4 @@ python=python3
 for candidate in python3 /usr/bin/python3; do
     if "$candidate" -c 'import matplotlib' 2>/dev/null; then python=$candidate && break; fi
 done
-exec "$python" "$here/report.py" "$out"
+exec "$python" "$here/page.py" "$out"

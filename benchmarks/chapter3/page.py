@@ -158,7 +158,7 @@ def page(results, verdicts):
     held = sum(v["holds"] is True for v in verdicts)
     failed = [v for v in verdicts if v["holds"] is False]
     lines = ["# Chapter 3, reproduced", "",
-             "<!-- Written by benchmarks/chapter3/report.py from chapter3/*.json: do not edit. -->", ""]
+             "<!-- Written by benchmarks/chapter3/page.py from chapter3/*.json: do not edit. -->", ""]
     if results.quick:
         lines += ["**Measured with `--quick`: fewer seeds, k and points. A test of the programs, not a "
                   "result.**", ""]
@@ -224,7 +224,7 @@ def main():
         stale = [name for name, text in texts.items()
                  if (options.folder / name).read_text(encoding="utf-8") != text]
         for name in stale:
-            print(f"{options.folder / name} is not up to date; run report.py")
+            print(f"{options.folder / name} is not up to date; run page.py")
         return 1 if stale else 0
 
     for name, text in texts.items():
