@@ -313,8 +313,7 @@ TEST(io_write_las, refuses_impossible_arguments_and_leaves_nothing) {
     refuse(column("scan_angle", field_type::float64, 197));
     refuse(column("label", field_type::int32, 3e9));
     std::vector<io::property> many;
-    for (int k = 0; k < 342; ++k)
-        many.push_back(column(std::to_string(k), field_type::int8, 0));
+    for (int k = 0; k < 342; ++k) many.push_back(column(std::to_string(k), field_type::int8, 0));
     refuse(io::properties(many));
 }
 
