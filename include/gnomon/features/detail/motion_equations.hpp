@@ -71,9 +71,11 @@ struct motion_sums {
     square_array<6> of_all_normals{};
 
     /// Adds a point with the weight of Tukey's biweight (Holland and Welsch 1977: 95 % efficiency).
-    void add(motion_term& t, double scale) {
-        constexpr double width = 4.685;  // in deviations
-        const double u = t.residual / (width * scale);
+    /// @param scale  of the residuals, in deviations of the noise
+    /// @param width  of the weights, at least [m]
+    void add(motion_term& t, double scale, double width) {
+        constexpr double deviations = 4.685;
+        const double u = t.residual / std::max(deviations * scale, width * t.per_metre);
         const double left = std::max(0.0, 1.0 - u * u);
         t.weight = left * left;
         if (t.weight == 0.0) return;

@@ -120,18 +120,19 @@ class surface_alignment {
     /// @param limit  between corresponding points at first [m]
     void align(rigid_motion& pose, double limit, alignment& result) {
         result.status = alignment::outcome::not_converged;
+        double width = limit;  // of the weights [m], at least; then that of the noise
         for (result.iterations = 1; result.iterations <= options_.max_iterations;
              ++result.iterations) {
-            set_terms(pose, limit);
+            set_terms(pose, std::max(limit, options_.last_distance));
             if (count_ <= (options_.on_ground ? 3u : 6u)) {
                 result.status = alignment::outcome::too_few_points;
                 break;
             }
-            sum_terms();
+            sum_terms(width);
             const motion_solution solution(sums_, scale_, options_);
-            const auto step = solution.step(limit);
+            const auto step = solution.step(options_.max_distance);
             constexpr double negligible = 0.01;  // chosen: a tenth of a deviation
-            if (limit <= options_.last_distance && step.gain <= negligible * scale_ * scale_) {
+            if (width == 0.0 && step.gain <= negligible * scale_ * scale_) {
                 result.status = alignment::outcome::converged;
                 break;
             }
@@ -139,8 +140,12 @@ class surface_alignment {
                              rigid_motion{pose.rotation, {0, 0, 0}})
                                 .rotation;
             pose.position = combined(1.0, pose.position, 1.0, step.shift);
-            constexpr double shrink = 0.7;  // chosen: 4 iterations from 10 cm to 3 cm
-            limit = std::max(options_.last_distance, shrink * limit);
+            // Where most points are on surfaces that slide on themselves, the median is small while
+            // the others are far off: weights that start narrow would leave these out for good.
+            constexpr double shrink = 0.5;  // chosen: 5 iterations from 10 cm to 3 mm
+            constexpr double narrow = 0.1;  // chosen: of the last distance
+            limit *= shrink;
+            width = limit < narrow * options_.last_distance ? 0.0 : limit;
         }
         result.iterations = std::min(result.iterations, options_.max_iterations);
     }
@@ -197,12 +202,12 @@ class surface_alignment {
     }
 
     /// Sums of fixed chunks of the points, so that they do not depend on the threads.
-    void sum_terms() {
+    void sum_terms(double width) {
         scratch<motion_sums> parts(chunk_count(terms_.size()));
         for_each_chunk(run_, terms_.size(), [&](std::size_t begin, std::size_t end) {
             motion_sums sum;
             for (std::size_t i = begin; i < end; ++i) {
-                if (terms_[i].is_matched) sum.add(terms_[i], scale_);
+                if (terms_[i].is_matched) sum.add(terms_[i], scale_, width);
             }
             parts[begin / chunk_size] = sum;
         });
@@ -258,13 +263,14 @@ template <class R, class S, class Normals, execution X, class Proj>
     const matched_surface<Normals> matched(index, surface_normals, options);
     double limit = options.max_distance;
     if (!cloud.sample.empty()) {
+        const sequential here;
         surface_alignment<Normals, sequential> first(cloud.sample, matched, cloud.lever, rounding,
-                                                     options, sequential());
+                                                     options, here);
         rigid_motion moved = pose;
         first.align(moved, limit, result);
         if (result.status != alignment::outcome::too_few_points) {
             pose = moved;
-            limit = options.last_distance;
+            limit = 0.0;
         }
     }
     surface_alignment<Normals, std::remove_cvref_t<decltype(team)>> all(

@@ -75,11 +75,13 @@ class matched_surface {
             if (!find_in(list, x, ray, own, limit, match)) return false;
         }
         if (match.distance > limit) return false;
+        resolve_edge(list, x, ray, own, match);
         set_distance(list, x, ray, own, p, match);
         return true;
     }
 
   private:
+    static constexpr double smooth = 0.8;  // chosen: cosine of 37 degrees, within one surface
     static constexpr double slack = 1.25;  // of the search radius (performance only)
 
     [[nodiscard]] bool is_compatible(const Eigen::Vector3d& normal, const Eigen::Vector3d& ray,
@@ -139,11 +141,39 @@ class matched_surface {
         return std::abs(dot(n, n) - 1.0) < rounding;
     }
 
+    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in a
+    /// convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
+    /// earlier, however noise displaces the point along the ray.
+    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x,
+                      const Eigen::Vector3d& ray, const Eigen::Vector3d& own,
+                      surface_match& match) const {
+        constexpr double least = 0.05;  // numerical: cosine of ray and normal
+        const auto crossing = [&](point_index i) {
+            const Eigen::Vector3d& n = normals_[i].normal;
+            const double off = dot(n, difference(x, samples_[i]));
+            return is_missing(ray) ? off : off / std::max(std::abs(dot(n, ray)), least);
+        };
+        double chosen = 0.0;
+        bool is_known = false;
+        for (std::size_t k = 0; k < list.count; ++k) {
+            const point_index i = list.of[k];
+            const Eigen::Vector3d &n = normals_[i].normal, &m = normals_[match.sample].normal;
+            if (dot(n, m) >= smooth || !is_compatible(n, ray, own)) continue;
+            const Eigen::Vector3d way = difference(samples_[i], samples_[match.sample]);
+            const double from_here = dot(m, way), from_there = -dot(n, way);
+            if (!(from_here * from_there > 0.0)) continue;
+            if (!std::exchange(is_known, true)) chosen = crossing(match.sample);
+            const double other = crossing(i);
+            if (!(from_here < 0.0 ? other > chosen : other < chosen)) continue;
+            chosen = other;
+            match.sample = i;
+        }
+    }
+
     /// Sets normal, distance and variances of a match to the sample that it has.
     void set_distance(const sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
                       const Eigen::Vector3d& own, const movable_point& p,
                       surface_match& match) const {
-        constexpr double smooth = 0.8;  // chosen: cosine of 37 degrees, within one surface
         constexpr double oblique = 0.2;  // chosen: of ray and normal, 78 degrees
         const Eigen::Vector3d q = samples_[match.sample];
         const Eigen::Vector3d normal = normals_[match.sample].normal;
