@@ -12,9 +12,13 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/bounds.hpp>
+#include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/detail/object_builder.hpp>
 #include <gnomon/simulation/detail/openings.hpp>
 #include <gnomon/simulation/detail/room.hpp>
+#include <gnomon/simulation/detail/room_layout.hpp>
+#include <gnomon/simulation/detail/room_pieces.hpp>
+#include <gnomon/simulation/detail/upright_box.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
@@ -45,6 +49,8 @@ struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
     bool openings = false;  ///< doors and windows in the walls; the furniture is the same
+    int clutter = 0;        ///< other things, clutter_models(); fewer if they do not fit
+    bool touching = false;  ///< furniture and clutter touch walls and each other
     std::vector<furniture_model> models = {};  ///< to choose from; furniture_models() if empty
 };
 
@@ -54,10 +60,18 @@ struct room_options {
 /// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
 /// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
 /// another house or nothing.
-/// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
+///
+/// Clutter has names such as "carton 3", and stands in front of the sensor: at the walls what
+/// belongs there, half of all within half a metre of a piece of furniture, and the rest anywhere,
+/// without overlap; the furniture is the same. If objects are to touch, each piece of furniture is
+/// instead placed where it touches a wall or another piece, by less than 4 mm, chairs facing it: a
+/// seat may be below a table; and so is a quarter of the clutter.
+/// @throws std::invalid_argument  unless 0 to 1,000 pieces of each are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
     gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
                             "furnished_room: requires 0 to 1,000 pieces");
+    gnomon::detail::require(options.clutter >= 0 && options.clutter <= 1000,
+                            "furnished_room: requires 0 to 1,000 pieces of clutter");
     random_stream random(options.seed);
     const double length = random.uniform(4.0, 6.0);
     const double width = random.uniform(4.0, 6.0);
@@ -74,6 +88,15 @@ struct room_options {
     detail::add_room(world, room, openings.holes());
     detail::add_block(world, "cupboard", cupboard);
 
+    detail::room_layout layout(room, world.sensor.position);
+    layout.take({detail::upright_box(cupboard, {})});
+    std::vector<detail::standing_piece> furniture;
+    const auto stand = [&](furniture_model model, int piece, const detail::floor_place& place) {
+        furniture.emplace_back(detail::boxes_of(model, options.touching), place);
+        layout.take(furniture.back().boxes);
+        model.name = detail::numbered(model.name, piece + 1);
+        add(world, model, place.pose());
+    };
     // The circles about the pieces do not overlap each other, the walls, the sensor or the
     // cupboard.
     struct circle {
@@ -83,8 +106,15 @@ struct room_options {
     };
     std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
     const auto models = options.models.empty() ? furniture_models() : options.models;
+    random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
         const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        if (options.touching) {
+            const auto own = detail::boxes_of(model, true);
+            if (const auto place = detail::touching_place(layout, furniture, model, own, contacts))
+                stand(model, piece, *place);
+            continue;
+        }
         const double radius = detail::radius_of(model);
         if (2.0 * radius > std::min(length, width)) continue;
         for (int trial = 0; trial < 100; ++trial) {
@@ -96,12 +126,15 @@ struct room_options {
             const angle turned = degrees(random.uniform(-180.0, 180.0));
             if (!is_free) continue;
             taken.push_back(place);
-            furniture_model named = model;
-            named.name = detail::numbered(model.name, piece + 1);
-            add(world, named, at(place.x, place.y, 0.0) * yaw(turned));
+            stand(model, piece, {place.x, place.y, turned});
             break;
         }
     }
+    if (options.clutter > 0)
+        detail::add_clutter(
+            world, layout, furniture,
+            clutter_models(static_cast<std::size_t>(options.clutter), ~options.seed),
+            options.touching, random_stream(options.seed, 2));
     detail::add_openings(world, room, openings);
     return world;
 }
