@@ -35,7 +35,7 @@ inline sim::scene scene_in_file(const std::string& path) {
 
 /// A room with the furniture of files, if the options name some.
 inline sim::scene furnished_room(const options& o) {
-    constexpr int pieces_of_clutter = 24;  // of which a scan shows about 20
+    constexpr int pieces_of_clutter = 22;  // of which a scan shows about 20
     sim::scenes::room_options room{.seed = o.beam.seed,
                                    .openings = o.openings,
                                    .clutter = o.clutter ? pieces_of_clutter : 0,

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
@@ -40,6 +41,33 @@ namespace detail {
     return radius;
 }
 
+/// Circles on the floor of a room that do not overlap each other or the walls.
+struct circles_on_floor {
+    struct circle {
+        double x, y, radius;  ///< [m]
+    };
+    bounds room;
+    std::vector<circle> taken;
+
+    /// The place of a piece in a new circle, at any angle; nothing if no place is found.
+    [[nodiscard]] std::optional<floor_place> place(double radius, random_stream& random) {
+        const auto& [low, high] = room;
+        if (2.0 * radius > std::min(high.x() - low.x(), high.y() - low.y())) return std::nullopt;
+        for (int trial = 0; trial < 100; ++trial) {
+            const circle found{random.uniform(low.x() + radius, high.x() - radius),
+                               random.uniform(low.y() + radius, high.y() - radius), radius};
+            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
+                return std::hypot(found.x - c.x, found.y - c.y) >= found.radius + c.radius;
+            });
+            const angle turned = degrees(random.uniform(-180.0, 180.0));
+            if (!is_free) continue;
+            taken.push_back(found);
+            return floor_place{found.x, found.y, turned};
+        }
+        return std::nullopt;
+    }
+};
+
 }  // namespace detail
 
 namespace scenes {
@@ -68,10 +96,9 @@ struct room_options {
 /// seat may be below a table; and so is a quarter of the clutter.
 /// @throws std::invalid_argument  unless 0 to 1,000 pieces of each are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
-    gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
-                            "furnished_room: requires 0 to 1,000 pieces");
-    gnomon::detail::require(options.clutter >= 0 && options.clutter <= 1000,
-                            "furnished_room: requires 0 to 1,000 pieces of clutter");
+    for (const int count : {options.pieces, options.clutter})
+        gnomon::detail::require(count >= 0 && count <= 1000,
+                                "furnished_room: requires 0 to 1,000 pieces");
     random_stream random(options.seed);
     const double length = random.uniform(4.0, 6.0);
     const double width = random.uniform(4.0, 6.0);
@@ -91,44 +118,20 @@ struct room_options {
     detail::room_layout layout(room, world.sensor.position);
     layout.take({detail::upright_box(cupboard, {})});
     std::vector<detail::standing_piece> furniture;
-    const auto stand = [&](furniture_model model, int piece, const detail::floor_place& place) {
-        furniture.emplace_back(detail::boxes_of(model, options.touching), place);
-        layout.take(furniture.back().boxes);
-        model.name = detail::numbered(model.name, piece + 1);
-        add(world, model, place.pose());
-    };
-    // The circles about the pieces do not overlap each other, the walls, the sensor or the
-    // cupboard.
-    struct circle {
-        double x;
-        double y;
-        double radius;
-    };
-    std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
     const auto models = options.models.empty() ? furniture_models() : options.models;
+    detail::circles_on_floor circles{room, {{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}}};
     random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
-        const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
-        if (options.touching) {
-            const auto own = detail::boxes_of(model, true);
-            if (const auto place = detail::touching_place(layout, furniture, model, own, contacts))
-                stand(model, piece, *place);
-            continue;
-        }
-        const double radius = detail::radius_of(model);
-        if (2.0 * radius > std::min(length, width)) continue;
-        for (int trial = 0; trial < 100; ++trial) {
-            const circle place{random.uniform(radius, length - radius),
-                               random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
-            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
-                return std::hypot(place.x - c.x, place.y - c.y) >= place.radius + c.radius;
-            });
-            const angle turned = degrees(random.uniform(-180.0, 180.0));
-            if (!is_free) continue;
-            taken.push_back(place);
-            stand(model, piece, {place.x, place.y, turned});
-            break;
-        }
+        furniture_model model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        const auto own = detail::boxes_of(model, options.touching);
+        const auto place = options.touching
+                               ? detail::touching_place(layout, furniture, model, own, contacts)
+                               : circles.place(detail::radius_of(model), random);
+        if (!place) continue;
+        furniture.emplace_back(own, *place);
+        layout.take(furniture.back().boxes);
+        model.name = detail::numbered(model.name, piece + 1);
+        add(world, model, place->pose());
     }
     if (options.clutter > 0)
         detail::add_clutter(

@@ -124,7 +124,7 @@ class room_layout {
                                 other.place.y + t * u.y() + aside * across.y(), heading};
         const double left = distance(other.boxes, placed(own, place)) - gap;
         if (left <= precision) return left >= 0.0 ? std::optional(place) : std::nullopt;
-        t -= std::min(left, farthest);
+        t -= std::min(left - 0.5 * precision, farthest);
     }
     return std::nullopt;
 }

@@ -60,9 +60,9 @@ inline constexpr double least_contact = 0.0004;
     return std::nullopt;
 }
 
-/// Puts clutter into a room: a third of what does not belong to a wall anywhere, and the rest 5 to
-/// 40 cm from pieces of furniture. If objects may touch, half of the rest touches them instead, and
-/// all else may come near.
+/// Puts clutter into a room: pieces that belong to walls there, and of the other ones a third 5 to
+/// 40 cm from pieces of furniture, and the rest anywhere. If objects may touch, the third
+/// touches furniture, and everything may come near.
 inline void add_clutter(scene& world, room_layout layout,
                         const std::vector<standing_piece>& furniture,
                         const std::vector<furniture_model>& clutter, bool touching,
@@ -79,8 +79,7 @@ inline void add_clutter(scene& world, room_layout layout,
         const double from_sensor = height > 0.8 ? 1.5 : 0.7;
         const bool at_wall = belongs_to_wall(model);
         const std::size_t turn = at_wall ? 0 : ++floor_pieces;
-        const bool at_furniture = turn % 3 != 0 && !furniture.empty();
-        const bool in_contact = touching && turn % 2 == 1;
+        const bool at_furniture = turn % 3 == 1 && !furniture.empty();
         for (int trial = 0; trial < trials; ++trial) {
             std::optional<floor_place> place;
             if (at_wall) {
@@ -88,9 +87,9 @@ inline void add_clutter(scene& world, room_layout layout,
             } else if (at_furniture) {
                 const standing_piece& other = furniture[random.bits() % furniture.size()];
                 const angle way =
-                    in_contact ? side_of(other, random) : degrees(random.uniform(-180.0, 180.0));
-                const angle heading = in_contact ? way : degrees(random.uniform(-180.0, 180.0));
-                const double gap = in_contact ? contact(random) : random.uniform(0.05, 0.40);
+                    touching ? side_of(other, random) : degrees(random.uniform(-180.0, 180.0));
+                const angle heading = touching ? way : degrees(random.uniform(-180.0, 180.0));
+                const double gap = touching ? contact(random) : random.uniform(0.05, 0.40);
                 place = beside(other, own, heading, way, random.uniform(-0.4, 0.4), gap);
             } else {
                 place = layout.anywhere(random);

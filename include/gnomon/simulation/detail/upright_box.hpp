@@ -53,7 +53,9 @@ class upright_box {
 
     /// Horizontal distance [m] of two boxes; 0 if they overlap, infinite if one is above the other.
     [[nodiscard]] friend double distance(const upright_box& a, const upright_box& b) {
-        if (a.low_ >= b.high_ || b.low_ >= a.high_) return std::numeric_limits<double>::infinity();
+        constexpr double rounding = 1e-6;  // [m]: what stands on the other box is not above it
+        if (a.low_ > b.high_ + rounding || b.low_ > a.high_ + rounding)
+            return std::numeric_limits<double>::infinity();
         if (!a.is_apart(b) && !b.is_apart(a)) return 0.0;
         // Of disjoint rectangles, one of the nearest points is a corner.
         double least = std::numeric_limits<double>::infinity();
