@@ -11,6 +11,7 @@
 #include <gnomon/simulation/box_and_cylinder.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/chair.hpp>
+#include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/cylinder.hpp>
 #include <gnomon/simulation/depth_camera.hpp>
