@@ -21,7 +21,7 @@ struct verification_options {
     angle max_angle = degrees(45.0);  ///< between the normals of a sample and of a point
     /// Points lower in the object's frame are floor, and explained by nothing [m].
     double lowest = 0.05;
-    std::size_t most = 2000;  ///< samples, and points, that are tested; of more, evenly chosen ones
+    std::size_t most = 1000;  ///< samples, and points, that are tested; of more, evenly chosen ones
 
     /// @throws std::invalid_argument  unless the tolerance is positive and finite, the angle from 0
     ///                                to 90 degrees, `lowest` a number, and something is tested

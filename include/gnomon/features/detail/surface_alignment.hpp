@@ -123,7 +123,9 @@ class surface_alignment {
         double width = limit;  // of the weights [m], at least; then that of the noise
         for (result.iterations = 1; result.iterations <= options_.max_iterations;
              ++result.iterations) {
-            set_terms(pose, std::max(limit, options_.last_distance));
+            // Points between two samples would come and go without end.
+            constexpr int choosing = 15;  // chosen: iterations, as 10 are the rule
+            set_terms(pose, std::max(limit, options_.last_distance), result.iterations > choosing);
             if (count_ <= (options_.on_ground ? 3u : 6u)) {
                 result.status = alignment::outcome::too_few_points;
                 break;
@@ -178,15 +180,21 @@ class surface_alignment {
 
   private:
     /// Matches all points, and finds the scale of their residuals.
-    void set_terms(const rigid_motion& pose, double limit) {
+    /// @param keep  whether each point keeps its sample
+    void set_terms(const rigid_motion& pose, double limit, bool keep) {
         for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
             std::vector<neighbor> found;
             surface_match m;
             for (std::size_t i = begin; i < end; ++i) {
                 const Eigen::Vector3d arm = product(pose.rotation, points_[i].at);
-                terms_[i].is_matched =
-                    surface_.match(points_[i], combined(1.0, pose.position, 1.0, arm),
-                                   pose.rotation, limit, lists_[i], found, m);
+                const Eigen::Vector3d x = combined(1.0, pose.position, 1.0, arm);
+                if (!keep) {
+                    terms_[i].is_matched = surface_.match(points_[i], x, pose.rotation, limit,
+                                                          lists_[i], found, m);
+                } else if (terms_[i].is_matched) {
+                    m.sample = terms_[i].sample;
+                    surface_.measure(points_[i], x, pose.rotation, lists_[i], m);
+                }
                 if (terms_[i].is_matched) terms_[i].set(m, arm, lever_, rounding_, options_);
             }
         });

@@ -80,6 +80,12 @@ class matched_surface {
         return true;
     }
 
+    /// Measures the distance of a point at `x` from the sample that it has.
+    void measure(const movable_point& p, const Eigen::Vector3d& x, const Eigen::Matrix3d& rotation,
+                 const sample_list& list, surface_match& match) const {
+        set_distance(list, x, product(rotation, p.ray), product(rotation, p.normal), p, match);
+    }
+
   private:
     static constexpr double smooth = 0.8;  // chosen: cosine of 37 degrees, within one surface
     static constexpr double slack = 1.25;  // of the search radius (performance only)
