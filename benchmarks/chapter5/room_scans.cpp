@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: BSL-1.0
-#include "rooms.hpp"
-
+#include <algorithm>
+#include <functional>
+#include <limits>
 #include <numbers>
 #include <utility>
 
+#include "rooms.hpp"
 #include <gnomon/core/random.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
@@ -50,6 +52,7 @@ std::vector<background_group> background_of(
         if (room.piece_of_point[i] != seen_room::no_piece)
             of_furniture.push_back(static_cast<gnomon::point_index>(i));
     const auto& scan = room.truth.scan;
+    constexpr double room_size = 20.0;  // [m], and more
     const gnomon::spatial_index furniture(gnomon::subset_view(scan, of_furniture));
     const auto shapes = shapes_by_object(world);
     std::vector<background_group> groups;
@@ -61,7 +64,7 @@ std::vector<background_group> background_of(
         group.distance = std::numeric_limits<double>::infinity();
         if (!of_furniture.empty()) {
             for (const gnomon::point_index i : points[o]) {
-                const auto nearest = furniture.nearest(scan.points[i], 1).front();
+                const auto nearest = furniture.nearest_within(scan.points[i], 1, room_size).front();
                 group.distance = std::min(group.distance, std::sqrt(nearest.squared_distance));
             }
         }
@@ -142,9 +145,8 @@ seen_room room_of(const std::vector<sim::furniture_model>& models, std::uint64_t
         room.pieces.push_back({name, pose_of(*model, shapes[o].front()), points[o]});
     }
     for (const std::int32_t o : room.truth.objects)
-        room.piece_of_point.push_back(o == sim::nothing
-                                          ? seen_room::no_piece
-                                          : piece_of_object[static_cast<std::size_t>(o)]);
+        room.piece_of_point.push_back(
+            o == sim::nothing ? seen_room::no_piece : piece_of_object[static_cast<std::size_t>(o)]);
     room.background = background_of(world, room, points, piece_of_object);
     return room;
 }
@@ -166,7 +168,8 @@ pose_error error_of(const sim::pose& found, const sim::pose& truth, int headings
     const Eigen::Vector3d ahead = truth.direction_in(found.direction_out({1.0, 0.0, 0.0}));
     double heading = 0.0;
     if (headings > 0)
-        heading = std::remainder(std::atan2(ahead.y(), ahead.x()), 2.0 * std::numbers::pi / headings);
+        heading =
+            std::remainder(std::atan2(ahead.y(), ahead.x()), 2.0 * std::numbers::pi / headings);
     const double tilt = std::acos(std::clamp(up.z(), -1.0, 1.0));
     return {(found.position - truth.position).norm(), std::hypot(heading, tilt)};
 }
@@ -188,6 +191,10 @@ judgement judged(const seen_room& room, std::vector<found_object> found,
     constexpr std::size_t enough_for_pose = 200;
     std::ranges::stable_sort(found, std::greater{}, &found_object::probability);
     std::vector<bool> is_found(room.pieces.size(), false), is_whole(room.pieces.size(), false);
+    std::vector<std::size_t> grouped(room.pieces.size(), 0);  // points of each piece
+    for (const found_object& f : found)
+        for (const gnomon::point_index i : f.points)
+            if (room.piece_of_point[i] != seen_room::no_piece) ++grouped[room.piece_of_point[i]];
     judgement result;
     for (const found_object& f : found) {
         std::size_t most = 0;
@@ -201,7 +208,7 @@ judgement judged(const seen_room& room, std::vector<found_object> found,
         if (p != seen_room::no_piece) {
             const auto n = static_cast<double>(most);
             if (n >= most_of_it * static_cast<double>(f.points.size()) &&
-                n >= most_of_it * static_cast<double>(room.pieces[p].points.size()))
+                n >= most_of_it * static_cast<double>(grouped[p]))
                 is_whole[p] = true;
         }
         if (f.name == gnomon::recognition::background_name || f.probability < min_probability)

@@ -51,10 +51,10 @@ struct true_piece {
 
 /// Clutter in a scan, or the cupboard.
 struct background_group {
-    std::string name;         ///< without its number
-    std::size_t points = 0;   ///< that are of it
-    double height = 0.0;      ///< of its upper end above the floor [m]
-    double distance = 0.0;    ///< of its points from those of furniture, the least [m]
+    std::string name;        ///< without its number
+    std::size_t points = 0;  ///< that are of it
+    double height = 0.0;     ///< of its upper end above the floor [m]
+    double distance = 0.0;   ///< of its points from those of furniture, the least [m]
 };
 
 /// A scan of a room, and what is true of it.
@@ -69,8 +69,8 @@ struct seen_room {
 };
 
 /// A room of a seed, scanned by beams that skim, `wide_beam`.
-[[nodiscard]] seen_room room_of(const std::vector<sim::furniture_model>& models,
-                                std::uint64_t seed, const room_kind& kind);
+[[nodiscard]] seen_room room_of(const std::vector<sim::furniture_model>& models, std::uint64_t seed,
+                                const room_kind& kind);
 
 /// An object that a method has found, or a group of points that it calls background.
 struct found_object {
@@ -108,11 +108,13 @@ struct pose_error {
 struct judgement {
     std::size_t objects = 0;  ///< in the rooms, of `fewest_points` and more
     std::size_t found = 0;    ///< of these
-    std::size_t whole = 0;  ///< of these: some group has 80 % of its points, and 80 % of them are its
+    /// Of these: some group has 80 % of its points that are in any group, and 80 % of the points of
+    /// the group are its.
+    std::size_t whole = 0;
     std::size_t decided = 0;  ///< found objects that are no background, of probability P_d and more
     std::size_t right = 0;    ///< of these: of the name of the object that most points are of
     std::size_t views = 0;    ///< all found objects and background
-    std::size_t right_views = 0;  ///< of these: the most probable class is the true one
+    std::size_t right_views = 0;         ///< of these: the most probable class is the true one
     std::vector<pose_error> poses = {};  ///< of right objects of 200 points and more, if found
 
     void add(const judgement& more);
