@@ -185,12 +185,16 @@ void judgement::add(const judgement& more) {
     poses.insert(poses.end(), more.poses.begin(), more.poses.end());
 }
 
-judgement judged(const seen_room& room, std::vector<found_object> found,
-                 const equal_headings& headings, double min_probability) {
+judgement judgement_of(const seen_room& room, std::vector<found_object> found,
+                       const equal_headings& headings, double min_probability) {
     constexpr double most_of_it = 0.8;
     constexpr std::size_t enough_for_pose = 200;
     std::ranges::stable_sort(found, std::greater{}, &found_object::probability);
     std::vector<bool> is_found(room.pieces.size(), false), is_whole(room.pieces.size(), false);
+    std::vector<std::size_t> grouped(room.pieces.size(), 0);  // points of each piece
+    for (const found_object& f : found)
+        for (const gnomon::point_index i : f.points)
+            if (room.piece_of_point[i] != seen_room::no_piece) ++grouped[room.piece_of_point[i]];
     judgement result;
     for (const found_object& f : found) {
         std::size_t most = 0;
@@ -204,7 +208,7 @@ judgement judged(const seen_room& room, std::vector<found_object> found,
         if (p != seen_room::no_piece) {
             const auto n = static_cast<double>(most);
             if (n >= most_of_it * static_cast<double>(f.points.size()) &&
-                n >= most_of_it * static_cast<double>(room.pieces[p].points.size()))
+                n >= most_of_it * static_cast<double>(grouped[p]))
                 is_whole[p] = true;
         }
         if (f.name == gnomon::recognition::background_name || f.probability < min_probability)

@@ -51,8 +51,8 @@ struct part_votes_options {
     double reach = 0.10;             ///< standard deviation of the place of a vote [m]
     angle turn = degrees(15.0);      ///< the same of its heading
     double max_distance = 0.9;       ///< of parts that are alike, in scales of features
-    double min_votes = 0.05;          ///< of a hypothesis
-    std::size_t most = 30;           ///< hypotheses of an object, the best of them
+    double min_votes = 0.3;          ///< of a hypothesis
+    std::size_t most = 12;           ///< hypotheses of an object, the best of them
 };
 
 namespace detail {
