@@ -44,15 +44,26 @@ struct object_place {
     double votes = 0.0;      ///< the sum of the votes, at most one of each part
 };
 
-/// How parts vote; chosen on furnished_room(), seeds 1 to 8.
+/// How parts vote; chosen on furnished_room() with clutter, seeds 1 to 12.
 struct part_votes_options {
-    std::size_t nearest = 10;        ///< parts of an object that were learned, by which a part votes
-    double likeness = 0.3;           ///< standard deviation of the distance of features
-    double reach = 0.10;             ///< standard deviation of the place of a vote [m]
-    angle turn = degrees(15.0);      ///< the same of its heading
-    double max_distance = 0.9;       ///< of parts that are alike, in scales of features
-    double min_votes = 0.3;          ///< of a hypothesis
-    std::size_t most = 12;           ///< hypotheses of an object, the best of them
+    std::size_t nearest = 10;   ///< learned parts of each object by which a part votes
+    double likeness = 0.3;      ///< standard deviation of the distance of features of one part
+    double max_distance = 0.9;  ///< of features; parts that differ more do not vote
+    double reach = 0.10;        ///< standard deviation of the place of a vote [m]
+    angle turn = degrees(15.0);  ///< the same of its heading
+    double min_votes = 0.3;      ///< of a place
+    std::size_t most = 12;       ///< places of an object, those of most votes
+
+    /// @throws std::invalid_argument  unless all are positive and finite, and max_distance and
+    ///                                min_votes not negative
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(nearest > 0 && most > 0, "part_votes: requires a part and a place");
+        for (const double x : {likeness, reach, turn.radians()})
+            require(x > 0.0 && std::isfinite(x), "part_votes: deviations must be positive");
+        require(max_distance >= 0.0 && min_votes >= 0.0,
+                "part_votes: max_distance and min_votes must not be negative or NaN");
+    }
 };
 
 namespace detail {
@@ -114,32 +125,40 @@ class part_votes {
         double turn = 0.0;               ///< heading of the object less that of the part [rad]
     };
 
+    /// @throws std::invalid_argument  for options that are not valid
     explicit part_votes(part_votes_options options = {}, Features features = default_features)
-        : options_(options), features_(std::move(features)) {}
+        : options_(options), features_(std::move(features)) {
+        options.require_valid();
+    }
 
     /// Learns the parts of a view of an object.
     /// @param pose  of the object's frame in that of the scan
-    /// @throws std::invalid_argument  if the view has no ground
+    /// @throws std::invalid_argument  if the view has no ground, the pose is no rigid motion, or a
+    ///                                feature is not finite; nothing is learned then
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
         gnomon::detail::require(v.ground.has_value(), "part_votes: a view needs a ground");
+        gnomon::detail::require(is_rigid(pose), "part_votes: the pose is no rigid motion");
         const rigid_motion ground = detail::ground_motion(*v.ground, pose.position);
         const Eigen::Vector3d ahead = ground.direction_in(gnomon::detail::column(pose.rotation, 0));
         const double heading = std::atan2(ahead.y(), ahead.x());
         const Eigen::Vector3d at = ground.point_in(pose.position);
+        std::vector<sample> learned;
         for (const part& p : v.parts) {
             const detail::part_place place(p, ground);
             const double c = std::cos(place.heading), s = std::sin(place.heading);
             const double x = at.x() - place.at.x(), y = at.y() - place.at.y();
-            samples_.push_back({feature_vector(features_, p, v), static_cast<std::uint32_t>(object),
-                                c * x + s * y, c * y - s * x, heading - place.heading});
-            objects_ = std::max(objects_, object + 1);
+            learned.push_back({feature_vector(features_, p, v), static_cast<std::uint32_t>(object),
+                               c * x + s * y, c * y - s * x, heading - place.heading});
         }
+        if (!learned.empty()) objects_ = std::max(objects_, object + 1);
+        samples_.insert(samples_.end(), learned.begin(), learned.end());
     }
 
     [[nodiscard]] const std::vector<sample>& samples() const { return samples_; }
 
     /// The places of objects by the votes of the parts of all views.
     /// @return of each object those of most votes first
+    /// @throws std::invalid_argument  if a view has no ground, or a feature is not finite
     /// Complexity: O(p s) for p parts and s samples.
     [[nodiscard]] std::vector<object_place> places(std::span<const view> views) const {
         std::vector<std::vector<vote>> votes(objects_);

@@ -25,6 +25,7 @@
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/estimate_normals.hpp>
 #include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/recognition/part_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
@@ -160,7 +161,7 @@ class scene_evidence {
 
     const voxel_grid::means& cells_;
     spatial_index index_;
-    std::vector<plane_fit> surface_;
+    std::vector<surfel<plane_fit>> surface_;
     visibility seen_;
     noise_curve noise_;
 };
