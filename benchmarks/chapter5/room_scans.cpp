@@ -185,8 +185,8 @@ void judgement::add(const judgement& more) {
     poses.insert(poses.end(), more.poses.begin(), more.poses.end());
 }
 
-judgement judged(const seen_room& room, std::vector<found_object> found,
-                 const equal_headings& headings, double min_probability) {
+judgement judgement_of(const seen_room& room, std::vector<found_object> found,
+                       const equal_headings& headings, double min_probability) {
     constexpr double most_of_it = 0.8;
     constexpr std::size_t enough_for_pose = 200;
     std::ranges::stable_sort(found, std::greater{}, &found_object::probability);

@@ -85,13 +85,13 @@ struct room_set {
 };
 
 /// The judgements of one method on one set of rooms, seed by seed.
-struct judged_seeds {
+struct method_row {
     json key;
     std::vector<judgement> seeds;
     std::vector<double> times;  ///< of the processor, all threads, per room [s]
 };
 
-json row_of(const judged_seeds& row) {
+json row_of(const method_row& row) {
     json result = row.key;
     const auto add = [&](const char* name, auto&& of) {
         std::vector<double> values;
@@ -170,7 +170,7 @@ struct seed_plan {
                                 {"touching", true, much.quick ? 1u : 10u}},
                        .first_room = 1000 * first_seed};
         for (std::uint64_t s = 0; s < much.seeds(); ++s) plan.learning.push_back(first_seed + s);
-        // A test of the program does not show what is judged.
+        // A test of the program does not show what the page shows.
         if (much.quick) return {.learning = {1}, .sets = plan.sets, .first_room = 1};
         return plan;
     }
@@ -186,7 +186,7 @@ json measure(const effort& much, const seed_plan& plan) {
     const auto models = sim::furniture_models();
     const equal_headings headings = equal_headings_of(models);
     std::vector<room_contents> contents(plan.sets.size());
-    std::vector<judged_seeds> rows;
+    std::vector<method_row> rows;
     for (std::size_t s = 0; s < plan.learning.size(); ++s) {
         const auto methods = methods_of(much, plan.learning[s]);
         for (std::size_t k = 0; k < plan.sets.size(); ++k) {
@@ -207,13 +207,14 @@ json measure(const effort& much, const seed_plan& plan) {
                     auto found = methods[m].second(room.truth.scan);
                     rows[first + m].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) -
                                                     before);
-                    rows[first + m].seeds.back().add(judged(room, std::move(found), headings));
+                    rows[first + m].seeds.back().add(
+                        judgement_of(room, std::move(found), headings));
                 }
             }
         }
     }
     json table = json::array(), counts = json::array(), turns = json::array();
-    for (const judged_seeds& row : rows) table.push_back(row_of(row));
+    for (const method_row& row : rows) table.push_back(row_of(row));
     for (std::size_t k = 0; k < contents.size(); ++k) {
         counts.push_back(contents[k].row(plan.sets[k].name));
         std::printf("%s\n", counts.back().dump().c_str());

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSL-1.0
 /// @file
 /// How recognition in whole rooms is tested (Klasing 2010, Sec. 5.7): simulated rooms with clutter,
-/// their truth, and the judgement of what a method has found in their scans. The judgement knows
-/// nothing about the method:
+/// their truth, and the judgement of the objects that a method finds in their scans, which is
+/// independent of the method:
 ///
 ///     const seen_room room = room_of(sim::furniture_models(), seed, {});
 ///     const std::vector<found_object> found = method(room.truth.scan);
-///     total.add(judged(room, found, headings));
+///     total.add(judgement_of(room, found, headings));
 #pragma once
 
 #include <algorithm>
@@ -132,5 +132,5 @@ struct judgement {
 
 /// Judges what was found in a room. A second right object on the same piece is wrong.
 /// @param min_probability  P_d
-[[nodiscard]] judgement judged(const seen_room& room, std::vector<found_object> found,
-                               const equal_headings& headings, double min_probability = 0.90);
+[[nodiscard]] judgement judgement_of(const seen_room& room, std::vector<found_object> found,
+                                     const equal_headings& headings, double min_probability = 0.90);

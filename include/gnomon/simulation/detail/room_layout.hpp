@@ -108,7 +108,7 @@ class room_layout {
 };
 
 /// The place at which a piece that is moved towards another one has this gap to it, by steps of
-/// the distance (sphere tracing, Hart 1996); nothing if it passes by.
+/// the distance, as in sphere tracing; nothing if it passes by.
 /// @param way     from the other piece towards where this one comes from
 /// @param aside   of the line through the middle of the other piece [m]
 /// @param gap     horizontal, at least, and 0.1 mm more at most [m]
