@@ -18,7 +18,6 @@
 #include <gnomon/core/detail/square_array.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/features/alignment.hpp>
-#include <gnomon/features/alignment_options.hpp>
 #include <gnomon/features/detail/normal_equations.hpp>
 #include <gnomon/features/detail/surface_matches.hpp>
 
@@ -38,11 +37,11 @@ struct motion_term {
     point_index sample = 0;
     double weight = 0.0;  ///< of Tukey's biweight
     double residual = 0.0;
-    double distance = 0.0;   ///< from the surface [m]
-    double own_share = 0.0;  ///< of the variance of the residual: that of the point
-    double sample_share = 0.0;    ///< that of the sample; the sum is below 1 at oblique incidence
-    double per_metre = 0.0;       ///< 1 / deviation
-    Eigen::Vector3d arm;          ///< from the centroid, over the lever
+    double distance = 0.0;      ///< from the surface [m]
+    double own_share = 0.0;     ///< of the variance of the residual: that of the point
+    double sample_share = 0.0;  ///< that of the sample; the sum is below 1 at oblique incidence
+    double per_metre = 0.0;     ///< 1 / deviation
+    Eigen::Vector3d arm;        ///< from the centroid, over the lever
     motion_vector row{};
 
     /// @param from_center  of the point [m]
@@ -147,7 +146,7 @@ class motion_solution {
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t j = i + 1; j < 6; ++j) left[i][j] = left[j][i];
         eigen_ = jacobi_eigen<6>(left);
-        constexpr double variation = 1e-9;  // numerical: of normals, 3e-5 rad squared
+        constexpr double variation = 1e-9;   // numerical: of normals, 3e-5 rad squared
         constexpr double fluctuation = 4.0;  // chosen: of that of normals with noise, squared
         const double sine = sin(options.normal_noise);
         const double of_noise = fluctuation * sine * sine;

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,21 +16,14 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/features/alignment_options.hpp>
+#include <gnomon/features/alignment.hpp>
+#include <gnomon/features/detail/movable_cloud.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
-
-/// A point to align, relative to the centroid of all, in its own frame.
-struct movable_point {
-    Eigen::Vector3d at;
-    Eigen::Vector3d ray;     ///< unit vector from its view point; zero where that is unknown
-    Eigen::Vector3d normal;  ///< unit vector; zero where it is missing
-    double variance;         ///< of its noise, along the ray or in all directions [m^2]
-};
 
 /// Where a point is on a surface.
 struct surface_match {
@@ -126,7 +120,8 @@ class matched_surface {
         for (const std::size_t k : {first, most}) {
             list.count = 0;
             samples_.nearest_within_into(found, x, k, slack * limit);
-            list.reach = found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
+            list.reach =
+                found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
             for (const neighbor& q : found) {
                 if (!is_unit(normals_[q.index].normal) ||
                     !is_compatible(normals_[q.index].normal, ray, own))
@@ -147,12 +142,11 @@ class matched_surface {
         return std::abs(dot(n, n) - 1.0) < rounding;
     }
 
-    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in a
-    /// convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
+    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in
+    /// a convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
     /// earlier, however noise displaces the point along the ray.
-    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x,
-                      const Eigen::Vector3d& ray, const Eigen::Vector3d& own,
-                      surface_match& match) const {
+    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
+                      const Eigen::Vector3d& own, surface_match& match) const {
         constexpr double least = 0.05;  // numerical: cosine of ray and normal
         const auto crossing = [&](point_index i) {
             const Eigen::Vector3d& n = normals_[i].normal;
