@@ -34,6 +34,7 @@ using motion_vector = std::array<double, 6>;
 /// The residual of one point, in deviations of its noise, and its derivatives.
 struct motion_term {
     bool is_matched = false;
+    std::size_t entry = 0;  ///< of the sample in the list of the point
     point_index sample = 0;
     double weight = 0.0;  ///< of Tukey's biweight
     double residual = 0.0;
@@ -49,6 +50,7 @@ struct motion_term {
              double rounding, const alignment_options& options) {
         const double variance = m.variance + rounding * rounding;
         per_metre = 1.0 / std::sqrt(variance);
+        entry = m.entry;
         sample = m.sample;
         distance = m.distance;
         residual = distance * per_metre;

@@ -140,7 +140,7 @@ class surface_alignment {
                     terms_[i].is_matched =
                         surface_.match(points_[i], x, pose.rotation, limit, lists_[i], found, m);
                 } else if (terms_[i].is_matched) {
-                    m.sample = terms_[i].sample;
+                    m.entry = terms_[i].entry;
                     surface_.measure(points_[i], x, pose.rotation, lists_[i], m);
                 }
                 if (terms_[i].is_matched) terms_[i].set(m, arm, lever_, rounding_, options_);
