@@ -24,6 +24,7 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
 #include <gnomon/simulation/scanner.hpp>
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/shape.hpp>

@@ -27,7 +27,6 @@
 #include <gnomon/core/point_range.hpp>
 #include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/features/alignment.hpp>
-#include <gnomon/features/alignment_options.hpp>
 #include <gnomon/features/detail/surface_alignment.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 

@@ -46,7 +46,8 @@ class surface_model {
     /// @param normals   n surface elements with normals
     /// @param spacing   about one sample per square of this size [m]
     /// @param symmetry  as stored before; by default it is measured
-    /// @throws std::invalid_argument  if points and normals differ in number, a point is not finite,
+    /// @throws std::invalid_argument  if points and normals differ in number, a point is not
+    /// finite,
     ///                                a normal not of unit length, or the spacing not positive
     /// Complexity: O(n log n).
     template <class R, normal_range Normals, class Proj = std::identity>

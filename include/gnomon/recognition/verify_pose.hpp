@@ -38,9 +38,9 @@ namespace gnomon::recognition {
 
 /// Verifies an object at a pose.
 ///
-/// A sample of the object's surface that faces a view point is supported if a point of the scan lies
-/// in its plane, as far from it as rays are apart at most, with a compatible normal. The others are
-/// compared with the ranges observed in the pixel of the sample and the eight around it.
+/// A sample of the object's surface that faces a view point is supported if a point of the scan
+/// lies in its plane, as far from it as rays are apart at most, with a compatible normal. The
+/// others are compared with the ranges observed in the pixel of the sample and the eight around it.
 /// @param index    of the scan's points, without the floor or with it
 /// @param surface  surface elements of these points; missing normals are compatible with all
 /// @param seen     the observations of the same scan, floor and walls included

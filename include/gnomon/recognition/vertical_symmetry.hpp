@@ -24,13 +24,12 @@ namespace gnomon::recognition {
 struct vertical_symmetry {
     static constexpr int any_turn = 0;  ///< a surface of revolution
 
-    int order = 1;           ///< multiples of 360 degrees / order; 1 for none, or `any_turn`
-    double x = 0.0, y = 0.0; ///< of the axis [m]
+    int order = 1;            ///< multiples of 360 degrees / order; 1 for none, or `any_turn`
+    double x = 0.0, y = 0.0;  ///< of the axis [m]
 
     /// Turn k as a motion of the surface's frame: k / order of a full turn about the axis.
     [[nodiscard]] rigid_motion turn(angle by) const {
-        return rigid_motion::on_ground(x, y, by) *
-               rigid_motion::on_ground(-x, -y, degrees(0.0));
+        return rigid_motion::on_ground(x, y, by) * rigid_motion::on_ground(-x, -y, degrees(0.0));
     }
 
     /// The difference of two yaws up to symmetry: 0 for any turn, else in [0, 180 / order] degrees.
@@ -78,7 +77,7 @@ template <normal_range Normals>
         s.x += p.x() / static_cast<double>(samples.size());
         s.y += p.y() / static_cast<double>(samples.size());
     }
-    constexpr double enough = 0.98;  // chosen on furniture_models(): of .5 to .97 without symmetry
+    constexpr double enough = 0.98;   // chosen on furniture_models(): of .5 to .97 without symmetry
     constexpr double spacings = 1.5;  // chosen: two samples of a surface are at most this apart
     const auto has = [&](int order) {
         const angle by = degrees(360.0 / order);

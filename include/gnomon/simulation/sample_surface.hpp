@@ -121,9 +121,9 @@ class spaced_samples {
 }  // namespace detail
 
 /// Samples the surfaces of a scene that are visible from outside of it: by parallel rays from all
-/// directions, of whose hits those are left out that are nearer than 0.83 spacings to another, which
-/// is the distance at which about one is left per square of the spacing. A model is sampled in its
-/// own frame.
+/// directions, of whose hits those are left out that are nearer than 0.83 spacings to another,
+/// which is the distance at which about one is left per square of the spacing. A model is sampled
+/// in its own frame.
 ///
 /// The same options give the same samples. O(rays), some 10^4 to 10^5 for each direction.
 /// @return the samples in random order; none for an empty scene

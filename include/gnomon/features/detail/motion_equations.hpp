@@ -18,7 +18,6 @@
 #include <gnomon/core/detail/square_array.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/features/alignment.hpp>
-#include <gnomon/features/alignment_options.hpp>
 #include <gnomon/features/detail/normal_equations.hpp>
 #include <gnomon/features/detail/surface_matches.hpp>
 
@@ -35,14 +34,15 @@ using motion_vector = std::array<double, 6>;
 /// The residual of one point, in deviations of its noise, and its derivatives.
 struct motion_term {
     bool is_matched = false;
+    std::size_t entry = 0;  ///< of the sample in the list of the point
     point_index sample = 0;
     double weight = 0.0;  ///< of Tukey's biweight
     double residual = 0.0;
-    double distance = 0.0;   ///< from the surface [m]
-    double own_share = 0.0;  ///< of the variance of the residual: that of the point
-    double sample_share = 0.0;    ///< that of the sample; the sum is below 1 at oblique incidence
-    double per_metre = 0.0;       ///< 1 / deviation
-    Eigen::Vector3d arm;          ///< from the centroid, over the lever
+    double distance = 0.0;      ///< from the surface [m]
+    double own_share = 0.0;     ///< of the variance of the residual: that of the point
+    double sample_share = 0.0;  ///< that of the sample; the sum is below 1 at oblique incidence
+    double per_metre = 0.0;     ///< 1 / deviation
+    Eigen::Vector3d arm;        ///< from the centroid, over the lever
     motion_vector row{};
 
     /// @param from_center  of the point [m]
@@ -50,6 +50,7 @@ struct motion_term {
              double rounding, const alignment_options& options) {
         const double variance = m.variance + rounding * rounding;
         per_metre = 1.0 / std::sqrt(variance);
+        entry = m.entry;
         sample = m.sample;
         distance = m.distance;
         residual = distance * per_metre;
@@ -147,7 +148,7 @@ class motion_solution {
         for (std::size_t i = 0; i < 6; ++i)
             for (std::size_t j = i + 1; j < 6; ++j) left[i][j] = left[j][i];
         eigen_ = jacobi_eigen<6>(left);
-        constexpr double variation = 1e-9;  // numerical: of normals, 3e-5 rad squared
+        constexpr double variation = 1e-9;   // numerical: of normals, 3e-5 rad squared
         constexpr double fluctuation = 4.0;  // chosen: of that of normals with noise, squared
         const double sine = sin(options.normal_noise);
         const double of_noise = fluctuation * sine * sine;

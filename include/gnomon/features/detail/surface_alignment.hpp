@@ -20,65 +20,14 @@
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
-#include <gnomon/core/random.hpp>
 #include <gnomon/core/rigid_motion.hpp>
-#include <gnomon/core/viewpoints.hpp>
 #include <gnomon/features/alignment.hpp>
-#include <gnomon/features/alignment_options.hpp>
 #include <gnomon/features/detail/motion_equations.hpp>
+#include <gnomon/features/detail/movable_cloud.hpp>
 #include <gnomon/features/detail/surface_matches.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
-
-/// The finite ones of the points to align.
-struct movable_cloud {
-    scratch<movable_point> points;
-    scratch<movable_point> sample;             ///< some 400 of more than twice as many points
-    Eigen::Vector3d centroid{0.0, 0.0, 0.0};   ///< [m]
-    double lever = 1.0;                        ///< root mean square distance from it [m]
-    double largest = 0.0;                      ///< coordinate [m]
-
-    /// @param normals  (i): the normal of point i, zero or not finite if it is missing
-    template <class R, class Proj>
-    movable_cloud(const R& range, auto&& normals, const noise_curve& noise, Proj projection) {
-        const position_view<R, Proj> p(range, std::move(projection));
-        with_table_of(range, [&](const viewpoint_table& viewpoints) {
-            points.reserve(p.size());
-            Eigen::Vector3d first{0.0, 0.0, 0.0}, sum = first;
-            for (std::size_t i = 0; i < p.size(); ++i) {
-                const Eigen::Vector3d x = p[i];
-                if (!is_finite(x)) continue;
-                if (points.empty()) first = x;
-                const Eigen::Vector3d v = viewpoints[i], n = normals(i);
-                const Eigen::Vector3d way = is_finite(v) ? difference(x, v) : x;
-                movable_point m{difference(x, first), {0, 0, 0}, {0, 0, 0},
-                                noise.variance_along(way)};
-                if (!viewpoints.empty() && is_finite(v) && has_length(way)) m.ray = direction_of(way);
-                if (all_finite(n) && has_length(n)) m.normal = direction_of(n);
-                sum = combined(1.0, sum, 1.0, m.at);
-                for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(x[a]));
-                points.push_back(m);
-            }
-            if (points.empty()) return;
-            const double n = static_cast<double>(points.size());
-            const Eigen::Vector3d mean = scaled(1.0 / n, sum);
-            centroid = combined(1.0, first, 1.0, mean);
-            double squares = 0.0;
-            for (movable_point& m : points) {
-                m.at = difference(m.at, mean);
-                squares += dot(m.at, m.at) / n;
-            }
-            if (squares > 0.0) lever = std::sqrt(squares);
-            constexpr double enough = 400.0;  // performance only
-            random_stream random(0);
-            if (n > 2.0 * enough) {
-                for (const movable_point& m : points)
-                    if (random.uniform() * n < enough) sample.push_back(m);
-            }
-        });
-    }
-};
 
 /// The rotation by a rotation vector (Rodrigues).
 [[nodiscard]] inline Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
@@ -90,8 +39,7 @@ struct movable_cloud {
     for (int j = 0; j < 3; ++j) {
         Eigen::Vector3d e(0.0, 0.0, 0.0);
         e[j] = 1.0;
-        const Eigen::Vector3d turned =
-            combined(c, e, s, cross(axis, e), (1.0 - c) * axis[j], axis);
+        const Eigen::Vector3d turned = combined(c, e, s, cross(axis, e), (1.0 - c) * axis[j], axis);
         for (int i = 0; i < 3; ++i) r(i, j) = turned[i];
     }
     return r;
@@ -189,10 +137,10 @@ class surface_alignment {
                 const Eigen::Vector3d arm = product(pose.rotation, points_[i].at);
                 const Eigen::Vector3d x = combined(1.0, pose.position, 1.0, arm);
                 if (!keep) {
-                    terms_[i].is_matched = surface_.match(points_[i], x, pose.rotation, limit,
-                                                          lists_[i], found, m);
+                    terms_[i].is_matched =
+                        surface_.match(points_[i], x, pose.rotation, limit, lists_[i], found, m);
                 } else if (terms_[i].is_matched) {
-                    m.sample = terms_[i].sample;
+                    m.entry = terms_[i].entry;
                     surface_.measure(points_[i], x, pose.rotation, lists_[i], m);
                 }
                 if (terms_[i].is_matched) terms_[i].set(m, arm, lever_, rounding_, options_);
@@ -228,7 +176,8 @@ class surface_alignment {
         // The median absolute deviation of n normal numbers has this deviation times 1 / sqrt(n).
         constexpr double of_median = 1.17, deviations = 3.0;
         const double most =
-            1.0 + deviations * of_median / std::sqrt(static_cast<double>(std::max<std::size_t>(1, count_)));
+            1.0 + deviations * of_median /
+                      std::sqrt(static_cast<double>(std::max<std::size_t>(1, count_)));
         return scale_ > most ? scale_ * scale_ : 1.0;
     }
 
@@ -286,7 +235,8 @@ template <class R, class S, class Normals, execution X, class Proj>
     all.align(pose, limit, result);
     all.report(result, index.size());
     result.center = pose.position;
-    result.pose = {pose.rotation, difference(pose.position, product(pose.rotation, cloud.centroid))};
+    result.pose = {pose.rotation,
+                   difference(pose.position, product(pose.rotation, cloud.centroid))};
     return result;
 }
 

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -15,25 +16,19 @@
 
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
-#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/normal_range.hpp>
 #include <gnomon/core/point.hpp>
-#include <gnomon/features/alignment_options.hpp>
+#include <gnomon/features/alignment.hpp>
+#include <gnomon/features/detail/movable_cloud.hpp>
 #include <gnomon/neighborhoods/neighbor.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 
 namespace gnomon::detail {
 
-/// A point to align, relative to the centroid of all, in its own frame.
-struct movable_point {
-    Eigen::Vector3d at;
-    Eigen::Vector3d ray;     ///< unit vector from its view point; zero where that is unknown
-    Eigen::Vector3d normal;  ///< unit vector; zero where it is missing
-    double variance;         ///< of its noise, along the ray or in all directions [m^2]
-};
-
 /// Where a point is on a surface.
 struct surface_match {
-    point_index sample = 0;  ///< the nearest compatible one
+    std::size_t entry = 0;   ///< in the list of the point: the nearest compatible one
+    point_index sample = 0;  ///< its index
     Eigen::Vector3d normal;  ///< of the surface, where the point is
     double distance = 0.0;   ///< signed, of the point from the surface [m]
     double of_point = 0.0;   ///< variance that the noise of the point gives it [m^2]
@@ -41,11 +36,16 @@ struct surface_match {
     double variance = 0.0;   ///< the sum, but that of a ray at least at `oblique` cosine [m^2]
 };
 
-/// The compatible samples that a search has found, nearest first.
+/// The compatible samples that a search has found, nearest first. (Copies: performance only.)
 struct sample_list {
+    struct sample {
+        Eigen::Vector3d at, normal;
+        point_index index;
+    };
+
     static constexpr std::size_t capacity = 8;  // performance only: enough for 1.6 spacings
 
-    std::array<point_index, capacity> of{};
+    std::array<sample, capacity> of;
     std::size_t count = 0;
     Eigen::Vector3d searched{0.0, 0.0, 0.0};  ///< from where
     double reach = -1.0;  ///< all compatible samples up to this distance from there are listed
@@ -104,11 +104,10 @@ class matched_surface {
                                surface_match& match) const {
         double nearest = std::numeric_limits<double>::infinity();
         for (std::size_t k = 0; k < list.count; ++k) {
-            const double squared = squared_distance(samples_[list.of[k]], x);
-            if (squared >= nearest || !is_compatible(normals_[list.of[k]].normal, ray, own))
-                continue;
+            const double squared = squared_distance(list.of[k].at, x);
+            if (squared >= nearest || !is_compatible(list.of[k].normal, ray, own)) continue;
             nearest = squared;
-            match.sample = list.of[k];
+            match.entry = k;
         }
         match.distance = std::sqrt(nearest);
         if (list.reach < 0.0) return false;
@@ -126,12 +125,13 @@ class matched_surface {
         for (const std::size_t k : {first, most}) {
             list.count = 0;
             samples_.nearest_within_into(found, x, k, slack * limit);
-            list.reach = found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
+            list.reach =
+                found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
             for (const neighbor& q : found) {
                 if (!is_unit(normals_[q.index].normal) ||
                     !is_compatible(normals_[q.index].normal, ray, own))
                     continue;
-                list.of[list.count++] = q.index;
+                list.of[list.count++] = {samples_[q.index], normals_[q.index].normal, q.index};
                 if (list.count < list.of.size()) continue;
                 list.reach = std::sqrt(q.squared_distance);
                 break;
@@ -147,32 +147,30 @@ class matched_surface {
         return std::abs(dot(n, n) - 1.0) < rounding;
     }
 
-    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in a
-    /// convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
+    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in
+    /// a convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
     /// earlier, however noise displaces the point along the ray.
-    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x,
-                      const Eigen::Vector3d& ray, const Eigen::Vector3d& own,
-                      surface_match& match) const {
+    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
+                      const Eigen::Vector3d& own, surface_match& match) const {
         constexpr double least = 0.05;  // numerical: cosine of ray and normal
-        const auto crossing = [&](point_index i) {
-            const Eigen::Vector3d& n = normals_[i].normal;
-            const double off = dot(n, difference(x, samples_[i]));
-            return is_missing(ray) ? off : off / std::max(std::abs(dot(n, ray)), least);
+        const auto crossing = [&](const sample_list::sample& q) {
+            const double off = dot(q.normal, difference(x, q.at));
+            return is_missing(ray) ? off : off / std::max(std::abs(dot(q.normal, ray)), least);
         };
         double chosen = 0.0;
         bool is_known = false;
         for (std::size_t k = 0; k < list.count; ++k) {
-            const point_index i = list.of[k];
-            const Eigen::Vector3d &n = normals_[i].normal, &m = normals_[match.sample].normal;
-            if (dot(n, m) >= smooth || !is_compatible(n, ray, own)) continue;
-            const Eigen::Vector3d way = difference(samples_[i], samples_[match.sample]);
-            const double from_here = dot(m, way), from_there = -dot(n, way);
+            const auto &q = list.of[k], &here = list.of[match.entry];
+            if (dot(q.normal, here.normal) >= smooth || !is_compatible(q.normal, ray, own))
+                continue;
+            const Eigen::Vector3d way = difference(q.at, here.at);
+            const double from_here = dot(here.normal, way), from_there = -dot(q.normal, way);
             if (!(from_here * from_there > 0.0)) continue;
-            if (!std::exchange(is_known, true)) chosen = crossing(match.sample);
-            const double other = crossing(i);
+            if (!std::exchange(is_known, true)) chosen = crossing(here);
+            const double other = crossing(q);
             if (!(from_here < 0.0 ? other > chosen : other < chosen)) continue;
             chosen = other;
-            match.sample = i;
+            match.entry = k;
         }
     }
 
@@ -181,14 +179,14 @@ class matched_surface {
                       const Eigen::Vector3d& own, const movable_point& p,
                       surface_match& match) const {
         constexpr double oblique = 0.2;  // chosen: of ray and normal, 78 degrees
-        const Eigen::Vector3d q = samples_[match.sample];
-        const Eigen::Vector3d normal = normals_[match.sample].normal;
+        const Eigen::Vector3d &q = list.of[match.entry].at, &normal = list.of[match.entry].normal;
+        match.sample = list.of[match.entry].index;
         Eigen::Vector3d sum = scaled(1e-6, normal);  // numerical: never zero
         for (std::size_t k = 0; k < list.count; ++k) {
-            const Eigen::Vector3d& n = normals_[list.of[k]].normal;
+            const Eigen::Vector3d& n = list.of[k].normal;
             if (dot(n, normal) < smooth || !is_compatible(n, ray, own)) continue;
             const double inside =
-                1.0 - squared_distance(samples_[list.of[k]], x) / (list.reach * list.reach);
+                1.0 - squared_distance(list.of[k].at, x) / (list.reach * list.reach);
             if (inside > 0.0) sum = combined(1.0, sum, inside * inside, n);
         }
         match.normal = direction_of(sum);

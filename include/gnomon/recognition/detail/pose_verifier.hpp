@@ -97,20 +97,19 @@ class pose_verifier {
     [[nodiscard]] bool is_supported(const Eigen::Vector3d& at, const Eigen::Vector3d& normal,
                                     double facing, double range, double noise,
                                     const auto& normal_of) {
-        constexpr double spacings = 1.5;     // chosen: rays are not spaced evenly
+        constexpr double spacings = 1.5;      // chosen: rays are not spaced evenly
         constexpr double most_oblique = 0.3;  // chosen: rays spread by 3 at most
-        constexpr std::size_t few = 6;       // performance only
+        constexpr std::size_t few = 6;        // performance only
         const double between = range * pixel_ / std::max(facing, most_oblique);
         const double across = options_.tolerance + facing * noise;
         const double reach = std::max(across, spacings * between);
         index_.nearest_within_into(found_, at, few, reach);
         return std::any_of(found_.begin(), found_.end(), [&](const neighbor& q) {
             const Eigen::Vector3d n = normal_of(q.index);
-            const double off = gnomon::detail::dot(
-                normal, gnomon::detail::difference(index_[q.index], at));
+            const double off =
+                gnomon::detail::dot(normal, gnomon::detail::difference(index_[q.index], at));
             return std::abs(off) <= across &&
-                   (is_missing(n) ||
-                    std::abs(gnomon::detail::dot(n, normal)) >= least_cosine_);
+                   (is_missing(n) || std::abs(gnomon::detail::dot(n, normal)) >= least_cosine_);
         });
     }
 
@@ -161,8 +160,7 @@ class pose_verifier {
                 if (is_inside) inside.push_back(x);
             }
         });
-        const Eigen::Vector3d from =
-            images_.empty() ? pose_.position : images_.front().viewpoint();
+        const Eigen::Vector3d from = images_.empty() ? pose_.position : images_.front().viewpoint();
         const double noise =
             deviations * options_.noise.along(gnomon::detail::difference(
                              pose_.point_out(gnomon::detail::scaled(
