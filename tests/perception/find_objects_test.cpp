@@ -69,9 +69,9 @@ struct small_room {
     explicit small_room(bool has_floor = true) {
         sim::scene world;
         if (has_floor)
-            sim::add(world, "floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+            world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
                      sim::at(2.0, 0.0, 0.0));
-        sim::add(world, "carton", sim::box{0.4, 0.3, 0.5}, sim::at(2.8, 0.9, 0.25));
+        world.add_object("carton", sim::box{0.4, 0.3, 0.5}, sim::at(2.8, 0.9, 0.25));
         const auto models = chair_and_table();
         const auto chair = sim::add(world, models[0], chair_pose);
         const auto table = sim::add(world, models[1], table_pose);
@@ -140,10 +140,10 @@ TEST(find_objects, finds_the_same_far_from_the_origin_and_with_missing_points) {
 /// Where the sensor saw through, and where nothing fits, there is none.
 TEST(find_objects, finds_nothing_where_nothing_is) {
     sim::scene world;
-    sim::add(world, "floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+    world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
              sim::at(2.0, 0.0, 0.0));
-    sim::add(world, "carton", sim::box{0.5, 0.5, 0.45}, sim::at(2.0, 0.3, 0.225));
-    sim::add(world, "carton", sim::box{0.5, 0.05, 0.9}, sim::at(2.0, -0.6, 0.45));
+    world.add_object("carton", sim::box{0.5, 0.5, 0.45}, sim::at(2.0, 0.3, 0.225));
+    world.add_object("carton", sim::box{0.5, 0.05, 0.9}, sim::at(2.0, -0.6, 0.45));
     const auto truth = sim::simulate(
         world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0}, sim::scanner{},
         {.sigma = 0.005, .seed = 6});
