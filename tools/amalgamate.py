@@ -31,7 +31,7 @@ BANNER = """\
 # The headers of features that no umbrella includes, but those that others of them include.
 FEATURES = ("alpha_shape", "convex_hull", "minimum_area_rectangle", "minimum_volume_box", "project_to_plane",
             "segment_shape", "fit_sphere", "fit_cylinder", "fit_cone", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
-            "zernike_descriptor")
+            "zernike_descriptor", "align_to_surface")
 
 
 class Amalgamation:

@@ -51,13 +51,17 @@ FORBIDDEN = {
 # segments and points beyond their curvature.
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp",
-           "gnomon/perception/perceive_views.hpp"}
+           "gnomon/perception/perceive_views.hpp",
+           "gnomon/core/rigid_motion.hpp"}
+# Verification needs visibility, which other recognition does not.
+OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("surface_model", "verification", "verify_pose",
+                                                         "vertical_symmetry")}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",
     "project_to_plane", "segment_shape",
     "surface_fit", "fit_sphere", "fit_cylinder", "fit_cone",
     "descriptor", "describe_points", "spin_image", "shape_context", "harmonic_shape_context",
-    "zernike_descriptor")}
+    "zernike_descriptor", "alignment", "align_to_surface")}
 # Formats beyond what most scans come in.
 OUTSIDE |= {f"gnomon/io/{name}.hpp" for name in ("read_las", "write_las", "write_pcd",
                                                 "label_properties")}

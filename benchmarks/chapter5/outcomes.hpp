@@ -125,11 +125,18 @@ template <class Likelihood>
     });
 }
 
+/// Adds the views of models to what a recognizer has learned; fit() is to follow.
+template <class Recognizer>
+void learn_views(Recognizer& model, const view_set& training,
+                 const std::vector<std::string>& names) {
+    for (std::size_t i = 0; i < training.views.size(); i += training.versions)
+        model.learn({training.views.data() + i, training.versions}, names[training.classes[i]]);
+}
+
 /// Teaches a recognizer the views of all models.
 template <class Recognizer>
 void learn(Recognizer& model, const view_set& training, const std::vector<std::string>& names) {
-    for (std::size_t i = 0; i < training.views.size(); i += training.versions)
-        model.learn({training.views.data() + i, training.versions}, names[training.classes[i]]);
+    learn_views(model, training, names);
     model.fit(gnomon::threads{});
 }
 

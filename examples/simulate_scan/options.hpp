@@ -28,6 +28,8 @@ what is true of them (normal, object, part, surface, range, echo), scan.png and 
                        seat_armchair_table, furnished_room or street (of the seed), or a mesh file
                        such as FILE.obj, z up, in metres (kitchen)
   --openings           doors and windows in the walls of furnished_room
+  --clutter            cartons, plants, shelves and other things in furnished_room
+  --touching           the furniture of furnished_room touches walls and each other
   --furniture DIR      the furniture of furnished_room: mesh files, as --models of learn_objects
   --y-up               the y axis of these files points up, not z
   --scanner NAME       range_finder; a depth camera with its own resolution and noise:
@@ -61,6 +63,8 @@ struct options {
     sim::beam beam{.sigma = 0.015};
     bool skimmed = false;
     bool openings = false;
+    bool clutter = false;
+    bool touching = false;
     std::string furniture;  ///< directory or file; empty for the built-in furniture
     bool y_up = false;
     std::optional<Eigen::Vector3d> sensor;
@@ -126,6 +130,10 @@ inline const option<options> known_options[] = {
      }},
     {"--openings", false,
      [](options& o, const std::string&, const std::string&) { o.openings = true; }},
+    {"--clutter", false,
+     [](options& o, const std::string&, const std::string&) { o.clutter = true; }},
+    {"--touching", false,
+     [](options& o, const std::string&, const std::string&) { o.touching = true; }},
     {"--furniture", true,
      [](options& o, const std::string& name, const std::string& value) {
          if (value.empty()) throw usage_error(name + ": its value is missing");

@@ -35,7 +35,11 @@ inline sim::scene scene_in_file(const std::string& path) {
 
 /// A room with the furniture of files, if the options name some.
 inline sim::scene furnished_room(const options& o) {
-    sim::scenes::room_options room{.seed = o.beam.seed, .openings = o.openings};
+    constexpr int pieces_of_clutter = 22;  // of which a scan shows about 20
+    sim::scenes::room_options room{.seed = o.beam.seed,
+                                   .openings = o.openings,
+                                   .clutter = o.clutter ? pieces_of_clutter : 0,
+                                   .touching = o.touching};
     if (!o.furniture.empty())
         for (auto& file : common::furniture_in("--furniture", o.furniture, o.y_up)) {
             if (file.class_name != file.model.name)

@@ -11,6 +11,7 @@
 #include <gnomon/simulation/box_and_cylinder.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
 #include <gnomon/simulation/chair.hpp>
+#include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/cone.hpp>
 #include <gnomon/simulation/cylinder.hpp>
 #include <gnomon/simulation/depth_camera.hpp>
@@ -23,6 +24,7 @@
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/ray.hpp>
 #include <gnomon/simulation/ray_caster.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
 #include <gnomon/simulation/scanner.hpp>
 #include <gnomon/simulation/scene.hpp>
 #include <gnomon/simulation/shape.hpp>

@@ -8,12 +8,16 @@
 #include <stdexcept>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/box.hpp>
 #include <gnomon/simulation/bvh_caster.hpp>
+#include <gnomon/simulation/clutter.hpp>
+#include <gnomon/simulation/detail/upright_box.hpp>
 #include <gnomon/simulation/furnished_room.hpp>
 #include <gnomon/simulation/simulate.hpp>
 #include <gnomon/simulation/triangle_mesh.hpp>
@@ -99,22 +103,25 @@ bool hits(const sim::scene& world, const std::optional<sim::ray_hit>& hit, std::
     return hit && world.surface_name(hit->surface).starts_with(name);
 }
 
-TEST(furnished_room, with_openings_has_the_same_furniture) {
+void expect_begins_with(const sim::scene& plain, const sim::scene& more) {
+    ASSERT_LT(plain.objects().size(), more.objects().size());
+    EXPECT_TRUE(std::equal(plain.objects().begin(), plain.objects().end(), more.objects().begin()));
+    ASSERT_LT(plain.shapes().size(), more.shapes().size());
+    EXPECT_EQ(plain.sensor.position, more.sensor.position);
+    for (std::size_t i = 0; i < plain.shapes().size(); ++i) {
+        const auto &a = plain.shapes()[i], &b = more.shapes()[i];
+        EXPECT_EQ(a.extent.low, b.extent.low);
+        EXPECT_EQ(a.extent.high, b.extent.high);
+        EXPECT_EQ(a.pose.rotation, b.pose.rotation);
+        EXPECT_EQ(a.first_surface, b.first_surface);
+    }
+}
+
+TEST(furnished_room, with_openings_or_clutter_has_the_same_furniture) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         const auto plain = furnished_room({.seed = seed});
-        const auto open = furnished_room({.seed = seed, .openings = true});
-        ASSERT_LT(plain.objects().size(), open.objects().size());
-        EXPECT_TRUE(
-            std::equal(plain.objects().begin(), plain.objects().end(), open.objects().begin()));
-        ASSERT_LT(plain.shapes().size(), open.shapes().size());
-        EXPECT_EQ(plain.sensor.position, open.sensor.position);
-        for (std::size_t i = 0; i < plain.shapes().size(); ++i) {
-            const auto &a = plain.shapes()[i], &b = open.shapes()[i];
-            EXPECT_EQ(a.extent.low, b.extent.low);
-            EXPECT_EQ(a.extent.high, b.extent.high);
-            EXPECT_EQ(a.pose.rotation, b.pose.rotation);
-            EXPECT_EQ(a.first_surface, b.first_surface);
-        }
+        expect_begins_with(plain, furnished_room({.seed = seed, .openings = true}));
+        expect_begins_with(plain, furnished_room({.seed = seed, .clutter = 10}));
     }
 }
 
@@ -179,6 +186,119 @@ TEST(furnished_room, has_walls_of_triangles_with_the_same_holes) {
         }
         EXPECT_LT(missed, 2000);
     }
+}
+
+/// A box about each shape of each object, without the room: number 0.
+std::vector<std::vector<sim::detail::upright_box>> boxes_by_object(const sim::scene& world) {
+    std::vector<std::vector<sim::detail::upright_box>> boxes(world.objects().size());
+    for (const auto& s : world.shapes()) {
+        const auto part = world.surfaces()[static_cast<std::size_t>(s.first_surface)].part;
+        const auto object = world.parts()[static_cast<std::size_t>(part)].object;
+        if (object == 0) continue;
+        EXPECT_NEAR(s.pose.rotation(2, 2), 1.0, 1e-12);
+        sim::bounds own = s.shape->extent();
+        own.low.z() += s.pose.position.z();
+        own.high.z() += s.pose.position.z();
+        const auto heading = std::atan2(s.pose.rotation(1, 0), s.pose.rotation(0, 0));
+        boxes[static_cast<std::size_t>(object)].emplace_back(
+            own, sim::detail::floor_place{s.pose.position.x(), s.pose.position.y(),
+                                          gnomon::radians(heading)});
+    }
+    return boxes;
+}
+
+/// The least distance of an object from some others.
+double distance_from(const std::vector<std::vector<sim::detail::upright_box>>& boxes,
+                     std::size_t object, std::size_t begin, std::size_t end) {
+    double least = 10.0;
+    for (std::size_t i = begin; i < end; ++i)
+        if (i != object) least = std::min(least, distance(boxes[object], boxes[i]));
+    return least;
+}
+
+double distance_from_walls(const std::vector<sim::detail::upright_box>& boxes,
+                           const sim::bounds& floor) {
+    double least = 10.0;
+    for (const auto& b : boxes) {
+        for (const Eigen::Vector2d& c : b.corners())
+            for (int a = 0; a < 2; ++a)
+                least = std::min({least, c[a] - floor.low[a], floor.high[a] - c[a]});
+    }
+    return least;
+}
+
+bool is_clutter(const std::string& name) {
+    for (const auto& model : sim::clutter_models(8, 0))
+        if (name.starts_with(model.name + " ")) return true;
+    return false;
+}
+
+/// Nearly all clutter has a place within the room, in front of the sensor, and apart; half of it is
+/// within half a metre of furniture.
+TEST(furnished_room, has_clutter_between_its_pieces) {
+    std::size_t pieces = 0, near_furniture = 0;
+    constexpr std::uint64_t rooms = 10;
+    for (std::uint64_t seed = 0; seed < rooms; ++seed) {
+        const auto world = furnished_room({.pieces = 4, .seed = seed, .clutter = 22});
+        const auto boxes = boxes_by_object(world);
+        std::size_t first = 2;
+        while (!is_clutter(world.objects()[first])) ++first;
+        for (std::size_t i = first; i < boxes.size(); ++i) {
+            EXPECT_TRUE(is_clutter(world.objects()[i])) << world.objects()[i];
+            EXPECT_GE(distance_from(boxes, i, 1, boxes.size()), 0.05 - 1e-9);
+            EXPECT_GE(distance_from_walls(boxes[i], world.shapes()[0].extent), 0.0);
+            for (const auto& b : boxes[i])
+                for (const auto& c : b.corners())
+                    EXPECT_GE((c - world.sensor.position.head<2>()).norm(), 0.7 - 1e-9);
+            near_furniture += distance_from(boxes, i, 2, first) <= 0.5;
+        }
+        pieces += boxes.size() - first;
+    }
+    EXPECT_GE(pieces, 20 * rooms);
+    EXPECT_NEAR(static_cast<double>(near_furniture) / static_cast<double>(pieces), 0.5, 0.12);
+    EXPECT_EQ(furnished_room({.clutter = 22}).objects(), furnished_room({.clutter = 22}).objects());
+    EXPECT_THROW((void)furnished_room({.clutter = -1}), std::invalid_argument);
+    EXPECT_LT(furnished_room({.clutter = 300}).objects().size(), 200u);
+}
+
+/// Each piece of furniture touches a wall, the cupboard or a piece that came before, and none is
+/// within another.
+TEST(furnished_room, may_have_furniture_that_touches) {
+    std::size_t at_wall = 0, at_piece = 0;
+    for (std::uint64_t seed = 0; seed < 15; ++seed) {
+        const auto world = furnished_room({.seed = seed, .touching = true});
+        const auto boxes = boxes_by_object(world);
+        EXPECT_GE(boxes.size(), 6u);
+        for (std::size_t i = 2; i < boxes.size(); ++i) {
+            const double wall = distance_from_walls(boxes[i], world.shapes()[0].extent);
+            const double other = distance_from(boxes, i, 1, i);
+            EXPECT_GT(wall, 0.0);
+            EXPECT_GT(other, 0.0);
+            EXPECT_LT(std::min(wall, other), 0.004) << world.objects()[i];
+            at_wall += wall < 0.004;
+            at_piece += other < 0.004;
+        }
+    }
+    EXPECT_GT(at_wall, 20u);
+    EXPECT_GT(at_piece, 20u);
+    EXPECT_EQ(furnished_room({.touching = true}).shapes().back().pose.position,
+              furnished_room({.touching = true}).shapes().back().pose.position);
+}
+
+/// Of the clutter among touching furniture, some touches furniture, and none is within it.
+TEST(furnished_room, may_have_clutter_that_touches) {
+    std::size_t touching = 0;
+    for (std::uint64_t seed = 0; seed < 8; ++seed) {
+        const auto world =
+            furnished_room({.pieces = 4, .seed = seed, .clutter = 22, .touching = true});
+        const auto boxes = boxes_by_object(world);
+        for (std::size_t i = 2; i < boxes.size(); ++i) {
+            const double nearest = distance_from(boxes, i, 1, boxes.size());
+            EXPECT_GT(nearest, 0.0);
+            touching += is_clutter(world.objects()[i]) && nearest < 0.004;
+        }
+    }
+    EXPECT_GE(touching, 2u * 8u);
 }
 
 }  // namespace

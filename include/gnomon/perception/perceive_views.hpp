@@ -76,7 +76,7 @@ struct perceive_views_options {
     /// In sparse scans a cell has as many neighbors as are within this distance in the median [m],
     /// but at least 10; chosen on furniture_models(), seed 7.
     double reach = 0.05;
-    /// Surfaces that are longer [m] are walls and belong to no view; chosen: the longest of
+    /// Surfaces that are longer [m] and not level are walls and belong to no view; chosen: the longest of
     /// furniture_models() is 1.8 m.
     double max_length = 2.2;
 
@@ -150,11 +150,12 @@ template <class R, execution X>
 /// that are not in walls. Takes over the noise that was measured on all.
 template <execution X>
 [[nodiscard]] segments object_groups(const voxel_grid::means& cells,
-                                     perceive_views_options& options, const X& run) {
+                                     perceive_views_options& options, const Eigen::Vector3d& up,
+                                     const X& run) {
     if (!(options.gap < infinite_gap)) return segments(std::vector<std::int32_t>(cells.size(), 0));
     const auto seen = surfaces_in(cells, options, run);
     if (!options.noise && !seen.noise.is_across_surface) options.noise = seen.noise.curve;
-    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length);
+    const auto left = without_walls(cells, seen.surface, seen.surfaces, options.max_length, up);
     const auto nearby =
         euclidean_clusters(subset_view(cells, left), {.radius = options.gap, .min_points = 1}, run);
     std::vector<std::int32_t> labels(cells.size(), unlabeled);
@@ -190,7 +191,8 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const std::size_t least = std::max(fewest, options.min_points);
     std::vector<std::int32_t> part_of_cell(cells.size(), unlabeled), view_of_cell = part_of_cell;
     if (cells.size() >= least) {
-        const segments groups = detail::object_groups(cells, options, team);
+        const segments groups = detail::object_groups(
+            cells, options, result.ground ? result.ground->normal : options.up, team);
         std::int32_t parts = 0;
         for (std::size_t g = 0; g < groups.size() && groups[g].size() >= least; ++g) {
             const subset_view group(cells, groups[g]);

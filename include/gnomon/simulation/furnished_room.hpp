@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include <gnomon/core/angle.hpp>
@@ -12,9 +13,13 @@
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/random.hpp>
 #include <gnomon/simulation/bounds.hpp>
+#include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/detail/object_builder.hpp>
 #include <gnomon/simulation/detail/openings.hpp>
 #include <gnomon/simulation/detail/room.hpp>
+#include <gnomon/simulation/detail/room_layout.hpp>
+#include <gnomon/simulation/detail/room_pieces.hpp>
+#include <gnomon/simulation/detail/upright_box.hpp>
 #include <gnomon/simulation/furniture.hpp>
 #include <gnomon/simulation/pose.hpp>
 #include <gnomon/simulation/scene.hpp>
@@ -36,6 +41,33 @@ namespace detail {
     return radius;
 }
 
+/// Circles on the floor of a room that do not overlap each other or the walls.
+struct circles_on_floor {
+    struct circle {
+        double x, y, radius;  ///< [m]
+    };
+    bounds room;
+    std::vector<circle> taken;
+
+    /// The place of a piece in a new circle, at any angle; nothing if no place is found.
+    [[nodiscard]] std::optional<floor_place> place(double radius, random_stream& random) {
+        const auto& [low, high] = room;
+        if (2.0 * radius > std::min(high.x() - low.x(), high.y() - low.y())) return std::nullopt;
+        for (int trial = 0; trial < 100; ++trial) {
+            const circle found{random.uniform(low.x() + radius, high.x() - radius),
+                               random.uniform(low.y() + radius, high.y() - radius), radius};
+            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
+                return std::hypot(found.x - c.x, found.y - c.y) >= found.radius + c.radius;
+            });
+            const angle turned = degrees(random.uniform(-180.0, 180.0));
+            if (!is_free) continue;
+            taken.push_back(found);
+            return floor_place{found.x, found.y, turned};
+        }
+        return std::nullopt;
+    }
+};
+
 }  // namespace detail
 
 namespace scenes {
@@ -45,6 +77,8 @@ struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
     bool openings = false;  ///< doors and windows in the walls; the furniture is the same
+    int clutter = 0;        ///< other things, clutter_models(); fewer if they do not fit
+    bool touching = false;  ///< furniture and clutter touch walls and each other
     std::vector<furniture_model> models = {};  ///< to choose from; furniture_models() if empty
 };
 
@@ -54,10 +88,17 @@ struct room_options {
 /// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
 /// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
 /// another house or nothing.
-/// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
+///
+/// Clutter has names such as "carton 3", and stands in front of the sensor: at the walls what
+/// belongs there, half of all within half a metre of a piece of furniture, and the rest anywhere,
+/// without overlap; the furniture is the same. If objects are to touch, each piece of furniture is
+/// instead placed where it touches a wall or another piece, by less than 4 mm, chairs facing it: a
+/// seat may be below a table; and so is a quarter of the clutter.
+/// @throws std::invalid_argument  unless 0 to 1,000 pieces of each are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
-    gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
-                            "furnished_room: requires 0 to 1,000 pieces");
+    for (const int count : {options.pieces, options.clutter})
+        gnomon::detail::require(count >= 0 && count <= 1000,
+                                "furnished_room: requires 0 to 1,000 pieces");
     random_stream random(options.seed);
     const double length = random.uniform(4.0, 6.0);
     const double width = random.uniform(4.0, 6.0);
@@ -74,34 +115,29 @@ struct room_options {
     detail::add_room(world, room, openings.holes());
     detail::add_block(world, "cupboard", cupboard);
 
-    // The circles about the pieces do not overlap each other, the walls, the sensor or the
-    // cupboard.
-    struct circle {
-        double x;
-        double y;
-        double radius;
-    };
-    std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
+    detail::room_layout layout(room, world.sensor.position);
+    layout.take({detail::upright_box(cupboard, {})});
+    std::vector<detail::standing_piece> furniture;
     const auto models = options.models.empty() ? furniture_models() : options.models;
+    detail::circles_on_floor circles{room, {{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}}};
+    random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
-        const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
-        const double radius = detail::radius_of(model);
-        if (2.0 * radius > std::min(length, width)) continue;
-        for (int trial = 0; trial < 100; ++trial) {
-            const circle place{random.uniform(radius, length - radius),
-                               random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
-            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
-                return std::hypot(place.x - c.x, place.y - c.y) >= place.radius + c.radius;
-            });
-            const angle turned = degrees(random.uniform(-180.0, 180.0));
-            if (!is_free) continue;
-            taken.push_back(place);
-            furniture_model named = model;
-            named.name = detail::numbered(model.name, piece + 1);
-            add(world, named, at(place.x, place.y, 0.0) * yaw(turned));
-            break;
-        }
+        furniture_model model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        const auto own = detail::boxes_of(model, options.touching);
+        const auto place = options.touching
+                               ? detail::touching_place(layout, furniture, model, own, contacts)
+                               : circles.place(detail::radius_of(model), random);
+        if (!place) continue;
+        furniture.emplace_back(own, *place);
+        layout.take(furniture.back().boxes);
+        model.name = detail::numbered(model.name, piece + 1);
+        add(world, model, place->pose());
     }
+    if (options.clutter > 0)
+        detail::add_clutter(
+            world, layout, furniture,
+            clutter_models(static_cast<std::size_t>(options.clutter), ~options.seed),
+            options.touching, random_stream(options.seed, 2));
     detail::add_openings(world, room, openings);
     return world;
 }

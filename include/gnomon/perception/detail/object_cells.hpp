@@ -41,18 +41,22 @@ template <class R>
 }
 
 /// The indices of points that are not of walls: in no surface longer than `max_length`, and, if in
-/// no surface at all, not within 5 cm of such a one.
+/// no surface at all, not within 5 cm of such a one. Level surfaces, such as two tops of one height
+/// that touch, are no walls.
 [[nodiscard]] inline std::vector<point_index> without_walls(const auto& points, const auto& surface,
                                                             const segments& parts,
-                                                            double max_length) {
+                                                            double max_length,
+                                                            const Eigen::Vector3d& up) {
+    constexpr double level = 0.9;    // chosen: cosine; within 26 degrees
     constexpr double band = 0.05;  // as that of the floor, rho_o [m]
     std::vector<plane> walls;
     std::vector<char> is_wall(parts.size(), 0);
     for (std::size_t s = 0; s < parts.size(); ++s) {
         const auto shape = segment_shape::of(points, surface, parts[s]);
         if (!shape.is_surface() || !(shape.frame.box_size.maxCoeff() > max_length)) continue;
-        is_wall[s] = 1;
         const Eigen::Vector3d n = shape.frame.normal();
+        if (std::abs(gnomon::detail::dot(n, up)) > level) continue;
+        is_wall[s] = 1;
         walls.push_back({n, gnomon::detail::dot(n, shape.frame.centroid)});
     }
     const auto is_near_wall = [&](const Eigen::Vector3d& x) {

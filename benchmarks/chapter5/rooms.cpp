@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSL-1.0
+// Whole rooms with clutter, Sec. 5.7: which pieces of furniture are found and named, by methods
+// that get nothing but the scan. In further rooms, objects touch walls and each other.
+#include "rooms.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "learn_objects/models.hpp"
+#include "outcomes.hpp"
+#include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/learned_views.hpp>
+#include <gnomon/recognition/object_recognizer.hpp>
+
+namespace {
+
+/// What a recognizer learns as background.
+enum class background_of_learning { built_in, clutter };
+
+/// As learn_objects does: each scan, and two versions of it of which a part is hidden, for the
+/// models and for background.
+rec::object_recognizer<> learned(const effort& much, std::uint64_t seed,
+                                 background_of_learning background) {
+    constexpr std::size_t pieces = 24;  // of background
+    const auto models = sim::furniture_models();
+    const std::size_t n = views_per_model(much), each = std::max<std::size_t>(1, 3 * n / pieces);
+    const auto seen = [&](const std::vector<sim::furniture_model>& of, std::size_t views,
+                          std::uint64_t s) {
+        return views_of(with_hidden_parts(scans_of(of, views, {}, s, purpose::learning), s));
+    };
+    rec::object_recognizer<> model;
+    learn_views(model, seen(models, n, seed), names_of(models));
+    const auto others = background == background_of_learning::built_in
+                            ? detail::clutter(pieces, seed)
+                            : sim::clutter_models(pieces, seed);
+    // Other seeds than those of the models, so that their places differ.
+    learn_views(model, seen(others, each, seed + 100'000),
+                std::vector<std::string>(pieces, std::string(rec::background_name)));
+    model.fit(gnomon::threads{});
+    return model;
+}
+
+/// The grouping of the thesis: points of at most 10 cm from each other are one object, Sec. 5.5.1.
+class thesis_grouping {
+  public:
+    explicit thesis_grouping(rec::object_recognizer<> model) : model_(std::move(model)) {}
+
+    [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
+        const auto seen = rec::perceive_views(
+            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}, .divergence = wide_beam},
+            gnomon::threads{});
+        std::vector<found_object> found;
+        for (std::size_t v = 0; v < seen.views.size(); ++v) {
+            const rec::decision d = model_.decide(seen.views[v]);
+            found.push_back({.name = model_.names()[d.best],
+                             .probability = d.probability[d.best],
+                             .points = {seen.groups[v].begin(), seen.groups[v].end()}});
+        }
+        return found;
+    }
+
+  private:
+    rec::object_recognizer<> model_;
+};
+
+/// The methods, by their names.
+std::vector<std::pair<std::string, object_finder>> methods_of(const effort& much,
+                                                              std::uint64_t seed) {
+    return {
+        {"thesis grouping", thesis_grouping(learned(much, seed, background_of_learning::built_in))},
+        {"thesis grouping, clutter learned",
+         thesis_grouping(learned(much, seed, background_of_learning::clutter))}};
+}
+
+/// The rooms of a seed.
+struct room_set {
+    const char* name;
+    bool touching;
+    std::size_t rooms;
+};
+
+/// The judgements of one method on one set of rooms, seed by seed.
+struct method_row {
+    json key;
+    std::vector<judgement> seeds;
+    std::vector<double> times;  ///< of the processor, all threads, per room [s]
+};
+
+json row_of(const method_row& row) {
+    json result = row.key;
+    const auto add = [&](const char* name, auto&& of) {
+        std::vector<double> values;
+        for (const judgement& j : row.seeds) values.push_back(of(j));
+        result[name] = rounded(median_of(values), 3);
+        result[std::string(name) + ", worst"] = rounded(std::ranges::min(values), 3);
+    };
+    add("accuracy", [](const judgement& j) { return j.accuracy(); });
+    add("precision", [](const judgement& j) { return j.precision(); });
+    add("recall", [](const judgement& j) { return j.recall(); });
+    add("whole", [](const judgement& j) { return j.wholeness(); });
+    judgement all;
+    for (const judgement& j : row.seeds) all.add(j);
+    result["objects"] = all.objects;
+    result["decided"] = all.decided;
+    result["views"] = all.views;
+    if (!all.poses.empty()) {
+        result["poses"] = all.poses.size();
+        result["within 2 cm and 2 deg"] =
+            rounded(static_cast<double>(std::ranges::count_if(all.poses, &pose_error::is_small)) /
+                        static_cast<double>(all.poses.size()),
+                    3);
+    }
+    result["s per room"] = rounded(median_of(row.times), 2);
+    std::printf("%s\n", result.dump().c_str());
+    std::fflush(stdout);
+    return result;
+}
+
+/// What is in the rooms.
+struct room_contents {
+    std::size_t rooms = 0, points = 0, pieces = 0, hardly_seen = 0;
+    std::vector<background_group> background;
+    std::vector<double> times;  ///< of the simulation, likewise [s]
+
+    void add(const seen_room& room) {
+        ++rooms;
+        points += room.truth.scan.size();
+        for (const true_piece& p : room.pieces)
+            (p.points.size() < fewest_points ? hardly_seen : pieces) += 1;
+        background.insert(background.end(), room.background.begin(), room.background.end());
+    }
+
+    [[nodiscard]] json row(const char* name) const {
+        const auto per_room = [&](std::size_t n) {
+            return rounded(static_cast<double>(n) / static_cast<double>(rooms), 2);
+        };
+        const auto close = std::ranges::count_if(
+            background, [](const background_group& g) { return g.distance <= 0.5; });
+        std::vector<double> heights;
+        for (const background_group& g : background) heights.push_back(g.height);
+        std::ranges::sort(heights);
+        return {{"rooms", name},
+                {"number", rooms},
+                {"points per room", points / rooms},
+                {"objects per room", per_room(pieces)},
+                {"of fewer than 60 points", per_room(hardly_seen)},
+                {"background groups per room", per_room(background.size())},
+                {"of these within 0.5 m of an object", per_room(static_cast<std::size_t>(close))},
+                {"height, least", rounded(heights.front(), 2)},
+                {"height, median", rounded(median_of(heights), 2)},
+                {"height, most", rounded(heights.back(), 2)},
+                {"s of simulation per room", rounded(median_of(times), 2)}};
+    }
+};
+
+/// The seeds of a measurement: those of the page, or those on which methods are developed.
+struct seed_plan {
+    std::vector<std::uint64_t> learning;
+    std::vector<room_set> sets;
+    std::uint64_t first_room = 0;  ///< added to 1000 times the place of the seed
+
+    static seed_plan of_page(const effort& much) {
+        seed_plan plan{.learning = {},
+                       .sets = {{"cluttered", false, much.quick ? 1u : 40u},
+                                {"touching", true, much.quick ? 1u : 10u}},
+                       .first_room = 1000 * first_seed};
+        for (std::uint64_t s = 0; s < much.seeds(); ++s) plan.learning.push_back(first_seed + s);
+        // A test of the program does not show what the page shows.
+        if (much.quick) return {.learning = {1}, .sets = plan.sets, .first_room = 1};
+        return plan;
+    }
+    static seed_plan of_development(const effort& much) {
+        const std::size_t rooms = much.quick ? 2 : 8;
+        return {.learning = {1},
+                .sets = {{"cluttered", false, rooms}, {"touching", true, rooms}},
+                .first_room = 1};
+    }
+};
+
+json measure(const effort& much, const seed_plan& plan) {
+    const auto models = sim::furniture_models();
+    const equal_headings headings = equal_headings_of(models);
+    std::vector<room_contents> contents(plan.sets.size());
+    std::vector<method_row> rows;
+    for (std::size_t s = 0; s < plan.learning.size(); ++s) {
+        const auto methods = methods_of(much, plan.learning[s]);
+        for (std::size_t k = 0; k < plan.sets.size(); ++k) {
+            const room_set& set = plan.sets[k];
+            const std::size_t first = k * methods.size();
+            if (s == 0)
+                for (const auto& [name, method] : methods)
+                    rows.push_back({{{"rooms", set.name}, {"method", name}}, {}, {}});
+            for (std::size_t m = 0; m < methods.size(); ++m) rows[first + m].seeds.emplace_back();
+            for (std::size_t r = 0; r < set.rooms; ++r) {
+                const double start = processor_time(CLOCK_PROCESS_CPUTIME_ID);
+                const seen_room room =
+                    room_of(models, plan.first_room + 1000 * s + r, {.touching = set.touching});
+                contents[k].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) - start);
+                contents[k].add(room);
+                for (std::size_t m = 0; m < methods.size(); ++m) {
+                    const double before = processor_time(CLOCK_PROCESS_CPUTIME_ID);
+                    auto found = methods[m].second(room.truth.scan);
+                    rows[first + m].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) -
+                                                    before);
+                    rows[first + m].seeds.back().add(
+                        judgement_of(room, std::move(found), headings));
+                }
+            }
+        }
+    }
+    json table = json::array(), counts = json::array(), turns = json::array();
+    for (const method_row& row : rows) table.push_back(row_of(row));
+    for (std::size_t k = 0; k < contents.size(); ++k) {
+        counts.push_back(contents[k].row(plan.sets[k].name));
+        std::printf("%s\n", counts.back().dump().c_str());
+    }
+    for (const auto& [name, n] : headings)
+        turns.push_back({{"model", name}, {"equal headings", n == 0 ? json("all") : json(n)}});
+    return {{"whole rooms", table}, {"contents of the rooms", counts}, {"symmetries", turns}};
+}
+
+}  // namespace
+
+// --develop judges on the rooms of the seeds 1 to 8, on which methods are developed.
+int main(int argc, char** argv) {
+    const auto words = std::vector<char*>(argv, argv + argc);
+    std::vector<char*> others;
+    for (char* word : words)
+        if (std::string_view(word) != "--develop") others.push_back(word);
+    const bool develops = others.size() < words.size();
+    return run_program(
+        static_cast<int>(others.size()), others.data(),
+        [&](const effort& much) {
+            return measure(much,
+                           develops ? seed_plan::of_development(much) : seed_plan::of_page(much));
+        },
+        " [--develop]");
+}

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Hypotheses, objects at places, against a scan: their alignment, verification and probability,
+/// and their competition for points.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/features/align_to_surface.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/knn.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/estimate_normals.hpp>
+#include <gnomon/normals/plane_pca.hpp>
+#include <gnomon/normals/surfel.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/recognition/part_votes.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verify_pose.hpp>
+
+namespace gnomon::recognition {
+
+/// An object that was found.
+struct found_object {
+    std::size_t object = 0;    ///< its number
+    alignment pose;            ///< of the object's frame in that of the scan
+    verification evidence;     ///< what the scan shows of it
+    double votes = 0.0;        ///< of its parts
+    double probability = 0.0;  ///< that this object stands there
+};
+
+namespace detail {
+
+/// The cells of a scan that may be of objects, and what the sensor saw elsewhere.
+class scene_evidence {
+  public:
+    scene_evidence(const voxel_grid::means& cells, visibility seen, const noise_curve& noise,
+                   const auto& run)
+        : cells_(cells),
+          index_(cells, run),
+          surface_(estimate_normals(index_, knn{.k = neighbors}, plane_pca{}, run)),
+          seen_(std::move(seen)),
+          noise_(noise) {}
+
+    /// A hypothesis at its best place near the one that was voted for.
+    [[nodiscard]] found_object hypothesis(const object_place& place,
+                                          const surface_model& model) const {
+        constexpr double margin = 0.10;          // [m]: error of votes; chosen as `reach` of these
+        constexpr std::size_t fewest = 20;       // cells, as of the views
+        constexpr std::size_t most = 600;        // performance only: cells that are aligned
+        found_object result;
+        result.object = place.object;
+        result.votes = place.votes;
+        std::vector<point_index> inside;
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+            if (is_within(model, place.pose.point_in(cells_.points[i]), margin))
+                inside.push_back(static_cast<point_index>(i));
+        if (inside.size() < fewest) return result;
+        const std::size_t n = std::min(inside.size(), most);
+        std::vector<point_index> some(n);
+        for (std::size_t k = 0; k < n; ++k) some[k] = inside[k * inside.size() / n];
+        std::vector<surface_model::oriented> normals(n);
+        for (std::size_t k = 0; k < n; ++k) normals[k].normal = surface_[some[k]].normal;
+        result.pose = align_to_surface(subset_view(cells_, some), normals, model.points(),
+                                       model.normals(), place.pose.inverse(),
+                                       {.noise = noise_, .on_ground = true, .max_distance = 0.15})
+                          .inverse();
+        result.evidence =
+            verify_pose(index_, surface_, seen_, model, result.pose.pose, {.noise = noise_});
+        result.probability = probability_of(result);
+        return result;
+    }
+
+    /// The most probable hypotheses, of which each explains points of its own.
+    /// @param of_cell  gets the numbers of the winners whose surface the cells are on
+    [[nodiscard]] std::vector<found_object> winners(std::vector<found_object> hypotheses,
+                                                    std::span<const surface_model> surfaces,
+                                                    double min_probability,
+                                                    std::vector<std::int32_t>& of_cell) const {
+        constexpr double own_share = 0.5;  // chosen
+        std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
+        std::vector<found_object> found;
+        for (found_object& h : hypotheses) {
+            if (h.probability < min_probability || h.evidence.explained == 0) break;
+            const auto explained = cells_on(surfaces[h.object], h.pose.pose);
+            const auto own = static_cast<std::size_t>(std::ranges::count_if(
+                explained, [&](point_index c) { return of_cell[c] == unlabeled; }));
+            if (static_cast<double>(own) < own_share * static_cast<double>(explained.size()) ||
+                own == 0)
+                continue;
+            for (const point_index c : explained)
+                if (of_cell[c] == unlabeled) of_cell[c] = static_cast<std::int32_t>(found.size());
+            found.push_back(std::move(h));
+        }
+        return found;
+    }
+
+  private:
+    static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
+    static constexpr double lowest = 0.05;        // [m]; as of verifications
+
+    [[nodiscard]] static bool is_within(const surface_model& model, const Eigen::Vector3d& x,
+                                        double margin) {
+        for (int a = 0; a < 3; ++a)
+            if (!(model.low()[a] - margin <= x[a] && x[a] <= model.high()[a] + margin))
+                return false;
+        return true;
+    }
+
+    /// The cells on the surface of an object.
+    [[nodiscard]] std::vector<point_index> cells_on(const surface_model& model,
+                                                    const rigid_motion& pose) const {
+        constexpr double margin = 0.03;  // [m]; chosen: spacing of samples, and noise
+        std::vector<point_index> on;
+        std::vector<neighbor> nearest;
+        for (std::size_t i = 0; i < cells_.size(); ++i) {
+            const Eigen::Vector3d x = pose.point_in(cells_.points[i]);
+            if (x.z() < lowest || !is_within(model, x, margin)) continue;
+            model.points().nearest_within_into(nearest, x, 1, margin);
+            if (!nearest.empty()) on.push_back(static_cast<point_index>(i));
+        }
+        return on;
+    }
+
+  public:
+    /// What speaks for a hypothesis: the variables of a logistic regression.
+    [[nodiscard]] static std::array<double, 6> features_of(const found_object& o) {
+        const verification& v = o.evidence;
+        const std::size_t through = v.seen_through + v.supported;
+        return {v.support(),
+                through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
+                v.explanation(),
+                v.observed(),
+                std::log1p(static_cast<double>(v.explained)),
+                std::log(0.05 + o.votes)};
+    }
+
+  private:
+    [[nodiscard]] static double probability_of(const found_object& o) {
+        // Fitted to what wins in furnished_room() with clutter, seeds 1 to 29.
+        constexpr std::array<double, 6> weights{4.8, -5.9, 8.9, 3.6, 0.54, 1.4};
+        double sum = -16.5;
+        const auto f = features_of(o);
+        for (std::size_t i = 0; i < f.size(); ++i) sum += weights[i] * f[i];
+        return 1.0 / (1.0 + std::exp(-sum));
+    }
+
+    const voxel_grid::means& cells_;
+    spatial_index index_;
+    std::vector<surfel<plane_fit>> surface_;
+    visibility seen_;
+    noise_curve noise_;
+};
+
+}  // namespace detail
+}  // namespace gnomon::recognition

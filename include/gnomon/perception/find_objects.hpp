@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// Finds objects in a scan of a whole room, with their places, although they touch others or are
+/// half hidden. Instead of first grouping points to views, parts vote for objects and places, each
+/// such hypothesis is aligned with the points, verified by what the sensor saw, and hypotheses
+/// compete for the points that they explain.
+///
+///     namespace rec = gnomon::recognition;
+///     rec::object_finder finder;
+///     const std::size_t chair = finder.add("chair", surface_model_of_chair);
+///     for (const auto& [view, pose] : views_of_chair) finder.learn(view, pose, chair);
+///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
+///         use(finder.names()[o.object], o.pose.pose, o.probability);
+///
+/// In no umbrella: include it by name.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/core/subset_view.hpp>
+#include <gnomon/filters/voxel_grid.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/normals/measure_noise.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/part_votes.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/view.hpp>
+#include <gnomon/segmentation/segments.hpp>
+
+namespace gnomon::recognition {
+
+/// How objects are found.
+struct find_objects_options {
+    std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
+    std::optional<plane> ground = std::nullopt;       ///< as in `perceive_views_options`
+    Eigen::Vector3d up{0.0, 0.0, 1.0};                ///< as there
+    double min_probability = 0.5;                     ///< of objects that are found
+
+    /// @throws std::invalid_argument  unless the probability is from 0 to 1
+    void require_valid() const {
+        gnomon::detail::require(min_probability >= 0.0 && min_probability <= 1.0,
+                                "find_objects: a probability is from 0 to 1");
+    }
+};
+
+/// What was found in a scan of n points.
+struct found_objects {
+    std::vector<found_object> objects;  ///< the most probable one first
+    segments points;                    ///< of the n points: those that each object explains
+    perceived_views seen;               ///< groups of points and their parts, objects or not
+};
+
+/// Objects that are known by their surfaces and by views of them, to be found in scans. Objects
+/// stand upright on the ground.
+class object_finder {
+  public:
+    explicit object_finder(part_votes_options votes = {}) : votes_(votes) {}
+
+    /// Adds an object.
+    /// @return its number
+    /// @throws std::invalid_argument  if it has no name, or its surface no samples
+    std::size_t add(std::string name, surface_model surface) {
+        using gnomon::detail::require;
+        require(!name.empty(), "object_finder: an object needs a name");
+        require(surface.points().size() > 0, "object_finder: the surface has no samples");
+        names_.push_back(std::move(name));
+        surfaces_.push_back(std::move(surface));
+        return names_.size() - 1;
+    }
+
+    /// Learns the parts of a view of an object, as perceive_views() sees them.
+    /// @param pose  of the object's frame in that of the view
+    /// @throws std::invalid_argument  if there is no such object, or the view has no ground
+    void learn(const view& v, const rigid_motion& pose, std::size_t object) {
+        gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
+        votes_.learn(v, pose, object);
+    }
+
+    [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    [[nodiscard]] const std::vector<surface_model>& surfaces() const { return surfaces_; }
+
+    /// Finds objects.
+    /// @param points  any point range of n points [m]; seen from the origin without view points
+    /// @param run     the result does not depend on it
+    /// @return none if no ground was found
+    /// @throws std::invalid_argument  for options that are not valid
+    /// Complexity: O(n log n), and O(log n) for each of about 1,000 samples of each hypothesis.
+    template <class R, execution X = sequential, class Proj = std::identity>
+        requires point_range<R, Proj>
+    [[nodiscard]] found_objects operator()(const R& points, const find_objects_options& options = {},
+                                           const X& run = {}, Proj projection = {}) const {
+        options.require_valid();
+        const auto& team = gnomon::detail::staying(run);
+        noise_curve noise = constant_noise{};
+        if (options.noise) {
+            noise = *options.noise;
+        } else if (const auto measured = measure_noise(points, team, projection); measured.curve) {
+            noise = *measured.curve;
+        }
+        found_objects result;
+        constexpr std::size_t fewest_cells = 20;  // chosen: parts of objects at 5 m
+        result.seen = perceive_views(
+            points,
+            {.ground = options.ground, .up = options.up, .noise = noise, .min_points = fewest_cells},
+            team, projection);
+        std::vector<point_index> kept;
+        for (std::size_t i = 0; i < result.seen.groups.labels().size(); ++i)
+            if (result.seen.groups.labels()[i] != unlabeled)
+                kept.push_back(static_cast<point_index>(i));
+        result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
+        if (kept.empty() || !result.seen.ground) return result;
+
+        const auto places = votes_.places(result.seen.views);
+        const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
+                                          {.edge = perceive_views_options{}.cell}, team);
+        const detail::scene_evidence evidence(
+            cells, visibility(points, {.noise = noise}, team, projection), noise, team);
+        std::vector<found_object> hypotheses(places.size());
+        team(places.size(), [&](std::size_t i) {
+            hypotheses[i] = evidence.hypothesis(places[i], surfaces_[places[i].object]);
+        });
+        std::vector<std::int32_t> of_cell(cells.size(), unlabeled);
+        result.objects = evidence.winners(std::move(hypotheses), surfaces_, options.min_probability,
+                                          of_cell);
+        std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
+        for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cell[cells.of_point[i]];
+        result.points = segments(std::move(labels));
+        return result;
+    }
+
+  private:
+    part_votes<> votes_;
+    std::vector<std::string> names_;
+    std::vector<surface_model> surfaces_;
+};
+
+}  // namespace gnomon::recognition

@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The counts of `verify_pose`.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/cmath.hpp>
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/neighborhoods/detail/leaf_box.hpp>
+#include <gnomon/neighborhoods/detail/leaf_tree.hpp>
+#include <gnomon/neighborhoods/neighbor.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/occlusion/merge_policy.hpp>
+#include <gnomon/occlusion/range_image.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/recognition/surface_model.hpp>
+#include <gnomon/recognition/verification.hpp>
+
+namespace gnomon::recognition::detail {
+
+/// Compares one object at one pose with one scan.
+class pose_verifier {
+  public:
+    /// Keeps references to all arguments.
+    /// @throws std::invalid_argument  if the pose is no rigid motion, or the options are not valid
+    pose_verifier(const spatial_index& index, const visibility& seen, const surface_model& model,
+                  const rigid_motion& pose, const verification_options& options)
+        : index_(index),
+          images_(seen.images()),
+          pixel_(seen.pixel().radians()),
+          model_(model),
+          pose_(pose),
+          options_(options),
+          least_cosine_(cos(options.max_angle)) {
+        options.require_valid();
+        gnomon::detail::require(is_rigid(pose), "verify_pose: the pose is no rigid motion");
+    }
+
+    /// @param normal_of  (i): the normal of point i of the scan; zero if it is missing
+    [[nodiscard]] verification operator()(const auto& normal_of) {
+        const std::size_t n = model_.points().size();
+        const std::size_t tested = std::min(n, options_.most);
+        counts_.samples = tested;
+        for (std::size_t s = 0; s < tested; ++s) {
+            const std::size_t i = s * n / tested;
+            count_sample(pose_.point_out(model_.points()[i]),
+                         pose_.direction_out(model_.normals()[i].normal), normal_of);
+        }
+        if (n > 0 && index_.finite() > 0) count_points();
+        return counts_;
+    }
+
+  private:
+    static constexpr double deviations = 3.0;  // of the noise: 99.7 % of a normal distribution
+
+    /// Counts a sample that faces a view point by the strongest observation from any of these.
+    void count_sample(const Eigen::Vector3d& at, const Eigen::Vector3d& normal,
+                      const auto& normal_of) {
+        constexpr double least_facing = 0.1;  // chosen: cosine; rays at 84 degrees are unreliable
+        std::array<bool, 5> seen{};
+        for (const range_image& image : images_) {
+            const Eigen::Vector3d way = gnomon::detail::difference(at, image.viewpoint());
+            const double range = gnomon::detail::length(way);
+            const double facing = -gnomon::detail::dot(way, normal);
+            if (!(facing > least_facing * range)) continue;
+            const double noise = deviations * options_.noise.along(way);
+            if (is_supported(at, normal, facing / range, range, noise, normal_of)) {
+                ++counts_.facing;
+                ++counts_.supported;
+                return;
+            }
+            seen[static_cast<std::size_t>(observed(at, range, noise, image))] = true;
+        }
+        const auto is_seen = [&](observation o) { return seen[static_cast<std::size_t>(o)]; };
+        std::size_t* count = is_seen(observation::free_space)   ? &counts_.seen_through
+                             : is_seen(observation::on_surface) ? &counts_.mismatched
+                             : is_seen(observation::occluded)   ? &counts_.hidden
+                             : is_seen(observation::unobserved) ? &counts_.unobserved
+                                                                : nullptr;
+        if (count == nullptr) return;
+        ++counts_.facing;
+        ++*count;
+    }
+
+    /// Whether a point of the scan is on the surface at a sample.
+    [[nodiscard]] bool is_supported(const Eigen::Vector3d& at, const Eigen::Vector3d& normal,
+                                    double facing, double range, double noise,
+                                    const auto& normal_of) {
+        constexpr double spacings = 1.5;      // chosen: rays are not spaced evenly
+        constexpr double most_oblique = 0.3;  // chosen: rays spread by 3 at most
+        constexpr std::size_t few = 6;        // performance only
+        const double between = range * pixel_ / std::max(facing, most_oblique);
+        const double across = options_.tolerance + facing * noise;
+        const double reach = std::max(across, spacings * between);
+        index_.nearest_within_into(found_, at, few, reach);
+        return std::any_of(found_.begin(), found_.end(), [&](const neighbor& q) {
+            const Eigen::Vector3d n = normal_of(q.index);
+            const double off =
+                gnomon::detail::dot(normal, gnomon::detail::difference(index_[q.index], at));
+            return std::abs(off) <= across &&
+                   (is_missing(n) || std::abs(gnomon::detail::dot(n, normal)) >= least_cosine_);
+        });
+    }
+
+    /// What one view point observed towards a sample: clearly, not at an edge.
+    [[nodiscard]] observation observed(const Eigen::Vector3d& at, double range, double noise,
+                                       const range_image& image) const {
+        if (!image.may_show(at)) return observation::unobserved;
+        const double margin = options_.tolerance + noise + range * pixel_;
+        const auto [azimuth, elevation] = image.pixel_of(at);
+        observation_count count;
+        for (std::size_t e = elevation - std::min<std::size_t>(elevation, 1);
+             e <= std::min(elevation + 1, image.height() - 1); ++e) {
+            for (std::size_t a = azimuth + image.width() - 1; a <= azimuth + image.width() + 1;
+                 ++a) {
+                const double r = image.range({a % image.width(), e});
+                count.add(r < 0.0              ? observation::unobserved
+                          : r < range - margin ? observation::occluded
+                          : r > range + margin ? observation::free_space
+                                               : observation::on_surface);
+            }
+        }
+        if (count[observation::on_surface] > 0) return observation::on_surface;
+        const bool is_free = count[observation::free_space] > 0;
+        const bool is_hidden = count[observation::occluded] > 0;
+        if (is_free == is_hidden) return observation::unobserved;
+        return is_free ? observation::free_space : observation::occluded;
+    }
+
+    /// Counts the points within the bounds of the object.
+    void count_points() {
+        const Eigen::Vector3d margin = Eigen::Vector3d::Constant(options_.tolerance);
+        Eigen::Vector3d low = model_.low() - margin, high = model_.high() + margin;
+        low.z() = std::max(low.z(), options_.lowest);
+        if (!(low.z() <= high.z())) return;
+        std::vector<Eigen::Vector3d>& inside = inside_;
+        inside.clear();
+        const auto& tree = index_.tree();
+        tree.for_each_leaf_near(box_around(low, high), 0.0, [&](std::size_t leaf, const auto&) {
+            const std::size_t begin = leaf * gnomon::detail::leaf_tree::leaf_size;
+            const std::size_t end =
+                std::min(begin + gnomon::detail::leaf_tree::leaf_size, tree.size());
+            for (std::size_t place = begin; place < end; ++place) {
+                const auto p = tree.position(place);
+                const Eigen::Vector3d x = pose_.point_in({p[0], p[1], p[2]});
+                bool is_inside = true;
+                for (int a = 0; a < 3; ++a)
+                    is_inside = is_inside && low[a] <= x[a] && x[a] <= high[a];
+                if (is_inside) inside.push_back(x);
+            }
+        });
+        const Eigen::Vector3d from = images_.empty() ? pose_.position : images_.front().viewpoint();
+        const double noise =
+            deviations * options_.noise.along(gnomon::detail::difference(
+                             pose_.point_out(gnomon::detail::scaled(
+                                 0.5, gnomon::detail::combined(1.0, low, 1.0, high))),
+                             from));
+        const double reach = model_.spacing() + options_.tolerance + noise;
+        counts_.points = std::min(inside.size(), options_.most);
+        for (std::size_t k = 0; k < counts_.points; ++k) {
+            const Eigen::Vector3d& x = inside[k * inside.size() / counts_.points];
+            model_.points().nearest_within_into(found_, x, 1, reach);
+            counts_.explained += found_.empty() ? 0 : 1;
+        }
+    }
+
+    /// The box of the scan's frame around a box of the object's frame.
+    [[nodiscard]] gnomon::detail::leaf_box box_around(const Eigen::Vector3d& low,
+                                                      const Eigen::Vector3d& high) const {
+        gnomon::detail::leaf_box box{};
+        for (int i = 0; i < 3; ++i) {
+            double middle = pose_.position[i], reach = 0.0;
+            for (int j = 0; j < 3; ++j) {
+                middle += pose_.rotation(i, j) * 0.5 * (low[j] + high[j]);
+                reach += std::abs(pose_.rotation(i, j)) * 0.5 * (high[j] - low[j]);
+            }
+            box.low[static_cast<std::size_t>(i)] = middle - reach;
+            box.high[static_cast<std::size_t>(i)] = middle + reach;
+        }
+        return box;
+    }
+
+    const spatial_index& index_;
+    std::span<const range_image> images_;
+    double pixel_;
+    const surface_model& model_;
+    const rigid_motion& pose_;
+    const verification_options& options_;
+    double least_cosine_;
+    verification counts_;
+    std::vector<neighbor> found_;
+    std::vector<Eigen::Vector3d> inside_;
+};
+
+}  // namespace gnomon::recognition::detail

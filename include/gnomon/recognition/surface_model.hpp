@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: BSL-1.0
+/// @file
+/// The surface of an object, to verify hypotheses with: samples with normals, and the symmetry of
+/// the surface about the vertical.
+///
+///     namespace rec = gnomon::recognition;
+///     const auto samples = gnomon::simulation::sample_surface(model, {.spacing = 0.015});
+///     const rec::surface_model chair(samples, samples, 0.015, {},
+///                                    &gnomon::simulation::surface_sample::position);
+///
+/// In no umbrella: include it by name.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <Eigen/Core>
+
+#include <gnomon/core/detail/vector3.hpp>
+#include <gnomon/core/error.hpp>
+#include <gnomon/core/normal_range.hpp>
+#include <gnomon/core/point.hpp>
+#include <gnomon/core/point_range.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/recognition/vertical_symmetry.hpp>
+
+namespace gnomon::recognition {
+
+/// Samples of the visible surface of an object in its frame: z up, z = 0 on the ground. Samples are
+/// evenly spaced, so that numbers of samples are areas.
+class surface_model {
+  public:
+    /// A sample's normal: unit vector, towards the side that can be seen. Models `normal_range`
+    /// together with others.
+    struct oriented {
+        Eigen::Vector3d normal;
+    };
+
+    /// Of no samples.
+    surface_model() = default;
+
+    /// @param points    any point range of the n samples [m]
+    /// @param normals   n surface elements with normals
+    /// @param spacing   about one sample per square of this size [m]
+    /// @param symmetry  as stored before; by default it is measured
+    /// @throws std::invalid_argument  if points and normals differ in number, a point is not
+    /// finite,
+    ///                                a normal not of unit length, or the spacing not positive
+    /// Complexity: O(n log n).
+    template <class R, normal_range Normals, class Proj = std::identity>
+        requires point_range<R, Proj>
+    surface_model(const R& points, const Normals& normals, double spacing,
+                  std::optional<vertical_symmetry> symmetry = {}, Proj projection = {})
+        : index_(points, sequential{}, std::move(projection)), spacing_(spacing) {
+        using gnomon::detail::require;
+        require(static_cast<std::size_t>(std::ranges::size(normals)) == index_.size(),
+                "surface_model: points and normals differ in number");
+        require(index_.finite() == index_.size(), "surface_model: a point is not finite");
+        require(spacing > 0.0 && std::isfinite(spacing),
+                "surface_model: the spacing must be positive and finite");
+        normals_.reserve(index_.size());
+        for (std::size_t i = 0; i < index_.size(); ++i) {
+            const Eigen::Vector3d n = normals[i].normal;
+            constexpr double rounding = 1e-3;  // numerical: of normals in float
+            require(std::abs(gnomon::detail::dot(n, n) - 1.0) < rounding,
+                    "surface_model: a normal must be of unit length");
+            normals_.push_back({n});
+            const Eigen::Vector3d p = index_[i];
+            for (int a = 0; a < 3; ++a) {
+                low_[a] = i == 0 ? p[a] : std::min(low_[a], p[a]);
+                high_[a] = i == 0 ? p[a] : std::max(high_[a], p[a]);
+            }
+        }
+        symmetry_ = symmetry ? *symmetry : measure_symmetry(index_, normals_, spacing);
+    }
+
+    /// The samples, in the order in which they were given: an index and a point range [m].
+    [[nodiscard]] const spatial_index& points() const { return index_; }
+    /// Their normals, a `normal_range`.
+    [[nodiscard]] const std::vector<oriented>& normals() const { return normals_; }
+    [[nodiscard]] double spacing() const { return spacing_; }  ///< [m]
+    /// The turns about the vertical under which the surface is the same.
+    [[nodiscard]] const vertical_symmetry& symmetry() const { return symmetry_; }
+    [[nodiscard]] const Eigen::Vector3d& low() const { return low_; }    ///< least coordinates [m]
+    [[nodiscard]] const Eigen::Vector3d& high() const { return high_; }  ///< largest ones [m]
+
+  private:
+    spatial_index index_;
+    std::vector<oriented> normals_;
+    double spacing_ = 0.0;
+    vertical_symmetry symmetry_;
+    Eigen::Vector3d low_{0.0, 0.0, 0.0}, high_{0.0, 0.0, 0.0};
+};
+
+}  // namespace gnomon::recognition

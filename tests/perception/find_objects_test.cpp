@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <gtest/gtest.h>
+
+#include <gnomon/core.hpp>
+#include <gnomon/perception/find_objects.hpp>
+#include <gnomon/simulation.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
+
+namespace rec = gnomon::recognition;
+namespace sim = gnomon::simulation;
+
+namespace {
+
+using gnomon::degrees;
+
+const gnomon::noise_curve find_noise = gnomon::constant_noise{0.005};
+
+std::vector<sim::furniture_model> chair_and_table() {
+    const auto all = sim::furniture_models();
+    return {all[0], all[10]};  // a kitchen chair and a side table
+}
+
+/// Learned from views of each alone.
+rec::object_finder learned_finder() {
+    rec::object_finder finder;
+    for (const auto& model : chair_and_table()) {
+        const auto samples = sim::sample_surface(model, {.spacing = 0.02});
+        const std::size_t number = finder.add(
+            model.name, rec::surface_model(samples, samples, 0.02, std::nullopt,
+                                           &sim::surface_sample::position));
+        for (std::uint64_t v = 0; v < 10; ++v) {
+            const auto shot = sim::simulate_object_view(model, v, {.seed = 3});
+            const auto seen =
+                rec::perceive_views(shot.truth.scan, {.ground = gnomon::plane{},
+                                                      .noise = find_noise,
+                                                      .gap = rec::infinite_gap,
+                                                      .min_points = 10});
+            for (const rec::view& view : seen.views) finder.learn(view, shot.pose, number);
+        }
+    }
+    return finder;
+}
+
+const rec::object_finder& finder_of_two() {
+    static const rec::object_finder finder = learned_finder();
+    return finder;
+}
+
+const gnomon::rigid_motion chair_pose = gnomon::rigid_motion::on_ground(2.0, 0.6, degrees(160));
+const gnomon::rigid_motion table_pose = gnomon::rigid_motion::on_ground(2.1, -0.05, degrees(10));
+
+/// A room with a chair that touches a table, and a box; 0 is the chair, 1 the table, -1 all else.
+struct small_room {
+    gnomon::scan scan;
+    std::vector<int> object_of;
+
+    explicit small_room(bool has_floor = true) {
+        sim::scene world;
+        if (has_floor)
+            world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+                     sim::at(2.0, 0.0, 0.0));
+        world.add_object("carton", sim::box{0.4, 0.3, 0.5}, sim::at(2.8, 0.9, 0.25));
+        const auto models = chair_and_table();
+        const auto chair = sim::add(world, models[0], chair_pose);
+        const auto table = sim::add(world, models[1], table_pose);
+        auto truth = sim::simulate(
+            world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+            sim::scanner{}, {.sigma = 0.005, .seed = 5});
+        for (const std::int32_t o : truth.objects)
+            object_of.push_back(o == chair ? 0 : o == table ? 1 : -1);
+        scan = std::move(truth.scan);
+    }
+};
+
+/// Checks what was found in a room that was moved by a motion.
+void expect_chair_and_table(const rec::found_objects& found, const small_room& room,
+                            const gnomon::rigid_motion& motion = {}) {
+    ASSERT_EQ(found.objects.size(), 2u);
+    ASSERT_EQ(found.points.labels().size(), room.scan.size());
+    for (std::size_t i = 0; i < 2; ++i) {
+        const rec::found_object& o = found.objects[i];
+        const auto truth = motion * (o.object == 0 ? chair_pose : table_pose);
+        EXPECT_LT((o.pose.pose.position - truth.position).norm(), 0.02);
+        const Eigen::Vector3d ahead = truth.direction_in(o.pose.pose.direction_out({1, 0, 0}));
+        const int order = finder_of_two().surfaces()[o.object].symmetry().order;
+        const double period = 2.0 * 3.141592653589793 / order;
+        EXPECT_LT(std::abs(std::remainder(std::atan2(ahead.y(), ahead.x()), period)), 0.035);
+        EXPECT_GE(o.probability, 0.5);
+        std::size_t own = 0, all = 0;
+        for (std::size_t k = 0; k < room.scan.size(); ++k) {
+            if (found.points.labels()[k] != static_cast<int>(i)) continue;
+            ++all;
+            own += room.object_of[k] == static_cast<int>(o.object) ? 1 : 0;
+        }
+        EXPECT_GT(own, 9 * all / 10);
+        EXPECT_GT(all, 100u);
+    }
+    EXPECT_NE(found.objects[0].object, found.objects[1].object);
+    EXPECT_GE(found.objects[0].probability, found.objects[1].probability);
+}
+
+TEST(find_objects, finds_objects_that_touch_on_any_number_of_threads) {
+    const small_room room;
+    const auto found = finder_of_two()(room.scan, {.noise = find_noise});
+    expect_chair_and_table(found, room);
+    const auto again = finder_of_two()(room.scan, {.noise = find_noise}, gnomon::threads{3});
+    ASSERT_EQ(again.objects.size(), found.objects.size());
+    EXPECT_EQ(again.points.labels(), found.points.labels());
+    for (std::size_t i = 0; i < found.objects.size(); ++i) {
+        EXPECT_EQ(again.objects[i].probability, found.objects[i].probability);
+        EXPECT_EQ(again.objects[i].pose.pose.position, found.objects[i].pose.pose.position);
+    }
+    expect_chair_and_table(finder_of_two()(room.scan), room);  // with the noise measured
+}
+
+TEST(find_objects, finds_the_same_far_from_the_origin_and_with_missing_points) {
+    small_room room;
+    gnomon::rigid_motion motion;
+    motion.rotation = Eigen::AngleAxisd(1.0, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    motion.position = {4e5, 5e6, 300};
+    for (auto& p : room.scan.points) p = motion.point_out(p);
+    std::vector<Eigen::Vector3d> places;
+    room.scan.viewpoints = Eigen::Vector3d(motion.point_out({0.0, 0.0, 1.2}));
+    room.scan.points[11] = Eigen::Vector3d::Constant(std::numeric_limits<double>::quiet_NaN());
+    expect_chair_and_table(finder_of_two()(room.scan, {.noise = find_noise}), room, motion);
+}
+
+/// Where the sensor saw through, and where nothing fits, there is none.
+TEST(find_objects, finds_nothing_where_nothing_is) {
+    sim::scene world;
+    world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
+             sim::at(2.0, 0.0, 0.0));
+    world.add_object("carton", sim::box{0.5, 0.5, 0.45}, sim::at(2.0, 0.3, 0.225));
+    world.add_object("carton", sim::box{0.5, 0.05, 0.9}, sim::at(2.0, -0.6, 0.45));
+    const auto truth = sim::simulate(
+        world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0}, sim::scanner{},
+        {.sigma = 0.005, .seed = 6});
+    const auto found = finder_of_two()(truth.scan, {.noise = find_noise});
+    EXPECT_TRUE(found.objects.empty());
+    EXPECT_FALSE(found.seen.views.empty());
+    EXPECT_EQ(found.points.size(), 0u);
+}
+
+TEST(find_objects, of_no_points_or_no_ground_are_none) {
+    const auto none = finder_of_two()(gnomon::scan{});
+    EXPECT_TRUE(none.objects.empty());
+    const small_room room(false);
+    EXPECT_TRUE(finder_of_two()(room.scan, {.noise = find_noise}).objects.empty());
+    expect_chair_and_table(
+        finder_of_two()(room.scan, {.noise = find_noise, .ground = gnomon::plane{}}), room);
+    const small_room whole;
+    EXPECT_TRUE(rec::object_finder{}(whole.scan, {.noise = find_noise}).objects.empty());
+}
+
+TEST(find_objects, refuses_bad_arguments) {
+    constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+    rec::object_finder finder;
+    EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
+    EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
+    EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, 0),
+                 std::invalid_argument);
+    for (const double p : {-0.1, 1.1, nan})
+        EXPECT_THROW(static_cast<void>(finder_of_two()(gnomon::scan{}, {.min_probability = p})),
+                     std::invalid_argument);
+}
+
+}  // namespace

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSL-1.0
+#include <stdexcept>
+#include <vector>
+
+#include <gtest/gtest.h>
+
+#include "laws/clouds.hpp"
+#include "recognition/room_views.hpp"
+#include <gnomon/core/noise_curve.hpp>
+#include <gnomon/neighborhoods/spatial_index.hpp>
+#include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/recognition/verify_pose.hpp>
+
+namespace {
+
+namespace rec = gnomon::recognition;
+using gnomon::degrees;
+using gnomon::rigid_motion;
+
+constexpr gnomon::constant_noise room_noise{room_views::sigma};
+
+/// A chair and a table in a room, and what a sensor sees of them.
+struct seen_room {
+    std::vector<gnomon::simulation::furniture_model> models =
+        gnomon::simulation::furniture_models();
+    rigid_motion chair_pose = rigid_motion::on_ground(2.2, 0.6, degrees(140));
+    rigid_motion table_pose = rigid_motion::on_ground(2.6, -0.9, degrees(20));
+    gnomon::simulation::true_scan truth =
+        room_views::scan_of({{models[0], chair_pose}, {models[10], table_pose}}, 1);
+    rec::surface_model chair = room_views::surface_of(models[0]);
+    rec::surface_model table = room_views::surface_of(models[10]);
+    gnomon::spatial_index index{truth.scan};
+    gnomon::visibility seen{truth.scan, {.noise = room_noise}};
+
+    rec::verification verify(const rec::surface_model& model, const rigid_motion& pose) const {
+        return rec::verify_pose(index, seen, model, pose, {.noise = room_noise});
+    }
+};
+
+const seen_room& the_room() {
+    static const seen_room room;
+    return room;
+}
+
+TEST(verify_pose, supports_true_poses) {
+    const auto& room = the_room();
+    for (const auto& v :
+         {room.verify(room.chair, room.chair_pose), room.verify(room.table, room.table_pose)}) {
+        EXPECT_GT(v.support(), 0.97);
+        EXPECT_GT(v.explanation(), 0.97);
+        EXPECT_GT(v.observed(), 0.7);
+        EXPECT_GT(v.points, 100u);
+        EXPECT_EQ(v.facing, v.supported + v.seen_through + v.mismatched + v.hidden + v.unobserved);
+        EXPECT_LE(v.facing, v.samples);
+    }
+}
+
+TEST(verify_pose, sees_through_objects_in_empty_space) {
+    const auto& room = the_room();
+    const auto v = room.verify(room.chair, rigid_motion::on_ground(1.3, -0.2, degrees(30)));
+    EXPECT_LT(v.support(), 0.1);
+    EXPECT_GT(v.seen_through, v.facing / 2);
+}
+
+TEST(verify_pose, rejects_wrong_models_and_poses) {
+    const auto& room = the_room();
+    EXPECT_LT(room.verify(room.table, room.chair_pose).support(), 0.6);
+    EXPECT_LT(room.verify(room.chair, room.table_pose).support(), 0.6);
+    // Turned, and a little aside.
+    const auto turned = room.chair_pose * rigid_motion::on_ground(0, 0, degrees(90));
+    EXPECT_LT(room.verify(room.chair, turned).support(), 0.7);
+    const auto aside = room.chair_pose * rigid_motion::on_ground(0.10, 0.05, degrees(0));
+    EXPECT_LT(room.verify(room.chair, aside).support(), 0.7);
+    EXPECT_LT(room.verify(room.chair, aside).explanation(), 0.9);
+}
+
+TEST(verify_pose, knows_hidden_places) {
+    const auto& room = the_room();
+    // Behind the wall opposite of the sensor.
+    const auto v = room.verify(room.chair, rigid_motion::on_ground(9.0, 0.0, degrees(0)));
+    EXPECT_EQ(v.supported + v.seen_through, 0u);
+    EXPECT_GT(v.hidden, v.facing / 2);
+    EXPECT_EQ(v.points, 0u);
+    EXPECT_EQ(v.explanation(), 0.0);
+}
+
+TEST(verify_pose, compares_normals) {
+    const auto& room = the_room();
+    struct with_normal {
+        Eigen::Vector3d normal;
+    };
+    const auto verify = [&](const Eigen::Vector3d& normal) {
+        const std::vector<with_normal> surface(room.index.size(), {normal});
+        return rec::verify_pose(room.index, surface, room.seen, room.table, room.table_pose,
+                                {.noise = room_noise});
+    };
+    const auto without = room.verify(room.table, room.table_pose);
+    EXPECT_EQ(verify({0, 0, 0}).supported, without.supported);
+    const auto upright = verify({0, 0, 1});
+    EXPECT_LT(upright.supported, without.supported);
+    EXPECT_GT(upright.supported, 0u);
+    EXPECT_GT(upright.mismatched, without.mismatched);
+}
+
+TEST(verify_pose, handles_nothing) {
+    const auto& room = the_room();
+    const gnomon::spatial_index none;
+    const gnomon::visibility blind(std::vector<Eigen::Vector3d>{});
+    const auto v = rec::verify_pose(none, blind, room.chair, {});
+    EXPECT_EQ(v.supported, 0u);
+    EXPECT_EQ(v.support(), 0.0);
+    const auto w = room.verify(rec::surface_model(), {});
+    EXPECT_EQ(w.samples, 0u);
+    EXPECT_EQ(w.observed(), 0.0);
+}
+
+TEST(verify_pose, refuses_what_cannot_be_meant) {
+    const auto& room = the_room();
+    const auto with = [&](const rec::verification_options& o) {
+        return rec::verify_pose(room.index, room.seen, room.chair, {}, o);
+    };
+    EXPECT_THROW((void)with({.tolerance = 0.0}), std::invalid_argument);
+    EXPECT_THROW((void)with({.tolerance = clouds::nan}), std::invalid_argument);
+    EXPECT_THROW((void)with({.max_angle = degrees(91)}), std::invalid_argument);
+    EXPECT_THROW((void)with({.lowest = clouds::nan}), std::invalid_argument);
+    EXPECT_THROW((void)with({.most = 0}), std::invalid_argument);
+    rigid_motion doubled;
+    doubled.rotation *= 2.0;
+    EXPECT_THROW((void)rec::verify_pose(room.index, room.seen, room.chair, doubled),
+                 std::invalid_argument);
+    EXPECT_THROW((void)rec::verify_pose(room.index, room.chair.normals(), room.seen, room.chair,
+                                        rigid_motion{}),
+                 std::invalid_argument);
+}
+
+}  // namespace
