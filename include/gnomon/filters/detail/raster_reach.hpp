@@ -49,7 +49,7 @@ class raster_reach {
                 around.clear();
                 for (const neighbor& q : sample_.nearest(ends[s], side_by_side))
                     if (own[q.index] <= sparser * usual_) around.push_back(own[q.index]);
-                // Where many are at a silhouette, as on thin legs, they say nothing.
+                // Where many are at a silhouette, as on thin legs, they contain no information.
                 const bool is_inside = 4 * around.size() > 3 * side_by_side;
                 local_[s] = is_inside ? quantile_of(around, wide_share) : usual_;
             }
@@ -69,7 +69,8 @@ class raster_reach {
     // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
     // of a scan line is 1.4 times as sparse at its equator as its middle.
     static constexpr double sparser = 2.0;
-    static constexpr std::size_t side_by_side = 32;  // chosen: samples that determine the local reach
+    static constexpr std::size_t side_by_side =
+        32;  // chosen: samples that determine the local reach
     // Of these samples; not the middle, as a reach changes from sample to sample.
     static constexpr double wide_share = 0.75;
 
