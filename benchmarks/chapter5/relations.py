@@ -229,8 +229,7 @@ def calibrated(tables):
 
 @relation("default_mode", "5.o.5", "with relations neither precision nor right and decided are 0.005 less than without, "
           "of all seeds together", "Sec. 5.7.1: relations never hurt",
-          "precision is the same; of the features that a node tries at random, those of relations take the place of "
-          "others, so that probabilities are lower, and fewer views decided")
+          "precision is the same; probabilities differ by the chance of the trees, and by the temperature")
 def relations_of_default(tables):
     texts, lost = zip(*(loses_little(tables, "default", views=views)
                         for views in dict.fromkeys(r["views"] for r in tables[PIECES])))

@@ -30,7 +30,7 @@ struct furniture_file {
 };
 
 /// Whether there is a directory of this name; not if that cannot be read.
-inline bool is_directory(const std::filesystem::path& path) {
+inline bool is_folder(const std::filesystem::path& path) {
     std::error_code problem;
     return std::filesystem::is_directory(path, problem);
 }
@@ -71,12 +71,12 @@ inline std::vector<furniture_file> furniture_in([[maybe_unused]] const std::stri
         all.push_back(
             {name, sim::read_furniture(file.string(), y_up ? sim::up_axis::y : sim::up_axis::z)});
     };
-    if (!is_directory(path)) {
+    if (!is_folder(path)) {
         add(path, std::filesystem::path(path).stem().string());
         return all;
     }
     for (const auto& entry : sorted_entries(path)) {
-        if (is_directory(entry)) {
+        if (is_folder(entry)) {
             for (const auto& file : sorted_entries(entry))
                 if (is_mesh_file(file)) add(file, entry.filename().string());
         } else if (is_mesh_file(entry)) {
