@@ -71,17 +71,14 @@ std::vector<task> tasks_of(const std::vector<example>& examples) {
     return tasks;
 }
 
-/// "0.70 x 0.70 x 1.10": length, width and height [m], with a question if no furniture is like
-/// that.
+/// "0.70 x 0.70 x 1.10": length, width and height [m].
 std::string size_of(const sim::furniture_model& model) {
     sim::scene alone;
     sim::add(alone, model);
     const Eigen::Vector3d size = alone.extent().size();
     char text[64];
     std::snprintf(text, sizeof text, "%.2f x %.2f x %.2f", size.x(), size.y(), size.z());
-    constexpr double smallest = 0.05, largest = 10.0;  // [m]
-    const bool is_odd = size.maxCoeff() < smallest || size.maxCoeff() > largest;
-    return std::string(text) + (is_odd ? " (is the file in metres?)" : "");
+    return text;
 }
 
 void learn_objects(const options& o) {

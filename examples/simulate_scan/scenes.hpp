@@ -50,8 +50,7 @@ inline sim::scene furnished_room(const options& o) {
         const double across = 2.0 * sim::detail::radius_of(model);
         if (across > std::min(floor.x(), floor.y()))
             std::printf(
-                "left out: %s, %.2f m across, is too large for this room of %.2f x %.2f m; are "
-                "its lengths in metres?\n",
+                "left out: %s, %.2f m across, is too large for this room of %.2f x %.2f m\n",
                 model.name.c_str(), across, floor.x(), floor.y());
     }
     return world;

@@ -129,11 +129,10 @@ def check_files(directory):
     check(result.returncode == 0, result.stderr)
     learned = json.loads(model.read_text(encoding="utf-8"))
     check(sorted(learned["classes"]) == ["background", "shelf", "stand"], learned["classes"])
-    check("metres" not in result.stdout, result.stdout)
     large = directory / "large.obj"
-    large.write_text(BOARD.format(z=900).replace("0.5", "500"), encoding="utf-8")
-    check("metres?" in must(LEARN, "--models", large, "--views", 2, "--out", directory / "large.json"),
-          "lengths in millimetres")
+    large.write_text(BOARD.format(z=900).replace("0.5", "500"), encoding="utf-8")  # millimetres
+    check_refusal(directory, "metres", LEARN, "--models", large)
+    large.write_text(BOARD.format(z=0.9).replace("0.5", "4.8"), encoding="utf-8")
     check("left out: large" in must(SIMULATE, "--scene", "furnished_room", "--furniture", large,
                                     "--out", directory / "large_room"), "too large for a room")
     (models / "stand.obj").write_text("v 0 0 0\n", encoding="utf-8")
