@@ -131,20 +131,39 @@ class study {
         }
 
         // Smaller segments, and the parts of the default mode.
-        add_repairs_at(repaired_density, "segments of 15 points", learning, testing);
-        add_repairs_at({20, 10}, "20 neighbors, segments of 10 points", learning, testing);
+        using method = std::pair<std::string, options>;
+        const std::vector<method> both{{"as printed, ", printed}, {"repaired, ", repaired}};
+        const auto named = [](std::vector<method> all, const std::string& how) {
+            for (method& m : all) m.first += how;
+            return all;
+        };
+        add_methods(named(both, "segments of 15 points"), repaired_density, learning, testing);
+        add_methods(named(both, "20 neighbors, segments of 10 points"), {20, 10}, learning,
+                    testing);
+
+        // Three times as many examples of parts, which make finer words.
+        const auto uncounted = [](options& o) { o.counts_parts = false; };
+        const auto finer = [](options& o) { o.max_distance = finer_distance; };
+        add_methods(named({{"repaired, ", repaired},
+                           {"repaired, no number of parts, ", with(repaired, uncounted)},
+                           {"repaired, rho 0.02, ", with(repaired, finer)},
+                           {"repaired, rho 0.02, no number of parts, ",
+                            with(with(repaired, finer), uncounted)}},
+                          "segments of 15 points, with hidden versions"),
+                    repaired_density, with_hidden_parts(learning, seed), testing);
     }
 
-    void add_repairs_at(const density& how, const std::string& name, const scan_set& learning,
-                        const scan_set& testing) {
+    /// rho_max of words with hidden versions in training; chosen on seeds 1 to 8.
+    static constexpr double finer_distance = 0.02;
+
+    void add_methods(const std::vector<std::pair<std::string, options>>& methods,
+                     const density& how, const scan_set& learning, const scan_set& testing) {
         const view_set training = views_of(learning, how), test = views_of(testing, how);
         const auto features = rec::scaled_by_largest(rec::thesis_features, training.views);
-        const std::size_t number = names_.size();
-        for (const auto& [method, o] :
-             {std::pair{"as printed, ", printed}, std::pair{"repaired, ", repaired}}) {
-            const rec::word_histograms model(training.views, training.classes, number, features,
-                                             rec::thesis_relations, o);
-            repairs_.add({{"method", method + name}}, outcomes_of(model, test, 1.0));
+        for (const auto& [name, o] : methods) {
+            const rec::word_histograms model(training.views, training.classes, names_.size(),
+                                             features, rec::thesis_relations, o);
+            repairs_.add({{"method", name}}, outcomes_of(model, test, 1.0));
         }
     }
 

@@ -2,23 +2,30 @@
 // Occluded objects, Fig. 5.11: a board in front of an object hides a share of its points. All
 // methods learn the same views; all but the thesis as printed also versions of these of which a
 // part is hidden.
-#include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
+
+#include <Eigen/Core>
+#include <boost/hana/tuple.hpp>
 
 #include "outcomes.hpp"
 #include "peers.hpp"
 #include "views.hpp"
-#include <gnomon/core/error.hpp>
+#include <gnomon/core/execution.hpp>
+#include <gnomon/core/plane.hpp>
+#include <gnomon/core/scan.hpp>
 #include <gnomon/recognition/height_profile.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_features.hpp>
 #include <gnomon/recognition/part_relation.hpp>
+#include <gnomon/recognition/view.hpp>
 #include <gnomon/recognition/word_histograms.hpp>
 
 namespace {

@@ -17,10 +17,11 @@ namespace {
 
 constexpr view_kind thin{}, wide{.skims = true};
 
-/// Both sets, one after the other.
+/// Both sets, of the same number of versions, one after the other.
 view_set joined(view_set a, const view_set& b) {
     a.views.insert(a.views.end(), b.views.begin(), b.views.end());
     a.classes.insert(a.classes.end(), b.classes.begin(), b.classes.end());
+    a.parts.insert(a.parts.end(), b.parts.begin(), b.parts.end());
     return a;
 }
 

@@ -104,7 +104,11 @@ std::optional<Options> options_from(const std::vector<std::string>& words,
             found->set(o, name, words[++i]);
         }
     }
-    if (o.out.empty()) throw usage_error("--out DIR is missing");
+    if (o.out.empty()) {
+        std::string what = "DIR";  // of the usage
+        if constexpr (requires { Options::name_of_out; }) what = Options::name_of_out;
+        throw usage_error("--out " + what + " is missing");
+    }
     return o;
 }
 

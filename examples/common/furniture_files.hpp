@@ -29,12 +29,21 @@ struct furniture_file {
     sim::furniture_model model;
 };
 
+/// Whether there is a directory of this name; not if that cannot be read.
+inline bool is_folder(const std::filesystem::path& path) {
+    std::error_code problem;
+    return std::filesystem::is_directory(path, problem);
+}
+
 inline bool is_mesh_file(const std::filesystem::path& path) {
     static const std::vector<std::string> kinds{".obj", ".stl",  ".ply", ".off",
                                                 ".dae", ".gltf", ".glb"};
     std::string kind = path.extension().string();
     for (char& c : kind) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-    return std::ranges::find(kinds, kind) != kinds.end() && !path.stem().string().starts_with(".");
+    std::error_code problem;  // a link to nowhere is no file
+    return std::ranges::find(kinds, kind) != kinds.end() &&
+           !path.stem().string().starts_with(".") &&
+           std::filesystem::is_regular_file(path, problem);
 }
 
 /// What is in a directory, in the order of the names.
@@ -62,12 +71,12 @@ inline std::vector<furniture_file> furniture_in([[maybe_unused]] const std::stri
         all.push_back(
             {name, sim::read_furniture(file.string(), y_up ? sim::up_axis::y : sim::up_axis::z)});
     };
-    if (!std::filesystem::is_directory(path)) {
+    if (!is_folder(path)) {
         add(path, std::filesystem::path(path).stem().string());
         return all;
     }
     for (const auto& entry : sorted_entries(path)) {
-        if (std::filesystem::is_directory(entry)) {
+        if (is_folder(entry)) {
             for (const auto& file : sorted_entries(entry))
                 if (is_mesh_file(file)) add(file, entry.filename().string());
         } else if (is_mesh_file(entry)) {

@@ -35,36 +35,42 @@ inline std::vector<sim::furniture_model> clutter(std::size_t pieces, std::uint64
     for (std::size_t i = 0; i < pieces; ++i) {
         gnomon::random_stream random(seed, i);
         sim::scene piece;
-        const auto block = [&](const char* name, double x, double y, double z, double turned = 0) {
-            piece.add_object(name, sim::box{x, y, z},
-                             sim::yaw(gnomon::degrees(turned)) * sim::at(0.0, 0.0, 0.5 * z));
+        const auto block = [&](const char* name, const sim::box& of, double turned = 0.0,
+                               double base = 0.0) {
+            piece.add_object(
+                name, of,
+                sim::yaw(gnomon::degrees(turned)) * sim::at(0.0, 0.0, base + 0.5 * of.height));
         };
+        // Braces, as the order in which arguments are drawn is not defined.
         switch (i % 6) {
             case 0:
-                block("cupboard", random.uniform(0.3, 0.6), random.uniform(0.5, 1.2),
-                      random.uniform(0.8, 2.1));
+                block("cupboard", sim::box{random.uniform(0.3, 0.6), random.uniform(0.5, 1.2),
+                                           random.uniform(0.8, 2.1)});
                 break;
             case 1:
-                block("carton", random.uniform(0.2, 0.6), random.uniform(0.2, 0.6),
-                      random.uniform(0.15, 0.6));
+                block("carton", sim::box{random.uniform(0.2, 0.6), random.uniform(0.2, 0.6),
+                                         random.uniform(0.15, 0.6)});
                 break;
             case 2:
                 piece.add_object(
                     "bin", sim::cylinder{random.uniform(0.1, 0.25), random.uniform(0.2, 0.7)});
                 break;
             case 3:
-                block("board", 0.03, random.uniform(0.5, 2.0), random.uniform(0.8, 2.0));
+                block("board", sim::box{0.03, random.uniform(0.5, 2.0), random.uniform(0.8, 2.0)});
                 break;
             case 4:
-                block("wall", 0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6));
-                block("other wall", 0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6), 90);
+                block("wall", sim::box{0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6)});
+                block("other wall",
+                      sim::box{0.1, random.uniform(0.3, 2.0), random.uniform(2.2, 2.6)}, 90.0);
                 break;
-            default:
-                block("carton", 0.5, 0.4, 0.3);
-                piece.add_object("upper carton",
-                                 sim::box{random.uniform(0.2, 0.45), random.uniform(0.2, 0.4),
-                                          random.uniform(0.1, 0.4)},
-                                 sim::at(0.0, 0.0, 0.5));
+            default: {
+                constexpr double lower = 0.3;  // height of the carton [m]
+                block("carton", sim::box{0.5, 0.4, lower});
+                block("upper carton",
+                      sim::box{random.uniform(0.2, 0.45), random.uniform(0.2, 0.4),
+                               random.uniform(0.1, 0.4)},
+                      0.0, lower);
+            }
         }
         all.push_back({"clutter " + std::to_string(i + 1), std::move(piece)});
     }

@@ -38,6 +38,7 @@ Exit status: 0; 1 if a file cannot be read or written; 2 for a wrong command lin
 )";
 
 struct options {
+    static constexpr const char* name_of_out = "MODEL";
     std::string out;     ///< path of the model file
     std::string models;  ///< directory or file; empty for the built-in models
     bool y_up = false;

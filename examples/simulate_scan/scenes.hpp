@@ -3,6 +3,8 @@
 /// The scenes by their names, and mesh files where Assimp is available.
 #pragma once
 
+#include <algorithm>
+#include <cstdio>
 #include <map>
 #include <string>
 #include <utility>
@@ -46,7 +48,16 @@ inline sim::scene furnished_room(const options& o) {
                 file.model.name = file.class_name + "/" + file.model.name;
             room.models.push_back(std::move(file.model));
         }
-    return sim::scenes::furnished_room(room);
+    sim::scene world = sim::scenes::furnished_room(room);
+    const Eigen::Vector3d floor = world.shapes().front().extent.size();
+    for (const auto& model : room.models) {
+        const double across = 2.0 * sim::detail::radius_of(model);
+        if (across > std::min(floor.x(), floor.y()))
+            std::printf(
+                "left out: %s, %.2f m across, is too large for this room of %.2f x %.2f m\n",
+                model.name.c_str(), across, floor.x(), floor.y());
+    }
+    return world;
 }
 
 }  // namespace detail

@@ -129,6 +129,12 @@ def check_files(directory):
     check(result.returncode == 0, result.stderr)
     learned = json.loads(model.read_text(encoding="utf-8"))
     check(sorted(learned["classes"]) == ["background", "shelf", "stand"], learned["classes"])
+    large = directory / "large.obj"
+    large.write_text(BOARD.format(z=900).replace("0.5", "500"), encoding="utf-8")  # millimetres
+    check_refusal(directory, "metres", LEARN, "--models", large)
+    large.write_text(BOARD.format(z=0.9).replace("0.5", "4.8"), encoding="utf-8")
+    check("left out: large" in must(SIMULATE, "--scene", "furnished_room", "--furniture", large,
+                                    "--out", directory / "large_room"), "too large for a room")
     (models / "stand.obj").write_text("v 0 0 0\n", encoding="utf-8")
     check_refusal(directory, "stand.obj", LEARN, "--models", models)
     (directory / "no_models").mkdir()
@@ -201,10 +207,12 @@ with tempfile.TemporaryDirectory() as name:
     check_refusal(directory, "missing.ply", RECOGNIZE, missing, "--model", model)
     empty = directory / "empty.xyz"
     for content, message in [("", "empty.xyz"), ("nan nan nan\n" * 50, "no finite point"),
-                             ("1 2 3\n" * 50, "has no floor")]:
+                             ("1 2 3\n" * 50, "has no floor"),
+                             (STAND, "a mesh, which is no scan")]:
         empty.write_text(content, encoding="utf-8")
         check_refusal(directory, message, RECOGNIZE, empty, "--model", model)
     # A floor that is not in the scan can be named; there is nothing on it.
+    empty.write_text("1 2 3\n" * 50, encoding="utf-8")
     must(RECOGNIZE, empty, "--model", model, "--floor", "0", "--out", directory / "nothing")
     report = json.loads((directory / "nothing" / "objects.json").read_text(encoding="utf-8"))
     check(report["views"] == [], report["views"])
@@ -222,7 +230,8 @@ with tempfile.TemporaryDirectory() as name:
                     ["chair.obj"], ["--models", ""]]:
         result = run(LEARN, *options, "--out", directory / "wrong")
         check(result.returncode == 2 and "usage: learn_objects" in result.stderr, result.stderr)
-    check(run(LEARN).returncode == 2, "no --out")
+    result = run(LEARN)
+    check(result.returncode == 2 and "--out MODEL is missing" in result.stderr, result.stderr)
     check(not (directory / "wrong").exists(), "wrong options: something was written")
     check_refusal(directory, "no_such_folder", LEARN, "--models", directory / "no_such_folder")
     result = run(LEARN, "--views", 1, "--out", directory)

@@ -66,6 +66,10 @@ TEST(io_read, names_the_file_as_given) {
 TEST(io_read, names_a_tool_for_what_it_does_not_read) {
     io_test::expect_error(any_parser, "ASTM-E57" + std::string(100, '\0'), "byte 0",
                           "pdal translate a.e57 a.las");
+    for (const char* mesh :
+         {"OFF\n3 1 0\n", "solid chair\n", "glTF\2", "<?xml version=\"1.0\"?>\n",
+          "# a chair\n\nmtllib chair.mtl\n", "v 0 0 0\nv 0.5 0 0\n", "o seat\nv 0 0 0\n"})
+        io_test::expect_error(any_parser, mesh, "byte 0", "simulate_scan --scene a.obj");
     std::string laz = one_cloud.back();
     laz[104] = '\x80';
     io_test::expect_error(any_parser, laz, "byte 104", "laszip -i a.laz -o a.las");

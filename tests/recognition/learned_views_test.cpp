@@ -31,6 +31,17 @@ TEST(learned_views, number_classes_in_the_order_of_their_first_names) {
     EXPECT_EQ(learned.names.size(), 2u);
 }
 
+TEST(learned_views, try_other_features_as_often_with_those_of_pairs_as_without) {
+    rec::learned_views<2> learned;
+    learned.samples.columns = 100;
+    EXPECT_EQ(learned.tree_options(0).features_per_split, 20u);
+    learned.samples.columns = 150;  // a third of the draws are those of pairs
+    EXPECT_EQ(learned.tree_options(50).features_per_split, 30u);
+    EXPECT_EQ(learned.tree_options(150).features_per_split, 0u);
+    learned.options.trees.features_per_split = 7;
+    EXPECT_EQ(learned.tree_options(50).features_per_split, 7u);
+}
+
 TEST(learned_views, refuse_what_does_not_fit_together) {
     EXPECT_NO_THROW(two_classes().require_consistent());
     const auto refuses = [](auto&& change) {

@@ -40,6 +40,13 @@ TEST(view_descriptor, has_a_fixed_length_and_finite_values) {
     }
 }
 
+TEST(view_descriptor, counts_what_is_about_pairs) {
+    const rec::view_descriptor without{rec::default_features, rec::no_relations, true};
+    const auto& v = some_views::training().views.front();
+    EXPECT_EQ(default_descriptor(v).size(), without(v).size() + default_descriptor.pair_columns);
+    EXPECT_EQ(without.pair_columns, 0u);
+}
+
 /// The heading of an object and its place on the floor change nothing: the view point turns with
 /// it.
 TEST(view_descriptor, does_not_depend_on_yaw_and_place) {

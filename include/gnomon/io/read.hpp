@@ -41,6 +41,20 @@ namespace detail {
     return false;
 }
 
+/// Returns whether this is a mesh: in OFF, STL, glTF or COLLADA, or in OBJ, of which the first line
+/// that is no comment begins with a keyword.
+[[nodiscard]] inline bool looks_like_mesh(const input& file) {
+    for (const std::string_view magic : {"OFF", "solid ", "glTF", "<?xml", "<COLLADA"})
+        if (std::string_view(file.bytes).starts_with(magic)) return true;
+    text_cursor text(file);
+    while (const auto line = text.line()) {
+        const std::string_view word = splitter(*line).next().value_or("");
+        if (word.empty() || word.starts_with("#")) continue;
+        return word == "v" || word == "o" || word == "g" || word == "mtllib";
+    }
+    return false;
+}
+
 /// Refuses the formats that are not read here, with the name of a header or tool that does or that
 /// converts them.
 template <class = void>
@@ -54,6 +68,10 @@ void refuse_unread(const input& file) {
             error(file.name, "byte 0",
                   "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
                   "a.las\" or CloudCompare"));
+    if (looks_like_mesh(file))
+        GNOMON_THROW(error(file.name, "byte 0",
+                           "a mesh, which is no scan: simulate one of it, e.g. by "
+                           "\"simulate_scan --scene a.obj --out DIR\""));
 }
 
 }  // namespace detail
@@ -65,8 +83,8 @@ void refuse_unread(const input& file) {
 ///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged or a field is missing (the message lists the
-///                        fields of the file), and for LAZ and E57 files (the message names a tool
-///                        that converts them)
+///                        fields of the file), and for LAZ and E57 files and meshes (the message
+///                        names a tool that converts them)
 /// Complexity: O(bytes).
 template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {

@@ -40,6 +40,20 @@ struct learned_views {
     std::vector<std::uint32_t> sources;  ///< of each sample, ascending: the scan that it is of
     double temperature = 1.0;            ///< of calibrated probabilities
 
+    /// The options of the trees, with the number of features that are tried at each node: of all
+    /// but those of pairs, twice the square root of their number, and of those of pairs as large a
+    /// share. So relations have draws of their own, and take the place of nothing else.
+    /// @param of_pairs  columns of the samples that describe pairs of parts
+    [[nodiscard]] random_trees_options tree_options(std::size_t of_pairs) const {
+        random_trees_options result = options.trees;
+        if (result.features_per_split > 0 || samples.columns <= of_pairs) return result;
+        const auto all = static_cast<double>(samples.columns),
+                   others = static_cast<double>(samples.columns - of_pairs);
+        result.features_per_split =
+            static_cast<std::size_t>(std::round(2.0 * all / std::sqrt(others)));
+        return result;
+    }
+
     /// @throws std::invalid_argument  if numbers do not fit together, or are not finite
     void require_consistent() const {
         using gnomon::detail::require;

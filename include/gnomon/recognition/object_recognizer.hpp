@@ -54,8 +54,7 @@ class object_recognizer {
     using options_type = object_recognizer_options;  ///< those of the constructor
     static constexpr std::size_t features_per_part = feature_count<Features>;
     using descriptor_type = view_descriptor<Features, Relations>;  ///< what describes a view
-
-    using content = learned_views<features_per_part>;  ///< what is learned
+    using content = learned_views<features_per_part>;              ///< what is learned
 
     /// @param features  with their scales, which are 1 if another type is not given here
     /// @param relations  `no_relations` for parts alone
@@ -68,9 +67,8 @@ class object_recognizer {
 
     /// Learns versions of one view of an object: the view itself, and others of the same scan of
     /// which a part is hidden. Words grow; fit() is to follow.
-    /// @throws std::invalid_argument  if there is no name or view, or a view has no ground where
-    /// one is
-    ///                                needed; nothing is learned then
+    /// @throws std::invalid_argument  without a name, a view, or a ground that is needed; nothing
+    ///                                is learned then
     void learn(std::span<const view> versions, std::string_view name) {
         gnomon::detail::require(!name.empty() && !versions.empty(),
                                 "object_recognizer: a class needs a name and a view");
@@ -103,9 +101,10 @@ class object_recognizer {
         gnomon::detail::require(learned_.names.size() > 1,
                                 "object_recognizer: two classes must be learned first");
         const auto& team = gnomon::detail::staying(run);
+        const auto options = learned_.tree_options(descriptor_type::pair_columns);
         learned_.temperature = detail::cross_validated_temperature(
-            learned_.samples, learned_.sources, classes(), learned_.options.trees, team);
-        trees_ = random_trees(learned_.samples, classes(), learned_.options.trees, team);
+            learned_.samples, learned_.sources, classes(), options, team);
+        trees_ = random_trees(learned_.samples, classes(), options, team);
     }
 
     [[nodiscard]] std::size_t classes() const { return learned_.names.size(); }
@@ -130,7 +129,8 @@ class object_recognizer {
         gnomon::detail::require(
             learned.samples.columns == descriptor_.describe(view{}, {}, {}, false).size(),
             "object_recognizer: the samples are of other features");
-        random_trees grown(learned.samples, learned.names.size(), learned.options.trees, run);
+        const auto options = learned.tree_options(descriptor_type::pair_columns);
+        random_trees grown(learned.samples, learned.names.size(), options, run);
         learned_ = std::move(learned);
         trees_ = std::move(grown);
     }

@@ -39,6 +39,8 @@ struct view_descriptor {
     static constexpr std::size_t features_per_part = feature_count<Features>;
     /// Numbers that describe a pair.
     static constexpr std::size_t relations_per_pair = relation_count<Relations>;
+    /// Numbers of a description that are about pairs.
+    static constexpr std::size_t pair_columns = 3 * relations_per_pair;
     /// What is measured on a view.
     using measured = measured_view<features_per_part, relations_per_pair>;
 
@@ -67,7 +69,7 @@ struct view_descriptor {
                                                std::span<const std::size_t> chosen,
                                                bool has_rest) const {
         std::vector<double> d;
-        d.reserve(1 + (3 + largest_parts) * features_per_part + 3 * relations_per_pair +
+        d.reserve(1 + (3 + largest_parts) * features_per_part + pair_columns +
                   2 * height_profile::count);
         d.push_back(static_cast<double>(chosen.size()));
         pool_parts(m, chosen, d);
