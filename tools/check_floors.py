@@ -51,10 +51,10 @@ FORBIDDEN = {
 # segments and points beyond their curvature.
 OUTSIDE = {"gnomon/normals/registry.hpp", "gnomon/neighborhoods/raster.hpp",
            "gnomon/segmentation/segment_image.hpp",
-           "gnomon/perception/perceive_views.hpp",
+           "gnomon/perception/perceive_views.hpp", "gnomon/perception/find_objects.hpp",
            "gnomon/core/rigid_motion.hpp"}
-# Verification needs visibility, which other recognition does not.
-OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("surface_model", "verification", "verify_pose",
+# To find objects in rooms needs surfaces and visibility, which other recognition does not.
+OUTSIDE |= {f"gnomon/recognition/{name}.hpp" for name in ("part_votes", "surface_model", "verification", "verify_pose",
                                                          "vertical_symmetry")}
 OUTSIDE |= {f"gnomon/features/{name}.hpp" for name in (
     "alpha_shape", "convex_hull", "convex_polygon", "minimum_area_rectangle", "minimum_volume_box",

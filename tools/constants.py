@@ -35,8 +35,10 @@ from cpp_source import (INCLUDE_DIR, code_only, comments, function_bodies, witho
 
 FOLDERS = ["gnomon/segmentation", "gnomon/occlusion", "gnomon/perception",
            "gnomon/normals/detail/wide_noise.hpp"]
-# The views of objects have surfaces of their own, with more that is chosen: on simulated furniture.
-OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/object_cells.hpp"}
+# The views of objects have surfaces of their own, with more that is chosen: on simulated furniture. So have
+# hypotheses about objects.
+OTHER = {"gnomon/perception/perceive_views.hpp", "gnomon/perception/detail/object_cells.hpp",
+         "gnomon/perception/find_objects.hpp", "gnomon/perception/detail/object_hypotheses.hpp"}
 MAX_CHOSEN = 15
 
 # Numbers of formulas: the number is a group of the pattern, which is found in its line. Name, source.

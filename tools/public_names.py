@@ -28,7 +28,7 @@ import sys
 from cpp_source import INCLUDE_DIR, public_names, require_ctags
 
 LIMIT = 160
-LIMIT_BY_NAME = 50
+LIMIT_BY_NAME = 60
 INCLUDE = re.compile(r"^\s*#\s*include\s*<(gnomon/[^>]+)>", re.M)
 
 

@@ -34,6 +34,7 @@
 #include <system_error>
 #include <tuple>
 #include <type_traits>
+#include <unordered_map>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -19463,6 +19464,20 @@ namespace detail {
     return false;
 }
 
+/// Returns whether this is a mesh: in OFF, STL, glTF or COLLADA, or in OBJ, of which the first line
+/// that is no comment begins with a keyword.
+[[nodiscard]] inline bool looks_like_mesh(const input& file) {
+    for (const std::string_view magic : {"OFF", "solid ", "glTF", "<?xml", "<COLLADA"})
+        if (std::string_view(file.bytes).starts_with(magic)) return true;
+    text_cursor text(file);
+    while (const auto line = text.line()) {
+        const std::string_view word = splitter(*line).next().value_or("");
+        if (word.empty() || word.starts_with("#")) continue;
+        return word == "v" || word == "o" || word == "g" || word == "mtllib";
+    }
+    return false;
+}
+
 /// Refuses the formats that are not read here, with the name of a header or tool that does or that
 /// converts them.
 template <class = void>
@@ -19476,6 +19491,10 @@ void refuse_unread(const input& file) {
             error(file.name, "byte 0",
                   "an E57 file, which is not read: convert it, e.g. by \"pdal translate a.e57 "
                   "a.las\" or CloudCompare"));
+    if (looks_like_mesh(file))
+        GNOMON_THROW(error(file.name, "byte 0",
+                           "a mesh, which is no scan: simulate one of it, e.g. by "
+                           "\"simulate_scan --scene a.obj --out DIR\""));
 }
 
 }  // namespace detail
@@ -19487,8 +19506,8 @@ void refuse_unread(const input& file) {
 ///                stands for all. `field_properties` writes them
 /// @return the points [m], in the order of the file, with viewpoints and fields
 /// @throws gnomon::error  if the file is damaged or a field is missing (the message lists the
-///                        fields of the file), and for LAZ and E57 files (the message names a tool
-///                        that converts them)
+///                        fields of the file), and for LAZ and E57 files and meshes (the message
+///                        names a tool that converts them)
 /// Complexity: O(bytes).
 template <class = void>  // a template, so that unused readers cost no compile time
 [[nodiscard]] scan read(const input& file, const std::vector<std::string>& fields = {}) {
@@ -20033,39 +20052,12 @@ template <class R, execution X = sequential, class Proj = std::identity>
 
 }  // namespace gnomon
 
-// -------- gnomon/filters/remove_silhouettes.hpp --------------------------------------------------
+// -------- gnomon/filters/detail/ray_sphere.hpp ---------------------------------------------------
 
 /// @file
-/// Removes the points at silhouettes that wide beams return wrongly: next to an edge, where a part
-/// of the beam still hits the surface, which makes the leg of a chair seem wider; and between two
-/// surfaces, at a mean of their ranges (mixed pixels; skimmed points in Klasing 2010, Sec. 5.8.4).
-/// What is left of each surface is about as wide as the surface truly is.
-///
-///     auto kept = gnomon::remove_silhouettes(scan, {.divergence = gnomon::radians(0.010)});
-///     gnomon::scan seen = gnomon::subset(scan, kept);
-///
-/// Neighbors of a point are here the points whose rays are next to its own, at whatever range: no
-/// raster is needed, only view points.
+/// Which rays of a scan are next to each other, at whatever range, and where surfaces end.
 
-namespace gnomon {
-
-/// What a silhouette is, and how much of a surface next to it is lost.
-struct silhouette_options {
-    angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
-    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
-    /// simulation::furniture_models(), seeds 1 to 3.
-    double max_jump = 0.30;
-
-    /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and max_jump >= 0
-    void require_valid() const {
-        detail::require(divergence >= degrees(0.0) && divergence <= degrees(90.0),
-                        "remove_silhouettes: the divergence must be from 0 to 90 degrees");
-        detail::require(max_jump >= 0.0,
-                        "remove_silhouettes: max_jump must not be negative or NaN");
-    }
-};
-
-namespace detail {
+namespace gnomon::detail {
 
 /// The rays of a scan as points at 1 m from their view points, where near ones are seen side by
 /// side. Distances [m] there are about angles [rad].
@@ -20097,6 +20089,9 @@ class ray_sphere {
 
     [[nodiscard]] std::size_t size() const { return index_.size(); }
     [[nodiscard]] bool has_ray(std::size_t i) const { return index_.is_finite(i); }
+
+    /// The end of the ray of point i at 1 m from its view point, from some origin.
+    [[nodiscard]] Eigen::Vector3d end_of(std::size_t i) const { return index_[i]; }
 
     /// The points at most this far from point i on the sphere, itself among them.
     [[nodiscard]] auto within(std::size_t i, double reach) const {
@@ -20142,33 +20137,135 @@ class ray_sphere {
     spatial_index index_;
 };
 
-/// How far apart rays are in the wider direction of a scan [rad]: most rays are surrounded by
-/// others within this distance. Zero if there is no such distance, as in a single scan line.
-[[nodiscard]] inline double reach_of_raster(const ray_sphere& rays) {
-    constexpr std::size_t about = 1000;  // rays looked at; performance
-    const std::size_t thinning = std::max<std::size_t>(1, rays.size() / about);
-    scratch<std::size_t> some;
-    scratch<double> nearest;
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-        // At random: regular steps may always hit the border of a raster.
-        if (!rays.has_ray(i) || random_stream(i).bits() % thinning != 0) continue;
-        some.push_back(i);
-        nearest.push_back(rays.distance_of(i, 4));  // formula: as many as directions of a raster
-    }
-    if (some.empty()) return 0.0;
-    const auto middle = nearest.begin() + static_cast<std::ptrdiff_t>(nearest.size() / 2);
-    std::nth_element(nearest.begin(), middle, nearest.end());
-    constexpr double widest = 0.2, growth = 1.25;  // rad: coarser than any scanner; performance
-    for (double reach = growth * std::max(*middle, ray_sphere::same_ray); reach < widest;
-         reach *= growth) {
-        const auto surrounded = std::count_if(
-            some.begin(), some.end(), [&](std::size_t i) { return rays.is_surrounded(i, reach); });
-        if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
-    }
-    return 0.0;
-}
+}  // namespace gnomon::detail
 
-}  // namespace detail
+// -------- gnomon/filters/detail/raster_reach.hpp -------------------------------------------------
+
+/// @file
+/// How far apart the rays of a scan are, around each of them.
+
+namespace gnomon::detail {
+
+/// How far apart the rays of a scan are in the wider of its directions [rad], with a margin of up
+/// to a quarter: around most rays at least, and where they are up to twice as sparse as there,
+/// as far from the axis of a rotating scanner.
+class raster_reach {
+  public:
+    template <execution X>
+    raster_reach(const ray_sphere& rays, const X& run) {
+        const std::size_t thinning = std::max<std::size_t>(1, rays.size() / about);
+        scratch<std::size_t> some;
+        for (std::size_t i = 0; i < rays.size(); ++i)  // at random: steps may hit a border always
+            if (rays.has_ray(i) && random_stream(i).bits() % thinning == 0) some.push_back(i);
+        usual_ = of_most(rays, some);
+        if (usual_ == 0.0) return;
+        std::vector<Eigen::Vector3d> ends(some.size());
+        scratch<double> own(some.size());
+        local_.resize(some.size());
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            for (std::size_t s = begin; s < end; ++s) {
+                ends[s] = rays.end_of(some[s]);
+                double reach = usual_;
+                while (reach <= sparser * usual_ && !rays.is_surrounded(some[s], reach))
+                    reach *= growth;
+                own[s] = reach;
+            }
+        });
+        sample_.rebuild(ends, run);
+        for_each_chunk(run, some.size(), [&](std::size_t begin, std::size_t end) {
+            scratch<double> around;
+            for (std::size_t s = begin; s < end; ++s) {
+                around.clear();
+                for (const neighbor& q : sample_.nearest(ends[s], side_by_side))
+                    if (own[q.index] <= sparser * usual_) around.push_back(own[q.index]);
+                // Where many are at a silhouette, as on thin legs, they contain no information.
+                const bool is_inside = 4 * around.size() > 3 * side_by_side;
+                local_[s] = is_inside ? quantile_of(around, wide_share) : usual_;
+            }
+        });
+    }
+
+    /// Whether rays are next to each other in two directions.
+    [[nodiscard]] bool is_known() const { return usual_ > 0.0; }
+    /// Around ray i, which has a direction. Precondition: it is known.
+    [[nodiscard]] double around(const ray_sphere& rays, std::size_t i) const {
+        return local_[sample_.nearest(rays.end_of(i), 1)[0].index];
+    }
+
+  private:
+    static constexpr std::size_t about = 2000;  // rays looked at; performance
+    static constexpr double growth = 1.25;      // performance: of a reach that is tried
+    // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
+    // of a scan line is 1.4 times as sparse at its equator as its middle.
+    static constexpr double sparser = 2.0;
+    static constexpr std::size_t side_by_side =
+        32;  // chosen: samples that determine the local reach
+    // Of these samples; not the middle, as a reach changes from sample to sample.
+    static constexpr double wide_share = 0.75;
+
+    [[nodiscard]] static double quantile_of(scratch<double>& values, double share) {
+        const auto at = values.begin() +
+                        static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+        std::nth_element(values.begin(), at, values.end());
+        return *at;
+    }
+
+    /// The reach within which most of these rays are surrounded by others; 0 if there is none, as
+    /// in a single scan line.
+    [[nodiscard]] static double of_most(const ray_sphere& rays, const scratch<std::size_t>& some) {
+        scratch<double> nearest;
+        for (const std::size_t i : some)
+            nearest.push_back(rays.distance_of(i, 4));  // formula: the directions of a raster
+        if (nearest.empty()) return 0.0;
+        constexpr double widest = 0.2;  // rad: coarser than any scanner; performance
+        for (double reach = growth * std::max(quantile_of(nearest, 0.5), ray_sphere::same_ray);
+             reach < widest; reach *= growth) {
+            const auto surrounded = std::count_if(some.begin(), some.end(), [&](std::size_t i) {
+                return rays.is_surrounded(i, reach);
+            });
+            if (2 * static_cast<std::size_t>(surrounded) >= some.size()) return reach;
+        }
+        return 0.0;
+    }
+
+    double usual_ = 0.0;
+    spatial_index sample_;   // some rays,
+    scratch<double> local_;  // and the reach around each
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/filters/remove_silhouettes.hpp --------------------------------------------------
+
+/// @file
+/// Removes the points at silhouettes that wide beams return wrongly: next to an edge, where a part
+/// of the beam still hits the surface, which makes the leg of a chair seem wider; and between two
+/// surfaces, at a mean of their ranges (mixed pixels; skimmed points in Klasing 2010, Sec. 5.8.4).
+/// What is left of each surface is about as wide as the surface truly is.
+///
+///     auto kept = gnomon::remove_silhouettes(scan, {.divergence = gnomon::radians(0.010)});
+///     gnomon::scan seen = gnomon::subset(scan, kept);
+///
+/// Neighbors of a point are here the points whose rays are next to its own, at whatever range: no
+/// raster is needed, only view points.
+
+namespace gnomon {
+
+/// What a silhouette is, and how much of a surface next to it is lost.
+struct silhouette_options {
+    angle divergence = radians(0.010);  ///< full angle of the beams; that of wide laser beams
+    /// Neighboring rays whose ranges differ by more [m] have hit two surfaces; chosen on
+    /// simulation::furniture_models(), seeds 1 to 3.
+    double max_jump = 0.30;
+
+    /// @throws std::invalid_argument  unless divergence is from 0 to 90 degrees and max_jump >= 0
+    void require_valid() const {
+        detail::require(divergence >= degrees(0.0) && divergence <= degrees(90.0),
+                        "remove_silhouettes: the divergence must be from 0 to 90 degrees");
+        detail::require(max_jump >= 0.0,
+                        "remove_silhouettes: max_jump must not be negative or NaN");
+    }
+};
 
 /// The indices of the points that are at no silhouette, ascending; see subset.
 ///
@@ -20178,11 +20275,11 @@ class ray_sphere {
 /// silhouette is itself part of the half beam. So any beam, even one of zero width, costs at least
 /// one ray at each side of a leg: only use it for beams that are wider than rays are apart.
 ///
-/// Rays should be about equally dense: where they are much farther apart than most, points are
-/// removed. So are those of surfaces at grazing incidence, where neighboring ranges differ by more
-/// than max_jump. Points without a ray, not finite or at their view point, are left out. If rays
-/// are not next to each other in two directions, as in a single scan line, no silhouette is found,
-/// and all points with a ray are kept.
+/// How far rays are apart is measured around each; where they are more than four times farther
+/// apart than most, points are removed. So are those of surfaces at grazing incidence, where
+/// neighboring ranges differ by more than max_jump. Points without a ray, not finite or at their
+/// view point, are left out. If rays are not next to each other in two directions, as in a single
+/// scan line, no silhouette is found, and all points with a ray are kept.
 ///
 /// @param points      any point range of n points [m]; seen from the origin without view points.
 ///                    Scans from view points farther apart than 2 m do not count as neighbors;
@@ -20202,18 +20299,19 @@ template <class R, execution X = sequential, class Proj = std::identity>
     const auto& team = detail::staying(run);
     const detail::ray_sphere rays(points, options.max_jump, team, projection);
     const std::size_t n = rays.size();
-    const double reach = detail::reach_of_raster(rays);
+    const detail::raster_reach reach(rays, team);
     detail::scratch<std::uint8_t> is_end(n, 0), is_kept(n, 0);
     detail::for_each_chunk(team, n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i)
-            if (rays.has_ray(i) && reach > 0.0) is_end[i] = rays.is_surrounded(i, reach) ? 0 : 1;
+            if (rays.has_ray(i) && reach.is_known())
+                is_end[i] = rays.is_surrounded(i, reach.around(rays, i)) ? 0 : 1;
     });
     const double half_beam = 0.5 * options.divergence.radians();
     detail::for_each_chunk(team, n, [&](std::size_t begin, std::size_t end) {
         for (std::size_t i = begin; i < end; ++i) {
             if (!rays.has_ray(i) || is_end[i] != 0) continue;
             // The silhouette itself has lost a ray already.
-            const double rest = reach > 0.0 ? half_beam - rays.distance_of(i, 1) : 0.0;
+            const double rest = reach.is_known() ? half_beam - rays.distance_of(i, 1) : 0.0;
             const auto at_end = [&](const neighbor& q) { return is_end[q.index] != 0; };
             is_kept[i] = rest > 0.0 && std::ranges::any_of(rays.within(i, rest), at_end) ? 0 : 1;
         }
@@ -25490,6 +25588,1004 @@ zernike_descriptor zernike_descriptor::of(const R& points, const zernike_options
 
 }  // namespace gnomon
 
+// -------- gnomon/core/rigid_motion.hpp -----------------------------------------------------------
+
+/// @file
+/// Rigid motions: the pose of a sensor, of a scan in a map, or of an object in a room.
+
+namespace gnomon {
+
+/// A rigid motion from a local frame to an outer frame: the point x of the local frame is
+/// rotation * x + position in the outer frame.
+struct rigid_motion {
+    /// From the local frame to the outer one.
+    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of the local frame [m]
+
+    /// The motion of a frame that stands on the ground, the plane z = 0: at (x, y) [m], turned to
+    /// the left by `yaw`.
+    [[nodiscard]] static rigid_motion on_ground(double x, double y, angle yaw) {
+        rigid_motion m;
+        m.rotation(0, 0) = m.rotation(1, 1) = cos(yaw);
+        m.rotation(1, 0) = sin(yaw);
+        m.rotation(0, 1) = -sin(yaw);
+        m.position = {x, y, 0.0};
+        return m;
+    }
+
+    /// A direction of the local frame, expressed in the outer frame.
+    [[nodiscard]] Eigen::Vector3d direction_out(const Eigen::Vector3d& v) const {
+        return detail::product(rotation, v);
+    }
+    /// A direction of the outer frame, expressed in the local frame.
+    [[nodiscard]] Eigen::Vector3d direction_in(const Eigen::Vector3d& v) const {
+        return {rotation(0, 0) * v.x() + rotation(1, 0) * v.y() + rotation(2, 0) * v.z(),
+                rotation(0, 1) * v.x() + rotation(1, 1) * v.y() + rotation(2, 1) * v.z(),
+                rotation(0, 2) * v.x() + rotation(1, 2) * v.y() + rotation(2, 2) * v.z()};
+    }
+    /// A point of the local frame, expressed in the outer frame [m].
+    [[nodiscard]] Eigen::Vector3d point_out(const Eigen::Vector3d& p) const {
+        return direction_out(p) + position;
+    }
+    /// A point of the outer frame, expressed in the local frame [m].
+    [[nodiscard]] Eigen::Vector3d point_in(const Eigen::Vector3d& p) const {
+        return direction_in(p - position);
+    }
+
+    /// The motion from the outer frame to the local one.
+    [[nodiscard]] rigid_motion inverse() const {
+        rigid_motion m;
+        for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j) m.rotation(i, j) = rotation(j, i);
+        m.position = detail::scaled(-1.0, direction_in(position));
+        return m;
+    }
+
+    /// The composition of two motions: `inner` is given in the local frame of this one.
+    [[nodiscard]] rigid_motion operator*(const rigid_motion& inner) const {
+        rigid_motion result;
+        for (int j = 0; j < 3; ++j) {
+            const Eigen::Vector3d column = direction_out(detail::column(inner.rotation, j));
+            for (int i = 0; i < 3; ++i) result.rotation(i, j) = column[i];
+        }
+        result.position = point_out(inner.position);
+        return result;
+    }
+};
+
+/// Returns whether a motion is rigid: finite, with orthonormal, right-handed axes, to a tolerance
+/// of 1e-9.
+[[nodiscard]] inline bool is_rigid(const rigid_motion& p) {
+    constexpr double tolerance = 1e-9;
+    const auto& m = p.rotation;
+    for (int i = 0; i < 3; ++i) {
+        for (int j = 0; j <= i; ++j) {
+            const double product = m(i, 0) * m(j, 0) + m(i, 1) * m(j, 1) + m(i, 2) * m(j, 2);
+            if (!(std::abs(product - (i == j ? 1.0 : 0.0)) < tolerance)) return false;
+        }
+    }
+    // The determinant of orthonormal axes is 1, or -1 if they are left-handed.
+    const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) +
+                               m(0, 1) * (m(1, 2) * m(2, 0) - m(1, 0) * m(2, 2)) +
+                               m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
+    return determinant > 0.0 && is_finite(p.position);
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/features/alignment.hpp ----------------------------------------------------------
+
+/// @file
+/// The pose of points on a surface with its covariance: the result of `align_to_surface`, and its
+/// options.
+
+namespace gnomon {
+
+/// Noise, what may move, and which points correspond.
+struct alignment_options {
+    /// Of the points, along their rays, or in all directions where view points are unknown.
+    /// Unevenness of the surface, or of its samples, is stated as noise too: `noise.plus(0.002)`.
+    noise_curve noise = constant_noise{};
+    /// Of the samples of the surface, independent of each other; none for a model.
+    noise_curve surface_noise = constant_noise{0.0};
+    /// Of the normals of the surface: directions of the motion that only variations of this size
+    /// determine are degenerate.
+    angle normal_noise = degrees(1.0);
+    /// Only turns about the z-axis of the surface's frame and shifts normal to it, as those of an
+    /// object on the ground; else all six.
+    bool on_ground = false;
+    bool two_sided = false;           ///< normals of the surface have no sign: nothing faces away
+    double max_distance = 0.10;       ///< between corresponding points at the start [m]
+    double last_distance = 0.03;      ///< the same at the end [m]: above the spacing of the samples
+    angle max_angle = degrees(45.0);  ///< between the normals of corresponding points
+    int max_iterations = 50;          ///< on all points, and on a sample of them before
+
+    /// @throws std::invalid_argument  unless 0 < last_distance <= max_distance, both finite, angles
+    ///                                are from 0 to 90 degrees, and there is an iteration
+    void require_valid() const {
+        using detail::require;
+        require(max_distance > 0.0 && std::isfinite(max_distance),
+                "align_to_surface: max_distance must be positive and finite");
+        require(last_distance > 0.0 && last_distance <= max_distance,
+                "align_to_surface: last_distance must be positive, at most max_distance");
+        for (const angle a : {normal_noise, max_angle})
+            require(a >= degrees(0.0) && a <= degrees(90.0),
+                    "align_to_surface: an angle must be from 0 to 90 degrees");
+        require(max_iterations > 0, "align_to_surface: requires an iteration");
+    }
+};
+
+/// The rigid motion from the frame of points to that of a surface, with its covariance.
+struct alignment {
+    /// What an alignment can come to.
+    enum class outcome : std::uint8_t {
+        converged,      ///< the points determine all that was free to move
+        not_converged,  ///< the pose is that of the last iteration
+        /// At the last iteration no more points were near the surface than there are parameters.
+        /// The pose is that of the last step that had enough.
+        too_few_points,
+        /// The points do not determine some directions of the motion, such as a plane that slides
+        /// on itself or a leg of a table that turns about its axis. Along these the pose is that of
+        /// the start, and the covariance is large.
+        degenerate
+    };
+    /// Of turns about three axes [rad], then of shifts along them [m].
+    using covariance_matrix = detail::parameter_covariance<6>;
+    /// Of directions that the points do not determine [m]; a turn has it over the root mean square
+    /// distance of the points from `center`.
+    static constexpr double unknown_deviation = 1e3;
+
+    outcome status = outcome::too_few_points;  ///< of this alignment
+    rigid_motion pose;                         ///< of the points' frame in that of the surface
+    /// Of the turns: the centroid of the points, in the frame of the surface [m].
+    Eigen::Vector3d center{0.0, 0.0, 0.0};
+    /// Of a small motion in the frame of the surface, which leads from the estimated pose to the
+    /// true one: a turn about `center`, as a rotation vector, and a shift. Zero in the rows and
+    /// columns of directions that were not free to move.
+    covariance_matrix covariance = covariance_matrix::Zero();
+    std::size_t determined = 0;  ///< directions of the motion that the points determine
+    std::size_t points = 0;      ///< those that are finite
+    std::size_t inliers = 0;     ///< points whose residual has a weight above 0
+    double rms = 0.0;            ///< root mean square distance of inliers from the surface [m]
+    int iterations = 0;          ///< on all points
+
+    /// Whether all that was free to move is known.
+    [[nodiscard]] bool is_usable() const { return status == outcome::converged; }
+
+    /// The same alignment seen from the other side: `pose` is that of the surface in the frame of
+    /// the points, and center and covariance are expressed there. O(1).
+    [[nodiscard]] alignment inverse() const {
+        alignment other = *this;
+        other.pose = pose.inverse();
+        other.center = pose.point_in(center);
+        // T^-1 D^-1 T is a turn by -R^T w about the other center, and a shift by -R^T s.
+        detail::parameter_covariance<6> turned = covariance_matrix::Zero();
+        for (int i = 0; i < 3; ++i) {
+            for (int j = 0; j < 3; ++j)
+                turned(i, j) = turned(3 + i, 3 + j) = other.pose.rotation(i, j);
+        }
+        other.covariance = propagated(turned);
+        return other;
+    }
+
+    /// The covariance if turns are about another place, in the frame of the surface [m]: that of
+    /// the shift is then the covariance of this place. O(1).
+    [[nodiscard]] covariance_matrix covariance_about(const Eigen::Vector3d& place) const {
+        // w x d, for the offset d of the place from the center, is added to the shift.
+        const Eigen::Vector3d d = detail::difference(place, center);
+        covariance_matrix moved = covariance_matrix::Identity();
+        moved(3, 1) = d.z();
+        moved(3, 2) = -d.y();
+        moved(4, 0) = -d.z();
+        moved(4, 2) = d.x();
+        moved(5, 0) = d.y();
+        moved(5, 1) = -d.x();
+        return propagated(moved);
+    }
+
+  private:
+    /// A C A^T.
+    [[nodiscard]] covariance_matrix propagated(const covariance_matrix& a) const {
+        covariance_matrix left = covariance_matrix::Zero(), all = covariance_matrix::Zero();
+        for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 6; ++j)
+                for (int k = 0; k < 6; ++k) left(i, j) += a(i, k) * covariance(k, j);
+        for (int i = 0; i < 6; ++i)
+            for (int j = 0; j < 6; ++j)
+                for (int k = 0; k < 6; ++k) all(i, j) += left(i, k) * a(j, k);
+        return all;
+    }
+};
+
+/// The name of an outcome, for tables and messages.
+[[nodiscard]] constexpr const char* to_string(alignment::outcome o) {
+    switch (o) {
+        case alignment::outcome::converged:
+            return "converged";
+        case alignment::outcome::not_converged:
+            return "not_converged";
+        case alignment::outcome::too_few_points:
+            return "too_few_points";
+        case alignment::outcome::degenerate:
+            return "degenerate";
+    }
+    return "unknown";
+}
+
+}  // namespace gnomon
+
+// -------- gnomon/features/detail/movable_cloud.hpp -----------------------------------------------
+
+/// @file
+/// The points that `align_to_surface` moves, relative to their centroid.
+
+namespace gnomon::detail {
+
+/// A point to align, relative to the centroid of all, in its own frame.
+struct movable_point {
+    Eigen::Vector3d at;
+    Eigen::Vector3d ray;     ///< unit vector from its view point; zero where that is unknown
+    Eigen::Vector3d normal;  ///< unit vector; zero where it is missing
+    double variance;         ///< of its noise, along the ray or in all directions [m^2]
+};
+
+/// The finite ones of the points to align.
+struct movable_cloud {
+    scratch<movable_point> points;
+    scratch<movable_point> sample;            ///< some 400 of more than twice as many points
+    Eigen::Vector3d centroid{0.0, 0.0, 0.0};  ///< [m]
+    double lever = 1.0;                       ///< root mean square distance from it [m]
+    double largest = 0.0;                     ///< coordinate [m]
+
+    /// @param normals  (i): the normal of point i, zero or not finite if it is missing
+    template <class R, class Proj>
+    movable_cloud(const R& range, auto&& normals, const noise_curve& noise, Proj projection) {
+        const position_view<R, Proj> p(range, std::move(projection));
+        with_table_of(range, [&](const viewpoint_table& viewpoints) {
+            points.reserve(p.size());
+            Eigen::Vector3d first{0.0, 0.0, 0.0}, sum = first;
+            for (std::size_t i = 0; i < p.size(); ++i) {
+                const Eigen::Vector3d x = p[i];
+                if (!is_finite(x)) continue;
+                if (points.empty()) first = x;
+                const Eigen::Vector3d v = viewpoints[i], n = normals(i);
+                const Eigen::Vector3d way = is_finite(v) ? difference(x, v) : x;
+                movable_point m{
+                    difference(x, first), {0, 0, 0}, {0, 0, 0}, noise.variance_along(way)};
+                if (!viewpoints.empty() && is_finite(v) && has_length(way))
+                    m.ray = direction_of(way);
+                if (all_finite(n) && has_length(n)) m.normal = direction_of(n);
+                sum = combined(1.0, sum, 1.0, m.at);
+                for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(x[a]));
+                points.push_back(m);
+            }
+            if (points.empty()) return;
+            const double n = static_cast<double>(points.size());
+            const Eigen::Vector3d mean = scaled(1.0 / n, sum);
+            centroid = combined(1.0, first, 1.0, mean);
+            double squares = 0.0;
+            for (movable_point& m : points) {
+                m.at = difference(m.at, mean);
+                squares += dot(m.at, m.at) / n;
+            }
+            if (squares > 0.0) lever = std::sqrt(squares);
+            constexpr double enough = 400.0;  // performance only
+            random_stream random(0);
+            if (n > 2.0 * enough) {
+                for (const movable_point& m : points)
+                    if (random.uniform() * n < enough) sample.push_back(m);
+            }
+        });
+    }
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/surface_matches.hpp ---------------------------------------------
+
+/// @file
+/// Corresponding samples of a surface, for points that move a little from one query to the next:
+/// each point keeps the samples that a search has found, and searches again only when another
+/// sample may be nearer than these.
+
+namespace gnomon::detail {
+
+/// Where a point is on a surface.
+struct surface_match {
+    std::size_t entry = 0;   ///< in the list of the point: the nearest compatible one
+    point_index sample = 0;  ///< its index
+    Eigen::Vector3d normal;  ///< of the surface, where the point is
+    double distance = 0.0;   ///< signed, of the point from the surface [m]
+    double of_point = 0.0;   ///< variance that the noise of the point gives it [m^2]
+    double of_sample = 0.0;  ///< variance that the noise of the sample gives it [m^2]
+    double variance = 0.0;   ///< the sum, but that of a ray at least at `oblique` cosine [m^2]
+};
+
+/// The compatible samples that a search has found, nearest first. (Copies: performance only.)
+struct sample_list {
+    struct sample {
+        Eigen::Vector3d at, normal;
+        point_index index;
+    };
+
+    static constexpr std::size_t capacity = 8;  // performance only: enough for 1.6 spacings
+
+    std::array<sample, capacity> of;
+    std::size_t count = 0;
+    Eigen::Vector3d searched{0.0, 0.0, 0.0};  ///< from where
+    double reach = -1.0;  ///< all compatible samples up to this distance from there are listed
+};
+
+/// A surface that points are aligned to.
+template <class Normals>
+class matched_surface {
+  public:
+    /// Keeps references to all arguments.
+    matched_surface(const spatial_index& samples, const Normals& normals,
+                    const alignment_options& options)
+        : samples_(samples),
+          normals_(normals),
+          options_(options),
+          least_cosine_(cos(options.max_angle)) {}
+
+    /// The match of a point at `x` with the axes of `rotation`, at most `limit` from its sample.
+    /// @param found  working memory
+    /// @return whether there is one
+    [[nodiscard]] bool match(const movable_point& p, const Eigen::Vector3d& x,
+                             const Eigen::Matrix3d& rotation, double limit, sample_list& list,
+                             std::vector<neighbor>& found, surface_match& match) const {
+        const Eigen::Vector3d ray = product(rotation, p.ray), own = product(rotation, p.normal);
+        if (!find_in(list, x, ray, own, limit, match)) {
+            search(list, x, ray, own, limit, found);
+            if (!find_in(list, x, ray, own, limit, match)) return false;
+        }
+        if (match.distance > limit) return false;
+        resolve_edge(list, x, ray, own, match);
+        set_distance(list, x, ray, own, p, match);
+        return true;
+    }
+
+    /// Measures the distance of a point at `x` from the sample that it has.
+    void measure(const movable_point& p, const Eigen::Vector3d& x, const Eigen::Matrix3d& rotation,
+                 const sample_list& list, surface_match& match) const {
+        set_distance(list, x, product(rotation, p.ray), product(rotation, p.normal), p, match);
+    }
+
+  private:
+    static constexpr double smooth = 0.8;  // chosen: cosine of 37 degrees, within one surface
+    static constexpr double slack = 1.25;  // of the search radius (performance only)
+
+    [[nodiscard]] bool is_compatible(const Eigen::Vector3d& normal, const Eigen::Vector3d& ray,
+                                     const Eigen::Vector3d& own) const {
+        const double facing = dot(normal, ray), aligned = dot(normal, own);
+        const bool is_seen = options_.two_sided || is_missing(ray) || facing < 0.0;
+        return is_seen && (is_missing(own) || std::abs(aligned) >= least_cosine_);
+    }
+
+    /// Sets the nearest compatible sample of a list and its distance; infinite if there is none.
+    /// @return whether no sample that is not listed can be nearer, or within the limit
+    [[nodiscard]] bool find_in(const sample_list& list, const Eigen::Vector3d& x,
+                               const Eigen::Vector3d& ray, const Eigen::Vector3d& own, double limit,
+                               surface_match& match) const {
+        double nearest = std::numeric_limits<double>::infinity();
+        for (std::size_t k = 0; k < list.count; ++k) {
+            const double squared = squared_distance(list.of[k].at, x);
+            if (squared >= nearest || !is_compatible(list.of[k].normal, ray, own)) continue;
+            nearest = squared;
+            match.entry = k;
+        }
+        match.distance = std::sqrt(nearest);
+        if (list.reach < 0.0) return false;
+        const double moved = length(difference(x, list.searched));
+        return std::min(match.distance, limit) + moved <= list.reach;
+    }
+
+    /// Searches for the samples near x.
+    void search(sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
+                const Eigen::Vector3d& own, double limit, std::vector<neighbor>& found) const {
+        // Of a thin board the nearest samples may all be on the other side. (Performance only, but
+        // for boards of less than a fifth of the distance of a point.)
+        constexpr std::size_t first = 12, most = 64;
+        list.searched = x;
+        for (const std::size_t k : {first, most}) {
+            list.count = 0;
+            samples_.nearest_within_into(found, x, k, slack * limit);
+            list.reach =
+                found.size() < k ? slack * limit : std::sqrt(found.back().squared_distance);
+            for (const neighbor& q : found) {
+                if (!is_unit(normals_[q.index].normal) ||
+                    !is_compatible(normals_[q.index].normal, ray, own))
+                    continue;
+                list.of[list.count++] = {samples_[q.index], normals_[q.index].normal, q.index};
+                if (list.count < list.of.size()) continue;
+                list.reach = std::sqrt(q.squared_distance);
+                break;
+            }
+            if (list.count > 0 || found.size() < k) break;
+        }
+        // Also where nothing is compatible the answer is that of this search.
+        list.reach = std::max(list.reach, list.count == 0 ? limit : 0.0);
+    }
+
+    [[nodiscard]] static bool is_unit(const Eigen::Vector3d& n) {
+        constexpr double rounding = 1e-3;  // numerical: of normals in float
+        return std::abs(dot(n, n) - 1.0) < rounding;
+    }
+
+    /// Near an edge the nearest sample may be on the other one of two surfaces. Where they meet in
+    /// a convex edge a ray meets the one whose plane it crosses later, else the one that it crosses
+    /// earlier, however noise displaces the point along the ray.
+    void resolve_edge(const sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
+                      const Eigen::Vector3d& own, surface_match& match) const {
+        constexpr double least = 0.05;  // numerical: cosine of ray and normal
+        const auto crossing = [&](const sample_list::sample& q) {
+            const double off = dot(q.normal, difference(x, q.at));
+            return is_missing(ray) ? off : off / std::max(std::abs(dot(q.normal, ray)), least);
+        };
+        double chosen = 0.0;
+        bool is_known = false;
+        for (std::size_t k = 0; k < list.count; ++k) {
+            const auto &q = list.of[k], &here = list.of[match.entry];
+            if (dot(q.normal, here.normal) >= smooth || !is_compatible(q.normal, ray, own))
+                continue;
+            const Eigen::Vector3d way = difference(q.at, here.at);
+            const double from_here = dot(here.normal, way), from_there = -dot(q.normal, way);
+            if (!(from_here * from_there > 0.0)) continue;
+            if (!std::exchange(is_known, true)) chosen = crossing(here);
+            const double other = crossing(q);
+            if (!(from_here < 0.0 ? other > chosen : other < chosen)) continue;
+            chosen = other;
+            match.entry = k;
+        }
+    }
+
+    /// Sets normal, distance and variances of a match to the sample that it has.
+    void set_distance(const sample_list& list, const Eigen::Vector3d& x, const Eigen::Vector3d& ray,
+                      const Eigen::Vector3d& own, const movable_point& p,
+                      surface_match& match) const {
+        constexpr double oblique = 0.2;  // chosen: of ray and normal, 78 degrees
+        const Eigen::Vector3d &q = list.of[match.entry].at, &normal = list.of[match.entry].normal;
+        match.sample = list.of[match.entry].index;
+        Eigen::Vector3d sum = scaled(1e-6, normal);  // numerical: never zero
+        for (std::size_t k = 0; k < list.count; ++k) {
+            const Eigen::Vector3d& n = list.of[k].normal;
+            if (dot(n, normal) < smooth || !is_compatible(n, ray, own)) continue;
+            const double inside =
+                1.0 - squared_distance(list.of[k].at, x) / (list.reach * list.reach);
+            if (inside > 0.0) sum = combined(1.0, sum, inside * inside, n);
+        }
+        match.normal = direction_of(sum);
+        // With the mean of the normals at both ends the distance from a sphere is exact.
+        const Eigen::Vector3d mean = direction_of(combined(1.0, normal, 1.0, match.normal));
+        match.distance = dot(mean, difference(x, q));
+        const double c = is_missing(ray) ? 1.0 : dot(mean, ray);
+        match.of_point = p.variance * c * c;
+        match.of_sample = 0.0;
+        if (!options_.surface_noise.is_zero()) {
+            const Eigen::Vector3d way = difference(q, samples_.viewpoints[match.sample]);
+            const double s = samples_.viewpoints.empty() || !has_length(way)
+                                 ? 1.0
+                                 : dot(mean, direction_of(way));
+            match.of_sample = options_.surface_noise.variance_along(way) * s * s;
+        }
+        match.variance = p.variance * std::max(c * c, oblique * oblique) + match.of_sample;
+    }
+
+    const spatial_index& samples_;
+    const Normals& normals_;
+    const alignment_options& options_;
+    double least_cosine_;
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/motion_equations.hpp --------------------------------------------
+
+/// @file
+/// The normal equations of a small rigid motion of points on a surface: their robust sums, the
+/// directions that they determine, and the covariance of the solution. Parameters are a turn about
+/// the three axes, in units in which it moves the points by 1 m on average, and a shift [m].
+
+namespace gnomon::detail {
+
+/// Turns about three axes, then shifts along them.
+using motion_vector = std::array<double, 6>;
+
+/// Whether parameter i may not change.
+[[nodiscard]] constexpr bool is_fixed(std::size_t i, bool on_ground) {
+    return on_ground && (i < 2 || i == 5);
+}
+
+/// The residual of one point, in deviations of its noise, and its derivatives.
+struct motion_term {
+    bool is_matched = false;
+    std::size_t entry = 0;  ///< of the sample in the list of the point
+    point_index sample = 0;
+    double weight = 0.0;  ///< of Tukey's biweight
+    double residual = 0.0;
+    double distance = 0.0;      ///< from the surface [m]
+    double own_share = 0.0;     ///< of the variance of the residual: that of the point
+    double sample_share = 0.0;  ///< that of the sample; the sum is below 1 at oblique incidence
+    double per_metre = 0.0;     ///< 1 / deviation
+    Eigen::Vector3d arm;        ///< from the centroid, over the lever
+    motion_vector row{};
+
+    /// @param from_center  of the point [m]
+    void set(const surface_match& m, const Eigen::Vector3d& from_center, double lever,
+             double rounding, const alignment_options& options) {
+        const double variance = m.variance + rounding * rounding;
+        per_metre = 1.0 / std::sqrt(variance);
+        entry = m.entry;
+        sample = m.sample;
+        distance = m.distance;
+        residual = distance * per_metre;
+        sample_share = m.of_sample / variance;
+        own_share = (m.of_point + rounding * rounding) / variance;
+        arm = scaled(1.0 / lever, from_center);
+        const Eigen::Vector3d turn = cross(arm, m.normal);
+        for (std::size_t a = 0; a < 3; ++a) {
+            const auto i = static_cast<int>(a);
+            row[a] = is_fixed(a, options.on_ground) ? 0.0 : per_metre * turn[i];
+            row[3 + a] = is_fixed(3 + a, options.on_ground) ? 0.0 : per_metre * m.normal[i];
+        }
+    }
+};
+
+/// Sums over points: J^T W J, J^T W r, and what J^T W J would be with normals in all directions.
+struct motion_sums {
+    normal_equations<6> equations;
+    square_array<6> of_all_normals{};
+
+    /// Adds a point with the weight of Tukey's biweight (Holland and Welsch 1977: 95 % efficiency).
+    /// @param scale  of the residuals, in deviations of the noise
+    /// @param width  of the weights, at least [m]
+    void add(motion_term& t, double scale, double width) {
+        constexpr double deviations = 4.685;
+        const double u = t.residual / std::max(deviations * scale, width * t.per_metre);
+        const double left = std::max(0.0, 1.0 - u * u);
+        t.weight = left * left;
+        if (t.weight == 0.0) return;
+        motion_vector row = t.row;
+        for (double& x : row) x *= left;
+        equations.add(row, left * t.residual);
+        const double w = t.weight * t.per_metre * t.per_metre;
+        const double squared = dot(t.arm, t.arm);
+        for (std::size_t i = 0; i < 3; ++i) {
+            of_all_normals[3 + i][3 + i] += w;
+            for (std::size_t j = 0; j < 3; ++j) {
+                const double arms = t.arm[static_cast<int>(i)] * t.arm[static_cast<int>(j)];
+                of_all_normals[i][j] += w * ((i == j ? squared : 0.0) - arms);
+            }
+            // (a x e_k)_i for the two other axes.
+            const std::size_t j = (i + 1) % 3, k = (i + 2) % 3;
+            of_all_normals[i][3 + k] += w * t.arm[static_cast<int>(j)];
+            of_all_normals[i][3 + j] -= w * t.arm[static_cast<int>(k)];
+        }
+    }
+
+    void add(const motion_sums& other) {
+        equations.add(other.equations);
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j < 6; ++j) of_all_normals[i][j] += other.of_all_normals[i][j];
+    }
+};
+
+/// What noise contributes to the covariance of J^T W r: that of points, which is independent, and
+/// that of samples, which all points have in common that correspond to the sample.
+[[nodiscard]] inline square_array<6> noise_of_terms(std::span<const motion_term> terms,
+                                                    std::size_t samples) {
+    square_array<6> sum{};
+    const auto add = [&](double weight, const motion_vector& row) {
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j < 6; ++j) sum[i][j] += weight * row[i] * row[j];
+    };
+    bool is_exact = true;
+    for (const motion_term& t : terms) {
+        if (!(t.weight > 0.0)) continue;
+        add(t.weight * t.own_share, t.row);
+        is_exact = is_exact && t.sample_share == 0.0;
+    }
+    if (is_exact) return sum;
+    scratch<motion_vector> of_sample(samples, motion_vector{});
+    for (const motion_term& t : terms) {
+        if (!(t.weight > 0.0)) continue;
+        const double w = std::sqrt(t.weight * t.sample_share);
+        for (std::size_t i = 0; i < 6; ++i) of_sample[t.sample][i] += w * t.row[i];
+    }
+    for (const motion_vector& row : of_sample) add(1.0, row);
+    return sum;
+}
+
+/// A step of the motion.
+struct motion_step {
+    Eigen::Vector3d turn{0.0, 0.0, 0.0}, shift{0.0, 0.0, 0.0};
+    double gain = 0.0;  ///< by which the sum of squares is to decrease
+};
+
+/// The solution of the normal equations, along the directions that they determine: the eigenvectors
+/// of J^T W J.
+class motion_solution {
+  public:
+    /// @param scale  of the residuals, in deviations of the noise
+    motion_solution(const motion_sums& sums, double scale, const alignment_options& options)
+        : right_(sums.equations.right), on_ground_(options.on_ground) {
+        square_array<6> left = sums.equations.left;
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = i + 1; j < 6; ++j) left[i][j] = left[j][i];
+        eigen_ = jacobi_eigen<6>(left);
+        constexpr double variation = 1e-9;   // numerical: of normals, 3e-5 rad squared
+        constexpr double fluctuation = 4.0;  // chosen: of that of normals with noise, squared
+        const double sine = sin(options.normal_noise);
+        const double of_noise = fluctuation * sine * sine;
+        for (std::size_t k = 0; k < 6; ++k) {
+            double with_all = 0.0;
+            for (std::size_t i = 0; i < 6; ++i)
+                for (std::size_t j = 0; j < 6; ++j)
+                    with_all += eigen_.vectors[i][k] * eigen_.vectors[j][k] *
+                                (sums.of_all_normals[std::min(i, j)][std::max(i, j)]);
+            const double value = eigen_.values[k];
+            const double deviation = scale / std::sqrt(std::max(value, 1e-300));
+            is_determined_[k] = value > variation * eigen_.values[0] &&
+                                value > of_noise * with_all && deviation < options.last_distance;
+        }
+    }
+
+    /// The number of directions that are determined.
+    [[nodiscard]] std::size_t determined() const {
+        return static_cast<std::size_t>(
+            std::count(is_determined_.begin(), is_determined_.end(), true));
+    }
+
+    /// The step to the minimum, at most `longest` [m].
+    [[nodiscard]] motion_step step(double longest) const {
+        motion_vector x{};
+        motion_step s;
+        for (std::size_t k = 0; k < 6; ++k) {
+            if (!is_determined_[k]) continue;
+            double along = 0.0;
+            for (std::size_t i = 0; i < 6; ++i) along -= eigen_.vectors[i][k] * right_[i];
+            s.gain += along * along / eigen_.values[k];
+            for (std::size_t i = 0; i < 6; ++i)
+                x[i] += eigen_.vectors[i][k] * along / eigen_.values[k];
+        }
+        double squared = 0.0;
+        for (const double a : x) squared += a * a;
+        const double shorten = std::min(1.0, longest / std::max(std::sqrt(squared), 1e-300));
+        s.turn = scaled(shorten, {x[0], x[1], x[2]});
+        s.shift = scaled(shorten, {x[3], x[4], x[5]});
+        return s;
+    }
+
+    /// The covariance of the solution.
+    /// @param noise  covariance of J^T W r
+    /// @param shown  the variance of the residuals, in that of the noise
+    [[nodiscard]] square_array<6> covariance(const square_array<6>& noise, double shown) const {
+        // Tukey's biweight on normal residuals: E w psi'^-2 psi^2 of its moments, formula.
+        constexpr double of_weights = 0.963;
+        square_array<6> c{};
+        for (std::size_t k = 0; k < 6; ++k) {
+            for (std::size_t l = 0; l < 6; ++l) {
+                double between = 0.0;
+                if (is_determined_[k] && is_determined_[l]) {
+                    for (std::size_t i = 0; i < 6; ++i)
+                        for (std::size_t j = 0; j < 6; ++j)
+                            between += eigen_.vectors[i][k] * noise[i][j] * eigen_.vectors[j][l];
+                    between *= of_weights * shown / (eigen_.values[k] * eigen_.values[l]);
+                } else if (k == l && is_free(k)) {
+                    between = alignment::unknown_deviation * alignment::unknown_deviation;
+                }
+                for (std::size_t i = 0; i < 6; ++i)
+                    for (std::size_t j = 0; j < 6; ++j)
+                        c[i][j] += eigen_.vectors[i][k] * between * eigen_.vectors[j][l];
+            }
+        }
+        return c;
+    }
+
+  private:
+    /// Whether eigenvector k is no fixed axis. Rotations leave axes without entries alone.
+    [[nodiscard]] bool is_free(std::size_t k) const {
+        for (std::size_t i = 0; i < 6; ++i)
+            if (is_fixed(i, on_ground_) && eigen_.vectors[i][k] != 0.0) return false;
+        return true;
+    }
+
+    motion_vector right_;
+    bool on_ground_;
+    small_eigen_decomposition<6> eigen_;
+    std::array<bool, 6> is_determined_{};
+};
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/detail/surface_alignment.hpp -------------------------------------------
+
+/// @file
+/// The iterations of `align_to_surface`, and the covariance of their result.
+
+namespace gnomon::detail {
+
+/// The rotation by a rotation vector (Rodrigues).
+[[nodiscard]] inline Eigen::Matrix3d rotation_of(const Eigen::Vector3d& w) {
+    const double turn = length(w);
+    Eigen::Matrix3d r = diagonal(1.0, 1.0, 1.0);
+    if (!(turn > 0.0)) return r;
+    const Eigen::Vector3d axis = scaled(1.0 / turn, w);
+    const double c = std::cos(turn), s = std::sin(turn);
+    for (int j = 0; j < 3; ++j) {
+        Eigen::Vector3d e(0.0, 0.0, 0.0);
+        e[j] = 1.0;
+        const Eigen::Vector3d turned = combined(c, e, s, cross(axis, e), (1.0 - c) * axis[j], axis);
+        for (int i = 0; i < 3; ++i) r(i, j) = turned[i];
+    }
+    return r;
+}
+
+/// The alignment of points of one cloud, or of a sample of them.
+template <class Normals, execution X>
+class surface_alignment {
+  public:
+    /// Keeps references to all arguments.
+    /// @param lever     unit of turns: a turn by 1 moves the points by this on average [m]
+    /// @param rounding  of coordinates [m]
+    surface_alignment(std::span<const movable_point> points,
+                      const matched_surface<Normals>& surface, double lever, double rounding,
+                      const alignment_options& options, const X& run)
+        : points_(points),
+          surface_(surface),
+          options_(options),
+          lever_(lever),
+          rounding_(rounding),
+          run_(run),
+          lists_(points.size()),
+          terms_(points.size()) {}
+
+    /// Moves the pose of the centered points from `pose` on.
+    /// @param limit  between corresponding points at first [m]
+    void align(rigid_motion& pose, double limit, alignment& result) {
+        result.status = alignment::outcome::not_converged;
+        double width = limit;  // of the weights [m], at least; then that of the noise
+        for (result.iterations = 1; result.iterations <= options_.max_iterations;
+             ++result.iterations) {
+            // Points between two samples would come and go without end.
+            constexpr int choosing = 15;  // chosen: iterations, as 10 are the rule
+            set_terms(pose, std::max(limit, options_.last_distance), result.iterations > choosing);
+            if (count_ <= (options_.on_ground ? 3u : 6u)) {
+                result.status = alignment::outcome::too_few_points;
+                break;
+            }
+            sum_terms(width);
+            const motion_solution solution(sums_, scale_, options_);
+            const auto step = solution.step(options_.max_distance);
+            constexpr double negligible = 0.01;  // chosen: a tenth of a deviation
+            if (width == 0.0 && step.gain <= negligible * scale_ * scale_) {
+                result.status = alignment::outcome::converged;
+                break;
+            }
+            pose.rotation = (rigid_motion{rotation_of(scaled(1.0 / lever_, step.turn)), {0, 0, 0}} *
+                             rigid_motion{pose.rotation, {0, 0, 0}})
+                                .rotation;
+            pose.position = combined(1.0, pose.position, 1.0, step.shift);
+            // Where most points are on surfaces that slide on themselves, the median is small while
+            // the others are far off: weights that start narrow would leave these out for good.
+            constexpr double shrink = 0.5;  // chosen: 5 iterations from 10 cm to 3 mm
+            constexpr double narrow = 0.1;  // chosen: of the last distance
+            limit *= shrink;
+            width = limit < narrow * options_.last_distance ? 0.0 : limit;
+        }
+        result.iterations = std::min(result.iterations, options_.max_iterations);
+    }
+
+    /// Reports the last iteration.
+    void report(alignment& result, std::size_t samples) {
+        const bool has_equations = result.status != alignment::outcome::too_few_points;
+        if (!has_equations) sums_ = {};
+        const motion_solution solution(sums_, scale_, options_);
+        result.determined = solution.determined();
+        if (has_equations) {
+            double squares = 0.0;
+            for (const motion_term& t : terms_) {
+                if (!(t.weight > 0.0)) continue;
+                ++result.inliers;
+                squares += t.distance * t.distance;
+            }
+            if (result.inliers > 0)
+                result.rms = std::sqrt(squares / static_cast<double>(result.inliers));
+            if (result.determined < (options_.on_ground ? 3u : 6u))
+                result.status = alignment::outcome::degenerate;
+        }
+        const auto c = solution.covariance(noise_of_terms(terms_, samples), shown_variance());
+        const auto unit = [&](std::size_t i) { return i < 3 ? lever_ : 1.0; };
+        for (std::size_t i = 0; i < 6; ++i)
+            for (std::size_t j = 0; j < 6; ++j)
+                result.covariance(static_cast<int>(i), static_cast<int>(j)) =
+                    c[i][j] / unit(i) / unit(j);
+    }
+
+  private:
+    /// Matches all points, and finds the scale of their residuals.
+    /// @param keep  whether each point keeps its sample
+    void set_terms(const rigid_motion& pose, double limit, bool keep) {
+        for_each_chunk(run_, points_.size(), [&](std::size_t begin, std::size_t end) {
+            std::vector<neighbor> found;
+            surface_match m;
+            for (std::size_t i = begin; i < end; ++i) {
+                const Eigen::Vector3d arm = product(pose.rotation, points_[i].at);
+                const Eigen::Vector3d x = combined(1.0, pose.position, 1.0, arm);
+                if (!keep) {
+                    terms_[i].is_matched =
+                        surface_.match(points_[i], x, pose.rotation, limit, lists_[i], found, m);
+                } else if (terms_[i].is_matched) {
+                    m.entry = terms_[i].entry;
+                    surface_.measure(points_[i], x, pose.rotation, lists_[i], m);
+                }
+                if (terms_[i].is_matched) terms_[i].set(m, arm, lever_, rounding_, options_);
+            }
+        });
+        residuals_.clear();
+        for (const motion_term& t : terms_)
+            if (t.is_matched) residuals_.push_back(std::abs(t.residual));
+        count_ = residuals_.size();
+        if (count_ == 0) return;
+        const auto middle = residuals_.begin() + static_cast<std::ptrdiff_t>(count_ / 2);
+        std::nth_element(residuals_.begin(), middle, residuals_.end());
+        constexpr double of_normal = 0.6745;  // median of |x| of a standard normal distribution
+        scale_ = std::max(1.0, *middle / of_normal);
+    }
+
+    /// Sums of fixed chunks of the points, so that they do not depend on the threads.
+    void sum_terms(double width) {
+        scratch<motion_sums> parts(chunk_count(terms_.size()));
+        for_each_chunk(run_, terms_.size(), [&](std::size_t begin, std::size_t end) {
+            motion_sums sum;
+            for (std::size_t i = begin; i < end; ++i) {
+                if (terms_[i].is_matched) sum.add(terms_[i], scale_, width);
+            }
+            parts[begin / chunk_size] = sum;
+        });
+        sums_ = {};
+        for (const motion_sums& part : parts) sums_.add(part);
+    }
+
+    /// The variance of residuals, in that of the noise: 1 unless they are significantly larger.
+    [[nodiscard]] double shown_variance() const {
+        // The median absolute deviation of n normal numbers has this deviation times 1 / sqrt(n).
+        constexpr double of_median = 1.17, deviations = 3.0;
+        const double most =
+            1.0 + deviations * of_median /
+                      std::sqrt(static_cast<double>(std::max<std::size_t>(1, count_)));
+        return scale_ > most ? scale_ * scale_ : 1.0;
+    }
+
+    std::span<const movable_point> points_;
+    const matched_surface<Normals>& surface_;
+    const alignment_options& options_;
+    double lever_, rounding_;
+    const X& run_;
+    scratch<sample_list> lists_;
+    scratch<motion_term> terms_;
+    scratch<double> residuals_;
+    motion_sums sums_;
+    std::size_t count_ = 0;
+    double scale_ = 1.0;  // of residuals, in deviations of their noise; at least 1
+};
+
+/// Aligns a range of points to a surface.
+/// @param normals  (i): the normal of point i, zero or not finite if it is missing
+template <class R, class S, class Normals, execution X, class Proj>
+[[nodiscard]] alignment aligned(const R& points, auto&& normals, const S& surface,
+                                const Normals& surface_normals, const rigid_motion& start,
+                                const alignment_options& options, const X& run, Proj projection) {
+    options.require_valid();
+    require(std::ranges::size(surface_normals) == std::ranges::size(surface),
+            "align_to_surface: samples of the surface and normals differ in number");
+    require(is_rigid(start), "align_to_surface: the start is no rigid motion");
+    const auto& team = staying(run);
+    const auto& index = index_of(surface, team, std::identity());
+    const movable_cloud cloud(points, normals, options.noise, projection);
+    alignment result;
+    result.points = cloud.points.size();
+    result.pose = start;
+    rigid_motion pose{start.rotation, start.point_out(cloud.centroid)};
+    double largest = cloud.largest;
+    for (int a = 0; a < 3; ++a) largest = std::max(largest, std::abs(pose.position[a]));
+    constexpr double operations = 4.0;  // numerical: that rounded a coordinate
+    constexpr double fine = 1e-9;       // numerical: of the extent of the points
+    const double epsilon = std::max(epsilon_of<position_view<R, Proj>>(points), index.epsilon());
+    const double rounding = std::hypot(operations * epsilon * largest, fine * cloud.lever);
+    const matched_surface<Normals> matched(index, surface_normals, options);
+    double limit = options.max_distance;
+    if (!cloud.sample.empty()) {
+        const sequential here;
+        surface_alignment<Normals, sequential> first(cloud.sample, matched, cloud.lever, rounding,
+                                                     options, here);
+        rigid_motion moved = pose;
+        first.align(moved, limit, result);
+        if (result.status != alignment::outcome::too_few_points) {
+            pose = moved;
+            limit = 0.0;
+        }
+    }
+    surface_alignment<Normals, std::remove_cvref_t<decltype(team)>> all(
+        cloud.points, matched, cloud.lever, rounding, options, team);
+    all.align(pose, limit, result);
+    all.report(result, index.size());
+    result.center = pose.position;
+    result.pose = {pose.rotation,
+                   difference(pose.position, product(pose.rotation, cloud.centroid))};
+    return result;
+}
+
+}  // namespace gnomon::detail
+
+// -------- gnomon/features/align_to_surface.hpp ---------------------------------------------------
+
+/// @file
+/// Aligns points to a surface, to register scans or to fit a model to what a sensor sees of it:
+///
+///     const gnomon::spatial_index map(first_scan);
+///     const auto surface = gnomon::estimate_normals(map);
+///     const auto found = gnomon::align_to_surface(second_scan, map, surface, start,
+///                                                 {.noise = noise, .surface_noise = noise});
+///     if (found.is_usable()) use(found.pose, found.covariance);
+///
+/// Iterative closest points with the distance from the tangent plane (Chen and Medioni 1992), by
+/// Gauss and Newton's method. Residuals count in deviations of their noise with Tukey's biweight
+/// (Holland and Welsch 1977), whose scale is that of their median until it is that of the noise.
+/// The normal of the surface at a point is interpolated between the samples next to it. Large
+/// clouds are first aligned by a sample of them.
+
+namespace gnomon {
+
+/// Aligns points with normals to a surface: a point and a sample of the surface correspond only if
+/// their normals, whose signs do not matter, differ by at most `max_angle`.
+///
+/// @param points           any point range of n points [m]; where view points are known, noise lies
+///                         along the rays and samples that face away from them are left out
+/// @param normals          n surface elements with normals; those that are missing or not finite
+///                         are compatible with all
+/// @param surface          m samples of the surface [m], or the `spatial_index` of them
+/// @param surface_normals  m surface elements with unit normals, towards the side that can be seen;
+///                         samples without one are left out
+/// @param start            of the points' frame in that of the surface
+/// @param options          noise, what may move, distances
+/// @param run              `sequential{}` or `threads{n}`; the result does not depend on it
+/// @param projection       maps an element of `points` to a point
+/// @return the pose, its covariance and the outcome; points that are not finite are left out
+/// @throws std::invalid_argument  if points or samples and their normals or view points differ in
+///                                number, the start is no rigid motion, or options are not valid
+/// Complexity: O(n log m) for each of a few iterations.
+template <class R, normal_range PointNormals, class S, normal_range Normals,
+          execution X = sequential, class Proj = std::identity>
+    requires point_range<R, Proj> && point_range<S>
+[[nodiscard]] alignment align_to_surface(const R& points, const PointNormals& normals,
+                                         const S& surface, const Normals& surface_normals,
+                                         const rigid_motion& start = {},
+                                         const alignment_options& options = {}, const X& run = {},
+                                         Proj projection = {}) {
+    detail::require(std::ranges::size(normals) == std::ranges::size(points),
+                    "align_to_surface: points and normals differ in number");
+    return detail::aligned(
+        points, [&](std::size_t i) -> Eigen::Vector3d { return normals[i].normal; }, surface,
+        surface_normals, start, options, run, std::move(projection));
+}
+
+/// Aligns points without normals. Parameters, result and errors are as above.
+template <class R, class S, normal_range Normals, execution X = sequential,
+          class Proj = std::identity>
+    requires point_range<R, Proj> && point_range<S>
+[[nodiscard]] alignment align_to_surface(const R& points, const S& surface,
+                                         const Normals& surface_normals,
+                                         const rigid_motion& start = {},
+                                         const alignment_options& options = {}, const X& run = {},
+                                         Proj projection = {}) {
+    return detail::aligned(
+        points, [](std::size_t) { return Eigen::Vector3d(0.0, 0.0, 0.0); }, surface,
+        surface_normals, start, options, run, std::move(projection));
+}
+
+}  // namespace gnomon
+
 // -------- gnomon/neighborhoods/detail/image_links.hpp --------------------------------------------
 
 /// @file
@@ -29033,68 +30129,14 @@ namespace gnomon::simulation {
 
 /// A rigid motion: the point x of the local frame is rotation * x + position in the outer frame.
 /// Frames: x forward, y left, z up.
-struct pose {
-    /// From the object's frame to the world's.
-    Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
-    Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< [m]
-
-    /// A direction of the local frame, expressed in the outer frame.
-    [[nodiscard]] Eigen::Vector3d direction_out(const Eigen::Vector3d& v) const {
-        return {rotation(0, 0) * v.x() + rotation(0, 1) * v.y() + rotation(0, 2) * v.z(),
-                rotation(1, 0) * v.x() + rotation(1, 1) * v.y() + rotation(1, 2) * v.z(),
-                rotation(2, 0) * v.x() + rotation(2, 1) * v.y() + rotation(2, 2) * v.z()};
-    }
-    /// A direction of the outer frame, expressed in the local frame.
-    [[nodiscard]] Eigen::Vector3d direction_in(const Eigen::Vector3d& v) const {
-        return {rotation(0, 0) * v.x() + rotation(1, 0) * v.y() + rotation(2, 0) * v.z(),
-                rotation(0, 1) * v.x() + rotation(1, 1) * v.y() + rotation(2, 1) * v.z(),
-                rotation(0, 2) * v.x() + rotation(1, 2) * v.y() + rotation(2, 2) * v.z()};
-    }
-    /// A point of the local frame, expressed in the outer frame [m].
-    [[nodiscard]] Eigen::Vector3d point_out(const Eigen::Vector3d& p) const {
-        return direction_out(p) + position;
-    }
-    /// A point of the outer frame, expressed in the local frame [m].
-    [[nodiscard]] Eigen::Vector3d point_in(const Eigen::Vector3d& p) const {
-        return direction_in(p - position);
-    }
-
-    /// The composition of two poses: `inner` is given in the local frame of this pose.
-    [[nodiscard]] pose operator*(const pose& inner) const {
-        pose result;
-        for (int j = 0; j < 3; ++j) {
-            const Eigen::Vector3d column =
-                direction_out({inner.rotation(0, j), inner.rotation(1, j), inner.rotation(2, j)});
-            for (int i = 0; i < 3; ++i) result.rotation(i, j) = column[i];
-        }
-        result.position = point_out(inner.position);
-        return result;
-    }
-};
+using pose = rigid_motion;
+using gnomon::is_rigid;
 
 /// The translation to (x, y, z) [m].
 [[nodiscard]] inline pose at(double x, double y, double z) {
     pose result;
     result.position = Eigen::Vector3d(x, y, z);
     return result;
-}
-
-/// Returns whether a pose is a rigid motion: finite, with orthonormal, right-handed axes, to a
-/// tolerance of 1e-9.
-[[nodiscard]] inline bool is_rigid(const pose& p) {
-    constexpr double tolerance = 1e-9;
-    const auto& m = p.rotation;
-    for (int i = 0; i < 3; ++i) {
-        for (int j = 0; j <= i; ++j) {
-            const double product = m(i, 0) * m(j, 0) + m(i, 1) * m(j, 1) + m(i, 2) * m(j, 2);
-            if (!(std::abs(product - (i == j ? 1.0 : 0.0)) < tolerance)) return false;
-        }
-    }
-    // The determinant of orthonormal axes is 1, or -1 if they are left-handed.
-    const double determinant = m(0, 0) * (m(1, 1) * m(2, 2) - m(1, 2) * m(2, 1)) +
-                               m(0, 1) * (m(1, 2) * m(2, 0) - m(1, 0) * m(2, 2)) +
-                               m(0, 2) * (m(1, 0) * m(2, 1) - m(1, 1) * m(2, 0));
-    return determinant > 0.0 && is_finite(p.position);
 }
 
 namespace detail {
@@ -31288,6 +32330,524 @@ template <execution X = sequential>
 
 }  // namespace gnomon::simulation
 
+// -------- gnomon/simulation/triangle_mesh.hpp ----------------------------------------------------
+
+/// @file
+/// Triangle meshes, such as CAD models and scanned rooms.
+
+namespace gnomon::simulation {
+
+namespace detail {
+
+/// A watertight ray-triangle intersection (Woop, Benthin and Wald 2013): the ray is sheared onto a
+/// coordinate axis, and both triangles of a shared edge use the same arithmetic, so that no ray
+/// passes between them.
+class triangle_probe {
+  public:
+    explicit triangle_probe(const ray& r) : origin_(r.origin) {
+        for (int a = 1; a < 3; ++a) {
+            if (std::abs(r.direction[a]) > std::abs(r.direction[z_])) z_ = a;
+        }
+        x_ = (z_ + 1) % 3;
+        y_ = (z_ + 2) % 3;
+        shear_x_ = r.direction[x_] / r.direction[z_];
+        shear_y_ = r.direction[y_] / r.direction[z_];
+        scale_ = 1.0 / r.direction[z_];
+    }
+
+    /// The range at which the ray meets the triangle, from either side; NaN or not positive if
+    /// there is no intersection.
+    [[nodiscard]] double range(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
+                               const Eigen::Vector3d& c) const {
+        const Eigen::Vector3d p = sheared(a);
+        const Eigen::Vector3d q = sheared(b);
+        const Eigen::Vector3d s = sheared(c);
+        const double u = turn(s, q);
+        const double v = turn(p, s);
+        const double w = turn(q, p);
+        if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
+        return (u * p.z() + v * q.z() + w * s.z()) / (u + v + w);
+    }
+
+  private:
+    /// The signed area that p and q span in the plane normal to the ray. It is exactly -turn(q, p):
+    /// the explicit fma keeps compilers from contracting only one of the two products.
+    [[nodiscard]] static double turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
+#if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
+        return std::fma(p.x(), q.y(), -(p.y() * q.x())) - std::fma(q.x(), p.y(), -(q.y() * p.x()));
+#else
+        return p.x() * q.y() - p.y() * q.x();
+#endif
+    }
+
+    /// `vertex` in the sheared frame: the ray is the third axis, and z is the range.
+    [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
+        const Eigen::Vector3d d = vertex - origin_;
+        return {d[x_] - shear_x_ * d[z_], d[y_] - shear_y_ * d[z_], scale_ * d[z_]};
+    }
+
+    Eigen::Vector3d origin_;
+    int x_;
+    int y_;
+    int z_ = 0;  // the axis along which the ray runs fastest
+    double shear_x_;
+    double shear_y_;
+    double scale_;
+};
+
+}  // namespace detail
+
+/// A triangle mesh of one or more surfaces. Copies share the triangles.
+class triangle_mesh {
+  public:
+    /// Degenerate triangles are allowed; no ray meets them. O(n log n).
+    /// @param surface_names  one per surface number
+    /// @throws std::invalid_argument  if there are no triangles, a vertex is not finite, a triangle
+    ///                                refers to a missing vertex, or the surface numbers do not fit
+    ///                                triangles and names
+    explicit triangle_mesh(polyhedron faces, std::vector<std::string> surface_names = {"mesh"})
+        : content_(std::make_shared<const content>(std::move(faces), std::move(surface_names))) {}
+
+    [[nodiscard]] const polyhedron& triangles() const { return content_->faces; }
+
+    [[nodiscard]] bounds extent() const { return content_->extent; }
+    [[nodiscard]] const std::vector<std::string>& surface_names() const {
+        return content_->surface_names;
+    }
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& given) const {
+        const detail::triangle_probe probe(given);
+        const std::vector<Eigen::Vector3d>& v = content_->faces.vertices;
+        ray r = given;
+        std::optional<ray_hit> hit;
+        content_->tree.walk(r, [&](std::uint32_t t) {
+            const auto [a, b, c] = content_->faces.triangles[t];
+            const double range = probe.range(v[a], v[b], v[c]);
+            if (!(range > 0.0 && range <= r.reach)) return;
+            const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
+            const double length = std::sqrt(n.dot(n));
+            // `length` is twice the area: the longest side times the triangle's width. The rounding
+            // of the width grows with the range; on a thinner triangle the range would be
+            // arbitrary.
+            const double longest =
+                std::sqrt(std::max({squared_distance(v[a], v[b]), squared_distance(v[b], v[c]),
+                                    squared_distance(v[c], v[a])}));
+            if (!(length > 1e-15 * longest * (longest + range))) return;
+            const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
+            hit = ray_hit{range, n * (sign / length), content_->surface_of(t)};
+            r.reach = range;
+        });
+        return hit;
+    }
+
+  private:
+    struct content {
+        polyhedron faces;
+        std::vector<std::string> surface_names;
+        bounds extent;
+        detail::bvh tree;
+
+        content(polyhedron given, std::vector<std::string> names)
+            : faces(std::move(given)), surface_names(std::move(names)) {
+            using gnomon::detail::require;
+            const auto& [vertices, triangles, surfaces] = faces;
+            require(!triangles.empty(), "triangle_mesh: there are no triangles");
+            require(surfaces.empty() || surfaces.size() == triangles.size(),
+                    "triangle_mesh: surfaces for another number of triangles");
+            for (std::size_t t = 0; t < triangles.size(); ++t) {
+                const std::int32_t surface = surface_of(t);
+                require(surface >= 0 && static_cast<std::size_t>(surface) < surface_names.size(),
+                        "triangle_mesh: a triangle of a surface without name");
+            }
+            for (const Eigen::Vector3d& v : vertices)
+                require(is_finite(v), "triangle_mesh: a vertex is not finite");
+            std::vector<bounds> boxes;
+            boxes.reserve(triangles.size());
+            for (const triangle& t : triangles) {
+                bounds box;
+                for (const std::uint32_t i : t) {
+                    require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
+                    box.extend(vertices[i]);
+                }
+                extent.extend(box);
+                boxes.push_back(box);
+            }
+            // A margin for the rounding of ranges: a ray may enter a flat box behind its hit.
+            double largest = 0.0;
+            for (int a = 0; a < 3; ++a) {
+                largest = std::max({largest, std::abs(extent.low[a]), std::abs(extent.high[a])});
+            }
+            const Eigen::Vector3d margin = Eigen::Vector3d::Constant(1e-14 * largest);
+            for (bounds& box : boxes) box = {box.low - margin, box.high + margin};
+            tree = detail::bvh(boxes);
+        }
+
+        [[nodiscard]] std::int32_t surface_of(std::size_t t) const {
+            return faces.surface_of_triangle.empty() ? 0 : faces.surface_of_triangle[t];
+        }
+    };
+
+    [[nodiscard]] static Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
+        return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
+                a.x() * b.y() - a.y() * b.x()};
+    }
+
+    std::shared_ptr<const content> content_;
+};
+
+}  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/detail/mesh_builder.hpp ----------------------------------------------
+
+/// @file
+/// A builder of triangle meshes from convex planar faces, each face on a named surface.
+
+namespace gnomon::simulation::detail {
+
+/// Collects faces. Faces share no vertices; faces whose edges have equal ends are watertight.
+class mesh_builder {
+  public:
+    /// Begins a new surface, to which the following faces belong.
+    mesh_builder& surface(std::string name) {
+        names_.push_back(std::move(name));
+        return *this;
+    }
+
+    /// Adds a convex planar polygon of three or more corners [m]. Precondition: a surface was
+    /// begun.
+    mesh_builder& face(std::span<const Eigen::Vector3d> corners) {
+        const auto first = static_cast<std::uint32_t>(faces_.vertices.size());
+        faces_.vertices.insert(faces_.vertices.end(), corners.begin(), corners.end());
+        for (std::uint32_t i = 2; i < corners.size(); ++i) {
+            faces_.triangles.push_back({first, first + i - 1, first + i});
+            faces_.surface_of_triangle.push_back(static_cast<std::int32_t>(names_.size() - 1));
+        }
+        return *this;
+    }
+    mesh_builder& face(std::initializer_list<Eigen::Vector3d> corners) {
+        return face(std::span(corners.begin(), corners.size()));
+    }
+
+    /// @throws std::invalid_argument  as triangle_mesh does
+    [[nodiscard]] triangle_mesh mesh() const { return triangle_mesh(faces_, names_); }
+
+  private:
+    polyhedron faces_;
+    std::vector<std::string> names_;
+};
+
+/// A corner of a side view, on both sides of the plane y = 0.
+struct profile_corner {
+    double x;           ///< [m]
+    double z;           ///< [m]
+    double half_width;  ///< distance from the plane y = 0 [m]
+};
+
+/// A solid that is symmetric about y = 0, from a convex side view whose half widths are linear in x
+/// and z: one surface from each corner to the next one, by the given names, then "left" and
+/// "right".
+[[nodiscard]] inline triangle_mesh symmetric_solid(std::span<const profile_corner> profile,
+                                                   std::span<const char* const> names) {
+    std::vector<Eigen::Vector3d> left, right;
+    for (const profile_corner& c : profile) {
+        left.push_back({c.x, c.half_width, c.z});
+        right.push_back({c.x, -c.half_width, c.z});
+    }
+    mesh_builder b;
+    for (std::size_t i = 0; i < profile.size(); ++i) {
+        const std::size_t next = (i + 1) % profile.size();
+        b.surface(names[i]).face({left[i], left[next], right[next], right[i]});
+    }
+    return b.surface("left").face(left).surface("right").face(right).mesh();
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/detail/greenery.hpp --------------------------------------------------
+
+/// @file
+/// Trees and hedges: many small leaves of random attitude. Rays pass between the leaves, and the
+/// surface is as rough as the leaves are deep.
+///
+/// A ray through leaves of area A, of which there are n per cubic metre in all attitudes, meets
+/// n A / 2 of them per metre on average.
+
+namespace gnomon::simulation::detail {
+
+/// A rotation about z by an angle of uniform distribution, then of the z axis to a direction of
+/// uniform distribution on the sphere.
+[[nodiscard]] inline pose any_attitude(random_stream& random) {
+    const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
+    const double slope = std::acos(random.uniform(-1.0, 1.0));
+    const double spin = random.uniform(-std::numbers::pi, std::numbers::pi);
+    return yaw(radians(heading)) * pitch(radians(slope)) * yaw(radians(spin));
+}
+
+/// Square leaves on one surface, "leaves", that fill a volume [m^3] so that a ray meets `per_meter`
+/// of them per metre.
+/// @param edge   of a leaf [m]
+/// @param place  draws the middle of a leaf, uniform in the volume
+[[nodiscard]] triangle_mesh foliage(random_stream& random, double volume, double per_meter,
+                                    double edge, auto&& place) {
+    mesh_builder b;
+    b.surface("leaves");
+    const auto count = static_cast<int>(std::ceil(2.0 * per_meter * volume / (edge * edge)));
+    for (int i = 0; i < count; ++i) {
+        pose leaf = any_attitude(random);
+        leaf.position = place();
+        const double h = 0.5 * edge;
+        b.face({leaf.point_out({-h, -h, 0.0}), leaf.point_out({h, -h, 0.0}),
+                leaf.point_out({h, h, 0.0}), leaf.point_out({-h, h, 0.0})});
+    }
+    return b.mesh();
+}
+
+/// Adds a tree with the parts "trunk" and "crown", an ellipsoid of leaves above 2.3 m.
+inline void add_tree(scene& world, std::string name, const pose& at, random_stream& random) {
+    const double radius = random.uniform(1.2, 1.9);
+    const double half_height = radius * random.uniform(0.9, 1.5);
+    const double middle = 2.3 + half_height;
+    const double trunk = random.uniform(0.10, 0.18);
+    const std::int32_t object = world.add_object(std::move(name));
+    world.add(world.add_part(object, "trunk"), cylinder{trunk, middle}, at);
+    const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * half_height;
+    world.add(world.add_part(object, "crown"),
+              foliage(random, volume, 0.7, 0.16,
+                      [&] {
+                          const Eigen::Vector3d direction =
+                              any_attitude(random).direction_out({0.0, 0.0, 1.0});
+                          const double share = std::cbrt(random.uniform());
+                          return Eigen::Vector3d(direction.x() * radius * share,
+                                                 direction.y() * radius * share,
+                                                 middle + direction.z() * half_height * share);
+                      }),
+              at);
+}
+
+/// Adds a hedge of leaves that fill a box.
+inline void add_hedge(scene& world, std::string name, const pose& at, const bounds& extent,
+                      random_stream& random) {
+    const Eigen::Vector3d size = extent.size();
+    world.add_object(std::move(name),
+                     foliage(random, size.x() * size.y() * size.z(), 5.0, 0.11,
+                             [&] {
+                                 const double x = random.uniform(extent.low.x(), extent.high.x());
+                                 const double y = random.uniform(extent.low.y(), extent.high.y());
+                                 const double z = random.uniform(extent.low.z(), extent.high.z());
+                                 return Eigen::Vector3d(x, y, z);
+                             }),
+                     at);
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/sphere.hpp -----------------------------------------------------------
+
+/// @file
+/// A sphere.
+
+namespace gnomon::simulation {
+
+/// A sphere about the origin of its frame; one surface.
+struct sphere {
+    double radius;  ///< [m]
+
+    [[nodiscard]] bounds extent() const {
+        return {Eigen::Vector3d::Constant(-radius), Eigen::Vector3d::Constant(radius)};
+    }
+
+    [[nodiscard]] static std::span<const std::string_view> surface_names() {
+        static constexpr std::array<std::string_view, 1> names{"sphere"};
+        return names;
+    }
+
+    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
+        const detail::revolved_arc all{-radius, radius, -1.0, 0.0, radius * radius};
+        return detail::first_hit_of({&all, 1}, {}, r);
+    }
+};
+
+}  // namespace gnomon::simulation
+
+// -------- gnomon/simulation/clutter.hpp ----------------------------------------------------------
+
+/// @file
+/// Models of things that are no furniture, to put background into rooms and to learn it from:
+/// cartons, plants, bins, bags, shelves with things on them, and curtains, each of a random size.
+///
+///     for (const auto& model : gnomon::simulation::clutter_models(24, 1)) use(model.name);
+
+namespace gnomon::simulation {
+
+namespace detail {
+
+// The sizes of all pieces are those usual in homes and offices; heights are 0.3 to 1.8 m.
+
+/// One to three boxes on each other, the upper ones not larger.
+[[nodiscard]] inline scene cartons(random_stream& random) {
+    scene piece;
+    const auto object = piece.add_object("carton");
+    const auto count = 1 + random.bits() % 3;
+    double length = random.uniform(0.30, 0.60), width = random.uniform(0.25, 0.45), low = 0.0;
+    for (std::uint64_t i = 0; i < count; ++i) {
+        const double height = count == 1 ? random.uniform(0.30, 0.60) : random.uniform(0.18, 0.38);
+        piece.add(piece.add_part(object, numbered("box", static_cast<int>(i) + 1)),
+                  box{length, width, height},
+                  at(0.0, 0.0, low + 0.5 * height) * yaw(degrees(random.uniform(-8.0, 8.0))));
+        low += height;
+        length *= random.uniform(0.75, 0.95);
+        width *= random.uniform(0.75, 0.95);
+    }
+    return piece;
+}
+
+/// A conical bucket, open at the top.
+[[nodiscard]] inline surface_of_revolution bucket(double bottom, double top, double height) {
+    return surface_of_revolution({{bottom, 0.0}, {top, height}}, {.smooth = false});
+}
+
+[[nodiscard]] inline scene bin(random_stream& random) {
+    scene piece;
+    const double bottom = random.uniform(0.10, 0.18);
+    piece.add_object("bin",
+                     bucket(bottom, bottom * random.uniform(1.0, 1.4), random.uniform(0.30, 0.75)));
+    return piece;
+}
+
+/// A sack that is tied up.
+[[nodiscard]] inline scene bag(random_stream& random) {
+    scene piece;
+    const double r = random.uniform(0.14, 0.26), h = random.uniform(0.30, 0.60);
+    piece.add_object("bag", surface_of_revolution({{0.80 * r, 0.0},
+                                                   {r, 0.25 * h},
+                                                   {0.85 * r, 0.60 * h},
+                                                   {0.25 * r, 0.88 * h},
+                                                   {0.40 * r, h}}));
+    return piece;
+}
+
+/// A pot with a stem and a crown of leaves or, like a cactus, of spheres.
+[[nodiscard]] inline scene plant(random_stream& random) {
+    scene piece;
+    const auto object = piece.add_object("plant");
+    const double pot = random.uniform(0.18, 0.32), height = random.uniform(0.55, 1.80);
+    const double radius = random.uniform(0.15, std::min(0.35, 0.48 * (height - pot)));
+    const double half = std::min(0.5 * (height - pot), radius * random.uniform(1.0, 1.6));
+    const double middle = height - half;
+    const double edge = random.uniform(0.6, 0.9) * pot;  // of the pot
+    piece.add(piece.add_part(object, "pot"), bucket(0.4 * edge, 0.5 * edge, pot));
+    piece.add(piece.add_part(object, "stem"), cylinder{0.012, middle});
+    const auto crown = piece.add_part(object, "crown");
+    const auto inside = [&](double reach) {
+        const Eigen::Vector3d way = any_attitude(random).direction_out({0.0, 0.0, 1.0});
+        const double share = reach * std::cbrt(random.uniform());
+        return Eigen::Vector3d(way.x() * radius * share, way.y() * radius * share,
+                               middle + way.z() * half * share);
+    };
+    if (random.uniform() < 0.75) {
+        constexpr double leaf = 0.07, per_meter = 8.0;  // edge [m]; crossed by a ray [1/m]
+        // Leaves of any attitude reach beyond their middles by half a diagonal.
+        const double most = 1.0 - 0.71 * leaf / std::min(radius, half);
+        const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * half;
+        piece.add(crown, foliage(random, volume, per_meter, leaf, [&] { return inside(most); }));
+    } else {
+        for (int i = 0; i < 5; ++i) {
+            const Eigen::Vector3d p = inside(0.5);
+            piece.add(crown, sphere{0.5 * std::min(radius, half)}, at(p.x(), p.y(), p.z()));
+        }
+    }
+    return piece;
+}
+
+/// Boards between two sides, open in front and behind, with books and boxes on them.
+[[nodiscard]] inline scene shelf(random_stream& random) {
+    scene piece;
+    const double depth = random.uniform(0.25, 0.36), width = random.uniform(0.50, 1.00),
+                 height = random.uniform(0.80, 1.75);
+    constexpr double thick = 0.02;  // [m]
+    object_builder b(piece, "shelf", {});
+    b.part("sides").block(0.0, -0.5 * (width - thick), depth, thick, 0.0, height);
+    b.block(0.0, 0.5 * (width - thick), depth, thick, 0.0, height);
+    b.part("boards");
+    const int boards = static_cast<int>(height / 0.36) + 1;
+    const double inside = width - 2.0 * thick, step = (height - 0.06 - thick) / (boards - 1);
+    for (int i = 0; i < boards; ++i)
+        b.block(0.0, 0.0, depth, inside, 0.06 + i * step, 0.06 + i * step + thick);
+    b.part("things");
+    for (int i = 0; i + 1 < boards; ++i) {
+        const double low = 0.06 + i * step + thick, most = step - thick - 0.02;
+        for (double y = -0.5 * inside + 0.01;;) {
+            const double wide = random.uniform(0.03, 0.22),
+                         deep = random.uniform(0.5, 0.95) * depth,
+                         high = random.uniform(0.4, 1.0) * most;
+            if (y + wide > 0.5 * inside - 0.01) break;
+            // A quarter of the board stays empty.
+            if (random.uniform() < 0.75)
+                b.block(0.5 * (deep - depth), y + 0.5 * wide, deep, wide, low, low + high);
+            y += wide + 0.01;
+        }
+    }
+    return piece;
+}
+
+/// A cloth in vertical folds along y, behind which, at the lower x, is the wall.
+[[nodiscard]] inline scene curtain(random_stream& random) {
+    const double width = random.uniform(0.50, 1.30), low = random.uniform(0.02, 0.15),
+                 high = random.uniform(1.40, 1.80), depth = random.uniform(0.03, 0.06);
+    const double folds = std::round(width / random.uniform(0.12, 0.25));
+    constexpr int strips = 8;  // plane ones of a fold
+    const int count = strips * static_cast<int>(folds);
+    const auto edge = [&](int i, double z) {
+        const double share = static_cast<double>(i) / count;
+        const double phase = 2.0 * std::numbers::pi * folds * share;
+        return Eigen::Vector3d(depth * std::sin(phase), (share - 0.5) * width, z);
+    };
+    mesh_builder b;
+    b.surface("cloth");
+    for (int i = 0; i < count; ++i)
+        b.face({edge(i, low), edge(i + 1, low), edge(i + 1, high), edge(i, high)});
+    scene piece;
+    piece.add_object("curtain", b.mesh());
+    return piece;
+}
+
+/// Whether a piece of clutter stands or hangs at a wall, which is at its lower x.
+[[nodiscard]] inline bool belongs_to_wall(const furniture_model& model) {
+    return model.name == "shelf" || model.name == "curtain";
+}
+
+}  // namespace detail
+
+/// Pieces of clutter by the names "carton", "plant", "bin", "bag", "shelf" and "curtain", in turns
+/// and with random sizes, 0.3 to 1.8 m high. Frames are those of furniture; shelves and curtains
+/// have the wall at their lower x.
+///
+/// More pieces do not change those that are there. Complexity: O(pieces).
+[[nodiscard]] inline std::vector<furniture_model> clutter_models(std::size_t pieces,
+                                                                 std::uint64_t seed) {
+    struct kind {
+        const char* name;
+        scene (*make)(random_stream&);
+    };
+    static constexpr std::array<kind, 8> kinds{{{"carton", detail::cartons},
+                                                {"plant", detail::plant},
+                                                {"shelf", detail::shelf},
+                                                {"bin", detail::bin},
+                                                {"carton", detail::cartons},
+                                                {"bag", detail::bag},
+                                                {"curtain", detail::curtain},
+                                                {"plant", detail::plant}}};
+    std::vector<furniture_model> all;
+    for (std::size_t i = 0; i < pieces; ++i) {
+        random_stream random(seed, i);
+        const kind& k = kinds[i % kinds.size()];
+        all.push_back({k.name, k.make(random)});
+    }
+    return all;
+}
+
+}  // namespace gnomon::simulation
+
 // -------- gnomon/simulation/cone.hpp -------------------------------------------------------------
 
 /// @file
@@ -31476,6 +33036,323 @@ inline void add_openings(scene& world, const bounds& room, const room_openings& 
 
 }  // namespace gnomon::simulation::detail
 
+// -------- gnomon/simulation/detail/upright_box.hpp -----------------------------------------------
+
+/// @file
+/// Upright boxes that bound pieces of furniture on a floor, and their horizontal distances.
+
+namespace gnomon::simulation::detail {
+
+/// Where a piece stands on the floor z = 0.
+struct floor_place {
+    double x = 0.0, y = 0.0;  ///< [m]
+    angle heading = {};
+
+    [[nodiscard]] simulation::pose pose() const { return at(x, y, 0.0) * yaw(heading); }
+};
+
+/// A box turned about the vertical.
+class upright_box {
+  public:
+    /// @param own  bounds in the frame of the piece, not empty
+    upright_box(const bounds& own, const floor_place& place)
+        : cosine_(cos(place.heading)),
+          sine_(sin(place.heading)),
+          half_length_(0.5 * own.size().x()),
+          half_width_(0.5 * own.size().y()),
+          low_(own.low.z()),
+          high_(own.high.z()) {
+        const Eigen::Vector3d m = own.middle();
+        x_ = place.x + cosine_ * m.x() - sine_ * m.y();
+        y_ = place.y + sine_ * m.x() + cosine_ * m.y();
+        for (std::size_t i = 0; i < 4; ++i) {
+            const double u = (i & 1 ? 1.0 : -1.0) * half_length_;
+            const double v = (i & 2 ? 1.0 : -1.0) * half_width_;
+            corners_[i] = {x_ + cosine_ * u - sine_ * v, y_ + sine_ * u + cosine_ * v};
+        }
+    }
+
+    /// Of the rectangle seen from above [m].
+    [[nodiscard]] const std::array<Eigen::Vector2d, 4>& corners() const { return corners_; }
+
+    /// Horizontal distance [m] of two boxes; 0 if they overlap, infinite if one is above the other.
+    [[nodiscard]] friend double distance(const upright_box& a, const upright_box& b) {
+        constexpr double rounding = 1e-6;  // [m]: what stands on the other box is not above it
+        if (a.low_ > b.high_ + rounding || b.low_ > a.high_ + rounding)
+            return std::numeric_limits<double>::infinity();
+        if (!a.is_apart(b) && !b.is_apart(a)) return 0.0;
+        // Of disjoint rectangles, one of the nearest points is a corner.
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i < 4; ++i)
+            least = std::min({least, a.distance_to(b.corners_[i]), b.distance_to(a.corners_[i])});
+        return least;
+    }
+
+  private:
+    [[nodiscard]] Eigen::Vector2d inward(const Eigen::Vector2d& p) const {
+        const double x = p.x() - x_, y = p.y() - y_;
+        return {cosine_ * x + sine_ * y, cosine_ * y - sine_ * x};
+    }
+
+    [[nodiscard]] double distance_to(const Eigen::Vector2d& p) const {
+        const Eigen::Vector2d q = inward(p);
+        return std::hypot(std::max(std::abs(q.x()) - half_length_, 0.0),
+                          std::max(std::abs(q.y()) - half_width_, 0.0));
+    }
+
+    /// Whether a side of this box separates the rectangles.
+    [[nodiscard]] bool is_apart(const upright_box& other) const {
+        Eigen::Vector2d low = inward(other.corners_[0]), high = low;
+        for (const Eigen::Vector2d& corner : other.corners_) {
+            const Eigen::Vector2d q = inward(corner);
+            low = {std::min(low.x(), q.x()), std::min(low.y(), q.y())};
+            high = {std::max(high.x(), q.x()), std::max(high.y(), q.y())};
+        }
+        return low.x() > half_length_ || high.x() < -half_length_ || low.y() > half_width_ ||
+               high.y() < -half_width_;
+    }
+
+    double x_, y_, cosine_, sine_, half_length_, half_width_, low_, high_;
+    std::array<Eigen::Vector2d, 4> corners_;
+};
+
+/// The boxes about a piece, in its own frame.
+using own_boxes = std::vector<bounds>;
+
+/// One box about all of a model, or one about each of its shapes.
+[[nodiscard]] inline own_boxes boxes_of(const furniture_model& model, bool of_each_shape) {
+    scene alone;
+    add(alone, model);
+    if (!of_each_shape) return {alone.extent()};
+    own_boxes all;
+    for (const placed_shape& s : alone.shapes()) all.push_back(s.extent);
+    return all;
+}
+
+[[nodiscard]] inline std::vector<upright_box> placed(const own_boxes& own,
+                                                     const floor_place& place) {
+    std::vector<upright_box> all;
+    for (const bounds& b : own) all.emplace_back(b, place);
+    return all;
+}
+
+/// The least distance [m] of a box of one piece from one of another.
+[[nodiscard]] inline double distance(const std::vector<upright_box>& a,
+                                     const std::vector<upright_box>& b) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const upright_box& one : a)
+        for (const upright_box& other : b) least = std::min(least, distance(one, other));
+    return least;
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/detail/room_layout.hpp -----------------------------------------------
+
+/// @file
+/// What stands where on the floor of a room, and places for more: at walls, and next to what is
+/// there.
+
+namespace gnomon::simulation::detail {
+
+/// A piece in its place.
+struct standing_piece {
+    floor_place place;
+    std::vector<upright_box> boxes;
+
+    standing_piece(const own_boxes& own, const floor_place& where)
+        : place(where), boxes(placed(own, where)) {}
+};
+
+/// The way from a piece to a place at its side.
+[[nodiscard]] inline angle side_of(const standing_piece& piece, random_stream& random) {
+    return radians(piece.place.heading.radians() +
+                   degrees(90.0 * static_cast<double>(random.bits() % 4)).radians());
+}
+
+/// The floor of a room and the pieces on it.
+class room_layout {
+  public:
+    /// @param sensor  its position, which stays free
+    room_layout(const bounds& room, const Eigen::Vector3d& sensor) : room_(room), sensor_(sensor) {}
+
+    void take(const std::vector<upright_box>& boxes) {
+        taken_.insert(taken_.end(), boxes.begin(), boxes.end());
+    }
+
+    /// Whether a piece at this place is within the room, in front of the sensor and not near it,
+    /// and this far from all others.
+    /// @param from_sensor  least distance seen from above [m]
+    [[nodiscard]] bool is_free(const std::vector<upright_box>& boxes, double clearance,
+                               double from_sensor) const {
+        for (const upright_box& b : boxes) {
+            for (const Eigen::Vector2d& c : b.corners()) {
+                if (c.x() < sensor_.x() || c.x() > room_.high.x() || c.y() < room_.low.y() ||
+                    c.y() > room_.high.y() ||
+                    std::hypot(c.x() - sensor_.x(), c.y() - sensor_.y()) < from_sensor)
+                    return false;
+            }
+        }
+        // A long piece in front of the sensor may have far corners.
+        const upright_box around_sensor({{-0.5, -0.5, 0.0}, {0.5, 0.5, room_.high.z()}},
+                                        {sensor_.x(), sensor_.y()});
+        return distance({around_sensor}, boxes) > 0.0 && distance(taken_, boxes) >= clearance;
+    }
+
+    /// Anywhere, at any angle.
+    [[nodiscard]] floor_place anywhere(random_stream& random) const {
+        floor_place place;
+        place.x = random.uniform(room_.low.x(), room_.high.x());
+        place.y = random.uniform(room_.low.y(), room_.high.y());
+        place.heading = degrees(random.uniform(-180.0, 180.0));
+        return place;
+    }
+
+    /// At the far wall or one at a side.
+    /// @param turned  of the piece; without a turn, its lower x is at the wall
+    /// @param gap     between piece and wall [m]
+    [[nodiscard]] floor_place at_wall(const own_boxes& own, angle turned, double gap,
+                                      random_stream& random) const {
+        const auto wall = random.bits() % 3;
+        const angle inward = degrees(wall == 0 ? 90.0 : wall == 1 ? -90.0 : 180.0);
+        floor_place place;
+        place.heading = radians(inward.radians() + turned.radians());
+        bounds reach;
+        for (const upright_box& b : placed(own, place))
+            for (const Eigen::Vector2d& c : b.corners()) reach.extend({c.x(), c.y(), 0.0});
+        const auto within = [&](int a) {
+            return random.uniform(room_.low[a] - reach.low[a], room_.high[a] - reach.high[a]);
+        };
+        if (wall == 2) {
+            place.x = room_.high.x() - gap - reach.high.x();
+            place.y = within(1);
+        } else {
+            place.x = within(0);
+            place.y = wall == 0 ? room_.low.y() + gap - reach.low.y()
+                                : room_.high.y() - gap - reach.high.y();
+        }
+        return place;
+    }
+
+  private:
+    bounds room_;
+    Eigen::Vector3d sensor_;
+    std::vector<upright_box> taken_;
+};
+
+/// The place at which a piece that is moved towards another one has this gap to it, by steps of
+/// the distance, as in sphere tracing; nothing if it passes by.
+/// @param way     from the other piece towards where this one comes from
+/// @param aside   of the line through the middle of the other piece [m]
+/// @param gap     horizontal, at least, and 0.1 mm more at most [m]
+[[nodiscard]] inline std::optional<floor_place> beside(const standing_piece& other,
+                                                       const own_boxes& own, angle heading,
+                                                       angle way, double aside, double gap) {
+    constexpr double farthest = 4.0, precision = 1e-4;  // [m]
+    constexpr int steps = 200;
+    const Eigen::Vector2d u(cos(way), sin(way)), across(-u.y(), u.x());
+    double t = farthest;
+    for (int step = 0; step < steps && t > -farthest; ++step) {
+        const floor_place place{other.place.x + t * u.x() + aside * across.x(),
+                                other.place.y + t * u.y() + aside * across.y(), heading};
+        const double left = distance(other.boxes, placed(own, place)) - gap;
+        if (left <= precision) return left >= 0.0 ? std::optional(place) : std::nullopt;
+        t -= std::min(left - 0.5 * precision, farthest);
+    }
+    return std::nullopt;
+}
+
+}  // namespace gnomon::simulation::detail
+
+// -------- gnomon/simulation/detail/room_pieces.hpp -----------------------------------------------
+
+/// @file
+/// Pieces of a room, placed at random: furniture that touches walls and other furniture, and
+/// clutter among the furniture.
+
+namespace gnomon::simulation::detail {
+
+/// A gap between pieces that touch [m]: none that a scan could show.
+[[nodiscard]] inline double contact(random_stream& random) { return random.uniform(0.0005, 0.003); }
+
+/// Less than any contact [m].
+inline constexpr double least_contact = 0.0004;
+
+/// A place for a piece where it touches a wall or a piece that is there: a chair with its back to
+/// the wall or facing the other piece, and others with any side.
+[[nodiscard]] inline std::optional<floor_place> touching_place(
+    const room_layout& layout, const std::vector<standing_piece>& others,
+    const furniture_model& model, const own_boxes& own, random_stream& random) {
+    constexpr int trials = 300;
+    constexpr double from_sensor = 0.7;  // [m]
+    const bool is_chair = std::holds_alternative<chair>(model.piece);
+    for (int trial = 0; trial < trials; ++trial) {
+        const angle turned =
+            degrees(is_chair ? 0.0 : 90.0 * static_cast<double>(random.bits() % 4));
+        const bool is_at_piece = random.uniform() < 0.6;
+        std::optional<floor_place> place;
+        if (is_at_piece && !others.empty()) {
+            const standing_piece& other = others[random.bits() % others.size()];
+            const angle way = side_of(other, random);
+            const angle heading =
+                radians(way.radians() + degrees(180).radians() + turned.radians());
+            place = beside(other, own, heading, way, random.uniform(-0.4, 0.4), contact(random));
+        } else {
+            place = layout.at_wall(own, turned, contact(random), random);
+        }
+        if (place && layout.is_free(placed(own, *place), least_contact, from_sensor)) return place;
+    }
+    return std::nullopt;
+}
+
+/// Puts clutter into a room: pieces that belong to walls there, and of the other ones a third 5 to
+/// 40 cm from pieces of furniture, and the rest anywhere. If objects may touch, the third
+/// touches furniture, and everything may come near.
+inline void add_clutter(scene& world, room_layout layout,
+                        const std::vector<standing_piece>& furniture,
+                        const std::vector<furniture_model>& clutter, bool touching,
+                        random_stream random) {
+    constexpr int trials = 200;
+    const double clearance = touching ? least_contact : 0.05;  // [m]
+    std::map<std::string, int> numbers;
+    std::size_t floor_pieces = 0;
+    for (const furniture_model& model : clutter) {
+        const own_boxes own = boxes_of(model, touching);
+        double height = 0.0;
+        for (const bounds& b : own) height = std::max(height, b.high.z());
+        // High pieces would hide half of the room if they were near.
+        const double from_sensor = height > 0.8 ? 1.5 : 0.7;
+        const bool at_wall = belongs_to_wall(model);
+        const std::size_t turn = at_wall ? 0 : ++floor_pieces;
+        const bool at_furniture = turn % 3 == 1 && !furniture.empty();
+        for (int trial = 0; trial < trials; ++trial) {
+            std::optional<floor_place> place;
+            if (at_wall) {
+                place = layout.at_wall(own, degrees(0), random.uniform(0.01, 0.05), random);
+            } else if (at_furniture) {
+                const standing_piece& other = furniture[random.bits() % furniture.size()];
+                const angle way =
+                    touching ? side_of(other, random) : degrees(random.uniform(-180.0, 180.0));
+                const angle heading = touching ? way : degrees(random.uniform(-180.0, 180.0));
+                const double gap = touching ? contact(random) : random.uniform(0.05, 0.40);
+                place = beside(other, own, heading, way, random.uniform(-0.4, 0.4), gap);
+            } else {
+                place = layout.anywhere(random);
+            }
+            if (!place) continue;
+            const auto boxes = placed(own, *place);
+            if (!layout.is_free(boxes, clearance, from_sensor)) continue;
+            layout.take(boxes);
+            furniture_model named = model;
+            named.name = numbered(model.name, ++numbers[model.name]);
+            add(world, named, place->pose());
+            break;
+        }
+    }
+}
+
+}  // namespace gnomon::simulation::detail
+
 // -------- gnomon/simulation/furnished_room.hpp ---------------------------------------------------
 
 /// @file
@@ -31498,6 +33375,33 @@ namespace detail {
     return radius;
 }
 
+/// Circles on the floor of a room that do not overlap each other or the walls.
+struct circles_on_floor {
+    struct circle {
+        double x, y, radius;  ///< [m]
+    };
+    bounds room;
+    std::vector<circle> taken;
+
+    /// The place of a piece in a new circle, at any angle; nothing if no place is found.
+    [[nodiscard]] std::optional<floor_place> place(double radius, random_stream& random) {
+        const auto& [low, high] = room;
+        if (2.0 * radius > std::min(high.x() - low.x(), high.y() - low.y())) return std::nullopt;
+        for (int trial = 0; trial < 100; ++trial) {
+            const circle found{random.uniform(low.x() + radius, high.x() - radius),
+                               random.uniform(low.y() + radius, high.y() - radius), radius};
+            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
+                return std::hypot(found.x - c.x, found.y - c.y) >= found.radius + c.radius;
+            });
+            const angle turned = degrees(random.uniform(-180.0, 180.0));
+            if (!is_free) continue;
+            taken.push_back(found);
+            return floor_place{found.x, found.y, turned};
+        }
+        return std::nullopt;
+    }
+};
+
 }  // namespace detail
 
 namespace scenes {
@@ -31507,6 +33411,8 @@ struct room_options {
     int pieces = 8;  ///< of furniture; fewer if they do not fit
     std::uint64_t seed = 1;
     bool openings = false;  ///< doors and windows in the walls; the furniture is the same
+    int clutter = 0;        ///< other things, clutter_models(); fewer if they do not fit
+    bool touching = false;  ///< furniture and clutter touch walls and each other
     std::vector<furniture_model> models = {};  ///< to choose from; furniture_models() if empty
 };
 
@@ -31516,10 +33422,17 @@ struct room_options {
 /// With openings the walls, 12 to 36 cm thick, have one or two doors and one to three windows with
 /// reveals, listed in `scene::openings`. Behind a door is its leaf or a corridor, behind a window
 /// another house or nothing.
-/// @throws std::invalid_argument  unless 0 to 1,000 pieces are wanted
+///
+/// Clutter has names such as "carton 3", and stands in front of the sensor: at the walls what
+/// belongs there, half of all within half a metre of a piece of furniture, and the rest anywhere,
+/// without overlap; the furniture is the same. If objects are to touch, each piece of furniture is
+/// instead placed where it touches a wall or another piece, by less than 4 mm, chairs facing it: a
+/// seat may be below a table; and so is a quarter of the clutter.
+/// @throws std::invalid_argument  unless 0 to 1,000 pieces of each are wanted
 [[nodiscard]] inline scene furnished_room(const room_options& options = {}) {
-    gnomon::detail::require(options.pieces >= 0 && options.pieces <= 1000,
-                            "furnished_room: requires 0 to 1,000 pieces");
+    for (const int count : {options.pieces, options.clutter})
+        gnomon::detail::require(count >= 0 && count <= 1000,
+                                "furnished_room: requires 0 to 1,000 pieces");
     random_stream random(options.seed);
     const double length = random.uniform(4.0, 6.0);
     const double width = random.uniform(4.0, 6.0);
@@ -31536,34 +33449,29 @@ struct room_options {
     detail::add_room(world, room, openings.holes());
     detail::add_block(world, "cupboard", cupboard);
 
-    // The circles about the pieces do not overlap each other, the walls, the sensor or the
-    // cupboard.
-    struct circle {
-        double x;
-        double y;
-        double radius;
-    };
-    std::vector<circle> taken{{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}};
+    detail::room_layout layout(room, world.sensor.position);
+    layout.take({detail::upright_box(cupboard, {})});
+    std::vector<detail::standing_piece> furniture;
     const auto models = options.models.empty() ? furniture_models() : options.models;
+    detail::circles_on_floor circles{room, {{0.3, 0.0, 0.7}, {length - 0.25, side + 0.45, 0.6}}};
+    random_stream contacts(options.seed, 3);
     for (int piece = 0; piece < options.pieces; ++piece) {
-        const auto& model = models[static_cast<std::size_t>(random.bits() % models.size())];
-        const double radius = detail::radius_of(model);
-        if (2.0 * radius > std::min(length, width)) continue;
-        for (int trial = 0; trial < 100; ++trial) {
-            const circle place{random.uniform(radius, length - radius),
-                               random.uniform(radius - 0.5 * width, 0.5 * width - radius), radius};
-            const bool is_free = std::all_of(taken.begin(), taken.end(), [&](const circle& c) {
-                return std::hypot(place.x - c.x, place.y - c.y) >= place.radius + c.radius;
-            });
-            const angle turned = degrees(random.uniform(-180.0, 180.0));
-            if (!is_free) continue;
-            taken.push_back(place);
-            furniture_model named = model;
-            named.name = detail::numbered(model.name, piece + 1);
-            add(world, named, at(place.x, place.y, 0.0) * yaw(turned));
-            break;
-        }
+        furniture_model model = models[static_cast<std::size_t>(random.bits() % models.size())];
+        const auto own = detail::boxes_of(model, options.touching);
+        const auto place = options.touching
+                               ? detail::touching_place(layout, furniture, model, own, contacts)
+                               : circles.place(detail::radius_of(model), random);
+        if (!place) continue;
+        furniture.emplace_back(own, *place);
+        layout.take(furniture.back().boxes);
+        model.name = detail::numbered(model.name, piece + 1);
+        add(world, model, place->pose());
     }
+    if (options.clutter > 0)
+        detail::add_clutter(
+            world, layout, furniture,
+            clutter_models(static_cast<std::size_t>(options.clutter), ~options.seed),
+            options.touching, random_stream(options.seed, 2));
     detail::add_openings(world, room, openings);
     return world;
 }
@@ -31963,31 +33871,158 @@ template <execution X = sequential>
 
 }  // namespace gnomon::simulation
 
-// -------- gnomon/simulation/sphere.hpp -----------------------------------------------------------
+// -------- gnomon/simulation/sample_surface.hpp ---------------------------------------------------
 
 /// @file
-/// A sphere.
+/// Samples of the visible surfaces of a model, evenly spaced: what a sensor can see of it from
+/// outside, without inner surfaces and undersides that no ray reaches.
+///
+///     namespace sim = gnomon::simulation;
+///     const auto samples = sim::sample_surface(sim::furniture_models()[0]);
 
 namespace gnomon::simulation {
 
-/// A sphere about the origin of its frame; one surface.
-struct sphere {
-    double radius;  ///< [m]
+/// A point of a surface.
+struct surface_sample {
+    Eigen::Vector3d position;  ///< [m]
+    Eigen::Vector3d normal;    ///< unit vector, towards the side from which it was seen
+};
 
-    [[nodiscard]] bounds extent() const {
-        return {Eigen::Vector3d::Constant(-radius), Eigen::Vector3d::Constant(radius)};
-    }
+/// How a surface is sampled.
+struct surface_sampling {
+    double spacing = 0.015;  ///< about one sample per square of this size [m]
+    /// Directions, all round and from above and below, from which parallel rays are cast; chosen:
+    /// each part of a surface is met by several rays per square.
+    int directions = 96;
+    std::uint64_t seed = 1;
 
-    [[nodiscard]] static std::span<const std::string_view> surface_names() {
-        static constexpr std::array<std::string_view, 1> names{"sphere"};
-        return names;
-    }
-
-    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& r) const {
-        const detail::revolved_arc all{-radius, radius, -1.0, 0.0, radius * radius};
-        return detail::first_hit_of({&all, 1}, {}, r);
+    /// @throws std::invalid_argument  unless the spacing is positive and finite, and there is a
+    ///                                direction
+    void require_valid() const {
+        using gnomon::detail::require;
+        require(spacing > 0.0 && std::isfinite(spacing),
+                "sample_surface: the spacing must be positive and finite");
+        require(directions > 0, "sample_surface: requires a direction");
     }
 };
+
+namespace detail {
+
+/// Accepts candidates that are not too near to an accepted one of a similar normal (dart throwing,
+/// Cook 1986).
+class spaced_samples {
+  public:
+    explicit spaced_samples(double least_distance) : least_(least_distance) {}
+
+    void add(const surface_sample& candidate) {
+        const auto cell = cell_of(candidate.position);
+        for (std::int64_t x = -1; x <= 1; ++x) {
+            for (std::int64_t y = -1; y <= 1; ++y) {
+                for (std::int64_t z = -1; z <= 1; ++z) {
+                    const auto found = cells_.find(key_of({cell[0] + x, cell[1] + y, cell[2] + z}));
+                    if (found == cells_.end()) continue;
+                    for (const std::uint32_t i : found->second)
+                        if (is_same(samples_[i], candidate)) return;
+                }
+            }
+        }
+        cells_[key_of(cell)].push_back(static_cast<std::uint32_t>(samples_.size()));
+        samples_.push_back(candidate);
+    }
+
+    [[nodiscard]] std::vector<surface_sample> take() { return std::move(samples_); }
+
+  private:
+    using cell_index = std::array<std::int64_t, 3>;
+
+    [[nodiscard]] bool is_same(const surface_sample& a, const surface_sample& b) const {
+        constexpr double similar = 0.5;  // chosen: 60 degrees; both sides of an edge are sampled
+        return squared_distance(a.position, b.position) < least_ * least_ &&
+               a.normal.dot(b.normal) > similar;
+    }
+
+    [[nodiscard]] cell_index cell_of(const Eigen::Vector3d& p) const {
+        cell_index c{};
+        for (std::size_t a = 0; a < 3; ++a)
+            c[a] = static_cast<std::int64_t>(std::floor(p[static_cast<int>(a)] / least_));
+        return c;
+    }
+
+    /// Different for cells that are less than 2^21 apart.
+    [[nodiscard]] static std::uint64_t key_of(const cell_index& c) {
+        constexpr std::uint64_t mask = (std::uint64_t{1} << 21) - 1;
+        std::uint64_t key = 0;
+        for (const std::int64_t a : c) key = (key << 21) | (static_cast<std::uint64_t>(a) & mask);
+        return key;
+    }
+
+    double least_;
+    std::vector<surface_sample> samples_;
+    std::unordered_map<std::uint64_t, std::vector<std::uint32_t>> cells_;
+};
+
+/// The direction `number` of `count` that are evenly distributed on the sphere (Fibonacci).
+[[nodiscard]] inline Eigen::Vector3d direction_of_sphere(int number, int count) {
+    const double golden = std::numbers::pi * (3.0 - std::sqrt(5.0));
+    const double z = 1.0 - (2.0 * number + 1.0) / count;
+    const double radius = std::sqrt(std::max(0.0, 1.0 - z * z));
+    return {radius * std::cos(golden * number), radius * std::sin(golden * number), z};
+}
+
+}  // namespace detail
+
+/// Samples the surfaces of a scene that are visible from outside of it: by parallel rays from all
+/// directions, of whose hits those are left out that are nearer than 0.83 spacings to another,
+/// which is the distance at which about one is left per square of the spacing. A model is sampled
+/// in its own frame.
+///
+/// The same options give the same samples. O(rays), some 10^4 to 10^5 for each direction.
+/// @return the samples in random order; none for an empty scene
+/// @throws std::invalid_argument  for options that are not valid
+[[nodiscard]] inline std::vector<surface_sample> sample_surface(
+    const scene& model, const surface_sampling& options = {}) {
+    options.require_valid();
+    if (model.shapes().empty()) return {};
+    const bvh_caster cast(model);
+    const bounds extent = model.extent();
+    const Eigen::Vector3d middle = extent.middle(), size = extent.size();
+    const double radius = 0.5 * std::sqrt(size.dot(size)) + options.spacing;
+    random_stream random(options.seed);
+    std::vector<surface_sample> hits;
+    for (int d = 0; d < options.directions; ++d) {
+        const Eigen::Vector3d from = detail::direction_of_sphere(d, options.directions);
+        const Eigen::Vector3d u = gnomon::detail::orthogonal(from);
+        const Eigen::Vector3d v = gnomon::detail::cross(from, u);
+        const auto half_width = [&](const Eigen::Vector3d& axis) {
+            return 0.5 * (std::abs(axis.x()) * size.x() + std::abs(axis.y()) * size.y() +
+                          std::abs(axis.z()) * size.z()) +
+                   options.spacing;
+        };
+        const double width = half_width(u), height = half_width(v);
+        for (double a = -width; a < width; a += options.spacing) {
+            for (double b = -height; b < height; b += options.spacing) {
+                const double s = a + options.spacing * random.uniform();
+                const double t = b + options.spacing * random.uniform();
+                const ray r{middle + from * radius + u * s + v * t, from * -1.0};
+                if (const auto hit = cast(r)) hits.push_back({r.point_at(hit->range), hit->normal});
+            }
+        }
+    }
+    for (std::size_t i = hits.size(); i > 1; --i)
+        std::swap(hits[i - 1], hits[static_cast<std::size_t>(random.bits() % i)]);
+    constexpr double packed = 0.83;  // sqrt(.547 * 4 / pi): density of random packings of disks
+    detail::spaced_samples spaced(packed * options.spacing);
+    for (const surface_sample& s : hits) spaced.add(s);
+    return spaced.take();
+}
+
+/// Samples the surfaces of a furniture model in its frame, as above.
+[[nodiscard]] inline std::vector<surface_sample> sample_surface(
+    const furniture_model& model, const surface_sampling& options = {}) {
+    scene alone;
+    add(alone, model);
+    return sample_surface(alone, options);
+}
 
 }  // namespace gnomon::simulation
 
@@ -32107,317 +34142,6 @@ namespace scanners {
 }  // namespace scanners
 
 }  // namespace gnomon::simulation
-
-// -------- gnomon/simulation/triangle_mesh.hpp ----------------------------------------------------
-
-/// @file
-/// Triangle meshes, such as CAD models and scanned rooms.
-
-namespace gnomon::simulation {
-
-namespace detail {
-
-/// A watertight ray-triangle intersection (Woop, Benthin and Wald 2013): the ray is sheared onto a
-/// coordinate axis, and both triangles of a shared edge use the same arithmetic, so that no ray
-/// passes between them.
-class triangle_probe {
-  public:
-    explicit triangle_probe(const ray& r) : origin_(r.origin) {
-        for (int a = 1; a < 3; ++a) {
-            if (std::abs(r.direction[a]) > std::abs(r.direction[z_])) z_ = a;
-        }
-        x_ = (z_ + 1) % 3;
-        y_ = (z_ + 2) % 3;
-        shear_x_ = r.direction[x_] / r.direction[z_];
-        shear_y_ = r.direction[y_] / r.direction[z_];
-        scale_ = 1.0 / r.direction[z_];
-    }
-
-    /// The range at which the ray meets the triangle, from either side; NaN or not positive if
-    /// there is no intersection.
-    [[nodiscard]] double range(const Eigen::Vector3d& a, const Eigen::Vector3d& b,
-                               const Eigen::Vector3d& c) const {
-        const Eigen::Vector3d p = sheared(a);
-        const Eigen::Vector3d q = sheared(b);
-        const Eigen::Vector3d s = sheared(c);
-        const double u = turn(s, q);
-        const double v = turn(p, s);
-        const double w = turn(q, p);
-        if ((u < 0.0 || v < 0.0 || w < 0.0) && (u > 0.0 || v > 0.0 || w > 0.0)) return -1.0;
-        return (u * p.z() + v * q.z() + w * s.z()) / (u + v + w);
-    }
-
-  private:
-    /// The signed area that p and q span in the plane normal to the ray. It is exactly -turn(q, p):
-    /// the explicit fma keeps compilers from contracting only one of the two products.
-    [[nodiscard]] static double turn(const Eigen::Vector3d& p, const Eigen::Vector3d& q) {
-#if defined(FP_FAST_FMA) || defined(__FMA__) || defined(__ARM_FEATURE_FMA)
-        return std::fma(p.x(), q.y(), -(p.y() * q.x())) - std::fma(q.x(), p.y(), -(q.y() * p.x()));
-#else
-        return p.x() * q.y() - p.y() * q.x();
-#endif
-    }
-
-    /// `vertex` in the sheared frame: the ray is the third axis, and z is the range.
-    [[nodiscard]] Eigen::Vector3d sheared(const Eigen::Vector3d& vertex) const {
-        const Eigen::Vector3d d = vertex - origin_;
-        return {d[x_] - shear_x_ * d[z_], d[y_] - shear_y_ * d[z_], scale_ * d[z_]};
-    }
-
-    Eigen::Vector3d origin_;
-    int x_;
-    int y_;
-    int z_ = 0;  // the axis along which the ray runs fastest
-    double shear_x_;
-    double shear_y_;
-    double scale_;
-};
-
-}  // namespace detail
-
-/// A triangle mesh of one or more surfaces. Copies share the triangles.
-class triangle_mesh {
-  public:
-    /// Degenerate triangles are allowed; no ray meets them. O(n log n).
-    /// @param surface_names  one per surface number
-    /// @throws std::invalid_argument  if there are no triangles, a vertex is not finite, a triangle
-    ///                                refers to a missing vertex, or the surface numbers do not fit
-    ///                                triangles and names
-    explicit triangle_mesh(polyhedron faces, std::vector<std::string> surface_names = {"mesh"})
-        : content_(std::make_shared<const content>(std::move(faces), std::move(surface_names))) {}
-
-    [[nodiscard]] const polyhedron& triangles() const { return content_->faces; }
-
-    [[nodiscard]] bounds extent() const { return content_->extent; }
-    [[nodiscard]] const std::vector<std::string>& surface_names() const {
-        return content_->surface_names;
-    }
-
-    [[nodiscard]] std::optional<ray_hit> first_hit(const ray& given) const {
-        const detail::triangle_probe probe(given);
-        const std::vector<Eigen::Vector3d>& v = content_->faces.vertices;
-        ray r = given;
-        std::optional<ray_hit> hit;
-        content_->tree.walk(r, [&](std::uint32_t t) {
-            const auto [a, b, c] = content_->faces.triangles[t];
-            const double range = probe.range(v[a], v[b], v[c]);
-            if (!(range > 0.0 && range <= r.reach)) return;
-            const Eigen::Vector3d n = cross(v[b] - v[a], v[c] - v[a]);
-            const double length = std::sqrt(n.dot(n));
-            // `length` is twice the area: the longest side times the triangle's width. The rounding
-            // of the width grows with the range; on a thinner triangle the range would be
-            // arbitrary.
-            const double longest =
-                std::sqrt(std::max({squared_distance(v[a], v[b]), squared_distance(v[b], v[c]),
-                                    squared_distance(v[c], v[a])}));
-            if (!(length > 1e-15 * longest * (longest + range))) return;
-            const double sign = n.dot(r.direction) > 0.0 ? -1.0 : 1.0;
-            hit = ray_hit{range, n * (sign / length), content_->surface_of(t)};
-            r.reach = range;
-        });
-        return hit;
-    }
-
-  private:
-    struct content {
-        polyhedron faces;
-        std::vector<std::string> surface_names;
-        bounds extent;
-        detail::bvh tree;
-
-        content(polyhedron given, std::vector<std::string> names)
-            : faces(std::move(given)), surface_names(std::move(names)) {
-            using gnomon::detail::require;
-            const auto& [vertices, triangles, surfaces] = faces;
-            require(!triangles.empty(), "triangle_mesh: there are no triangles");
-            require(surfaces.empty() || surfaces.size() == triangles.size(),
-                    "triangle_mesh: surfaces for another number of triangles");
-            for (std::size_t t = 0; t < triangles.size(); ++t) {
-                const std::int32_t surface = surface_of(t);
-                require(surface >= 0 && static_cast<std::size_t>(surface) < surface_names.size(),
-                        "triangle_mesh: a triangle of a surface without name");
-            }
-            for (const Eigen::Vector3d& v : vertices)
-                require(is_finite(v), "triangle_mesh: a vertex is not finite");
-            std::vector<bounds> boxes;
-            boxes.reserve(triangles.size());
-            for (const triangle& t : triangles) {
-                bounds box;
-                for (const std::uint32_t i : t) {
-                    require(i < vertices.size(), "triangle_mesh: a triangle of a missing vertex");
-                    box.extend(vertices[i]);
-                }
-                extent.extend(box);
-                boxes.push_back(box);
-            }
-            // A margin for the rounding of ranges: a ray may enter a flat box behind its hit.
-            double largest = 0.0;
-            for (int a = 0; a < 3; ++a) {
-                largest = std::max({largest, std::abs(extent.low[a]), std::abs(extent.high[a])});
-            }
-            const Eigen::Vector3d margin = Eigen::Vector3d::Constant(1e-14 * largest);
-            for (bounds& box : boxes) box = {box.low - margin, box.high + margin};
-            tree = detail::bvh(boxes);
-        }
-
-        [[nodiscard]] std::int32_t surface_of(std::size_t t) const {
-            return faces.surface_of_triangle.empty() ? 0 : faces.surface_of_triangle[t];
-        }
-    };
-
-    [[nodiscard]] static Eigen::Vector3d cross(const Eigen::Vector3d& a, const Eigen::Vector3d& b) {
-        return {a.y() * b.z() - a.z() * b.y(), a.z() * b.x() - a.x() * b.z(),
-                a.x() * b.y() - a.y() * b.x()};
-    }
-
-    std::shared_ptr<const content> content_;
-};
-
-}  // namespace gnomon::simulation
-
-// -------- gnomon/simulation/detail/mesh_builder.hpp ----------------------------------------------
-
-/// @file
-/// A builder of triangle meshes from convex planar faces, each face on a named surface.
-
-namespace gnomon::simulation::detail {
-
-/// Collects faces. Faces share no vertices; faces whose edges have equal ends are watertight.
-class mesh_builder {
-  public:
-    /// Begins a new surface, to which the following faces belong.
-    mesh_builder& surface(std::string name) {
-        names_.push_back(std::move(name));
-        return *this;
-    }
-
-    /// Adds a convex planar polygon of three or more corners [m]. Precondition: a surface was
-    /// begun.
-    mesh_builder& face(std::span<const Eigen::Vector3d> corners) {
-        const auto first = static_cast<std::uint32_t>(faces_.vertices.size());
-        faces_.vertices.insert(faces_.vertices.end(), corners.begin(), corners.end());
-        for (std::uint32_t i = 2; i < corners.size(); ++i) {
-            faces_.triangles.push_back({first, first + i - 1, first + i});
-            faces_.surface_of_triangle.push_back(static_cast<std::int32_t>(names_.size() - 1));
-        }
-        return *this;
-    }
-    mesh_builder& face(std::initializer_list<Eigen::Vector3d> corners) {
-        return face(std::span(corners.begin(), corners.size()));
-    }
-
-    /// @throws std::invalid_argument  as triangle_mesh does
-    [[nodiscard]] triangle_mesh mesh() const { return triangle_mesh(faces_, names_); }
-
-  private:
-    polyhedron faces_;
-    std::vector<std::string> names_;
-};
-
-/// A corner of a side view, on both sides of the plane y = 0.
-struct profile_corner {
-    double x;           ///< [m]
-    double z;           ///< [m]
-    double half_width;  ///< distance from the plane y = 0 [m]
-};
-
-/// A solid that is symmetric about y = 0, from a convex side view whose half widths are linear in x
-/// and z: one surface from each corner to the next one, by the given names, then "left" and
-/// "right".
-[[nodiscard]] inline triangle_mesh symmetric_solid(std::span<const profile_corner> profile,
-                                                   std::span<const char* const> names) {
-    std::vector<Eigen::Vector3d> left, right;
-    for (const profile_corner& c : profile) {
-        left.push_back({c.x, c.half_width, c.z});
-        right.push_back({c.x, -c.half_width, c.z});
-    }
-    mesh_builder b;
-    for (std::size_t i = 0; i < profile.size(); ++i) {
-        const std::size_t next = (i + 1) % profile.size();
-        b.surface(names[i]).face({left[i], left[next], right[next], right[i]});
-    }
-    return b.surface("left").face(left).surface("right").face(right).mesh();
-}
-
-}  // namespace gnomon::simulation::detail
-
-// -------- gnomon/simulation/detail/greenery.hpp --------------------------------------------------
-
-/// @file
-/// Trees and hedges: many small leaves of random attitude. Rays pass between the leaves, and the
-/// surface is as rough as the leaves are deep.
-///
-/// A ray through leaves of area A, of which there are n per cubic metre in all attitudes, meets
-/// n A / 2 of them per metre on average.
-
-namespace gnomon::simulation::detail {
-
-/// A rotation about z by an angle of uniform distribution, then of the z axis to a direction of
-/// uniform distribution on the sphere.
-[[nodiscard]] inline pose any_attitude(random_stream& random) {
-    const double heading = random.uniform(-std::numbers::pi, std::numbers::pi);
-    const double slope = std::acos(random.uniform(-1.0, 1.0));
-    const double spin = random.uniform(-std::numbers::pi, std::numbers::pi);
-    return yaw(radians(heading)) * pitch(radians(slope)) * yaw(radians(spin));
-}
-
-/// Square leaves on one surface, "leaves", that fill a volume [m^3] so that a ray meets `per_meter`
-/// of them per metre.
-/// @param edge   of a leaf [m]
-/// @param place  draws the middle of a leaf, uniform in the volume
-[[nodiscard]] triangle_mesh foliage(random_stream& random, double volume, double per_meter,
-                                    double edge, auto&& place) {
-    mesh_builder b;
-    b.surface("leaves");
-    const auto count = static_cast<int>(std::ceil(2.0 * per_meter * volume / (edge * edge)));
-    for (int i = 0; i < count; ++i) {
-        pose leaf = any_attitude(random);
-        leaf.position = place();
-        const double h = 0.5 * edge;
-        b.face({leaf.point_out({-h, -h, 0.0}), leaf.point_out({h, -h, 0.0}),
-                leaf.point_out({h, h, 0.0}), leaf.point_out({-h, h, 0.0})});
-    }
-    return b.mesh();
-}
-
-/// Adds a tree with the parts "trunk" and "crown", an ellipsoid of leaves above 2.3 m.
-inline void add_tree(scene& world, std::string name, const pose& at, random_stream& random) {
-    const double radius = random.uniform(1.2, 1.9);
-    const double half_height = radius * random.uniform(0.9, 1.5);
-    const double middle = 2.3 + half_height;
-    const double trunk = random.uniform(0.10, 0.18);
-    const std::int32_t object = world.add_object(std::move(name));
-    world.add(world.add_part(object, "trunk"), cylinder{trunk, middle}, at);
-    const double volume = 4.0 / 3.0 * std::numbers::pi * radius * radius * half_height;
-    world.add(world.add_part(object, "crown"),
-              foliage(random, volume, 0.7, 0.16,
-                      [&] {
-                          const Eigen::Vector3d direction =
-                              any_attitude(random).direction_out({0.0, 0.0, 1.0});
-                          const double share = std::cbrt(random.uniform());
-                          return Eigen::Vector3d(direction.x() * radius * share,
-                                                 direction.y() * radius * share,
-                                                 middle + direction.z() * half_height * share);
-                      }),
-              at);
-}
-
-/// Adds a hedge of leaves that fill a box.
-inline void add_hedge(scene& world, std::string name, const pose& at, const bounds& extent,
-                      random_stream& random) {
-    const Eigen::Vector3d size = extent.size();
-    world.add_object(std::move(name),
-                     foliage(random, size.x() * size.y() * size.z(), 5.0, 0.11,
-                             [&] {
-                                 const double x = random.uniform(extent.low.x(), extent.high.x());
-                                 const double y = random.uniform(extent.low.y(), extent.high.y());
-                                 const double z = random.uniform(extent.low.z(), extent.high.z());
-                                 return Eigen::Vector3d(x, y, z);
-                             }),
-                     at);
-}
-
-}  // namespace gnomon::simulation::detail
 
 // -------- gnomon/simulation/detail/house.hpp -----------------------------------------------------
 

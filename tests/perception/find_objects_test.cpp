@@ -37,16 +37,15 @@ rec::object_finder learned_finder() {
     rec::object_finder finder;
     for (const auto& model : chair_and_table()) {
         const auto samples = sim::sample_surface(model, {.spacing = 0.02});
-        const std::size_t number = finder.add(
-            model.name, rec::surface_model(samples, samples, 0.02, std::nullopt,
-                                           &sim::surface_sample::position));
+        const std::size_t number =
+            finder.add(model.name, rec::surface_model(samples, samples, 0.02, std::nullopt,
+                                                      &sim::surface_sample::position));
         for (std::uint64_t v = 0; v < 10; ++v) {
             const auto shot = sim::simulate_object_view(model, v, {.seed = 3});
-            const auto seen =
-                rec::perceive_views(shot.truth.scan, {.ground = gnomon::plane{},
-                                                      .noise = find_noise,
-                                                      .gap = rec::infinite_gap,
-                                                      .min_points = 10});
+            const auto seen = rec::perceive_views(shot.truth.scan, {.ground = gnomon::plane{},
+                                                                    .noise = find_noise,
+                                                                    .gap = rec::infinite_gap,
+                                                                    .min_points = 10});
             for (const rec::view& view : seen.views) finder.learn(view, shot.pose, number);
         }
     }
@@ -70,14 +69,14 @@ struct small_room {
         sim::scene world;
         if (has_floor)
             world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
-                     sim::at(2.0, 0.0, 0.0));
+                             sim::at(2.0, 0.0, 0.0));
         world.add_object("carton", sim::box{0.4, 0.3, 0.5}, sim::at(2.8, 0.9, 0.25));
         const auto models = chair_and_table();
         const auto chair = sim::add(world, models[0], chair_pose);
         const auto table = sim::add(world, models[1], table_pose);
-        auto truth = sim::simulate(
-            world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
-            sim::scanner{}, {.sigma = 0.005, .seed = 5});
+        auto truth =
+            sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+                          sim::scanner{}, {.sigma = 0.005, .seed = 5});
         for (const std::int32_t o : truth.objects)
             object_of.push_back(o == chair ? 0 : o == table ? 1 : -1);
         scan = std::move(truth.scan);
@@ -141,12 +140,12 @@ TEST(find_objects, finds_the_same_far_from_the_origin_and_with_missing_points) {
 TEST(find_objects, finds_nothing_where_nothing_is) {
     sim::scene world;
     world.add_object("floor", sim::plane_patch{.length = 5.0, .width = 5.0},
-             sim::at(2.0, 0.0, 0.0));
+                     sim::at(2.0, 0.0, 0.0));
     world.add_object("carton", sim::box{0.5, 0.5, 0.45}, sim::at(2.0, 0.3, 0.225));
     world.add_object("carton", sim::box{0.5, 0.05, 0.9}, sim::at(2.0, -0.6, 0.45));
-    const auto truth = sim::simulate(
-        world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0}, sim::scanner{},
-        {.sigma = 0.005, .seed = 6});
+    const auto truth =
+        sim::simulate(world, sim::vertical{.mount = sim::at(0.0, 0.0, 1.2), .duration = 4.0},
+                      sim::scanner{}, {.sigma = 0.005, .seed = 6});
     const auto found = finder_of_two()(truth.scan, {.noise = find_noise});
     EXPECT_TRUE(found.objects.empty());
     EXPECT_FALSE(found.seen.views.empty());

@@ -125,7 +125,8 @@ TEST(part_votes, of_one_view_find_several_objects) {
     const auto places = votes.places(std::vector{both});
     for (const auto& pose : {first, second}) {
         EXPECT_TRUE(std::ranges::any_of(places, [&](const auto& p) {
-            return p.object == 0 && p.votes > 1.9 && (p.pose.position - pose.position).norm() < 0.01 &&
+            return p.object == 0 && p.votes > 1.9 &&
+                   (p.pose.position - pose.position).norm() < 0.01 &&
                    turn_between(p.pose, pose) < 1.0;
         }));
     }

@@ -16,7 +16,6 @@
 #pragma once
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <optional>
@@ -82,7 +81,7 @@ class object_finder {
         return names_.size() - 1;
     }
 
-    /// Learns the parts of a view of an object, as perceive_views() sees them.
+    /// Stores the parts of a view of an object, as perceive_views() sees them.
     /// @param pose  of the object's frame in that of the view
     /// @throws std::invalid_argument  if there is no such object, or the view has no ground
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
@@ -101,7 +100,8 @@ class object_finder {
     /// Complexity: O(n log n), and O(log n) for each of about 1,000 samples of each hypothesis.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
-    [[nodiscard]] found_objects operator()(const R& points, const find_objects_options& options = {},
+    [[nodiscard]] found_objects operator()(const R& points,
+                                           const find_objects_options& options = {},
                                            const X& run = {}, Proj projection = {}) const {
         options.require_valid();
         const auto& team = gnomon::detail::staying(run);
@@ -113,10 +113,12 @@ class object_finder {
         }
         found_objects result;
         constexpr std::size_t fewest_cells = 20;  // chosen: parts of objects at 5 m
-        result.seen = perceive_views(
-            points,
-            {.ground = options.ground, .up = options.up, .noise = noise, .min_points = fewest_cells},
-            team, projection);
+        result.seen = perceive_views(points,
+                                     {.ground = options.ground,
+                                      .up = options.up,
+                                      .noise = noise,
+                                      .min_points = fewest_cells},
+                                     team, projection);
         std::vector<point_index> kept;
         for (std::size_t i = 0; i < result.seen.groups.labels().size(); ++i)
             if (result.seen.groups.labels()[i] != unlabeled)
@@ -134,8 +136,8 @@ class object_finder {
             hypotheses[i] = evidence.hypothesis(places[i], surfaces_[places[i].object]);
         });
         std::vector<std::int32_t> of_cell(cells.size(), unlabeled);
-        result.objects = evidence.winners(std::move(hypotheses), surfaces_, options.min_probability,
-                                          of_cell);
+        result.objects =
+            evidence.winners(std::move(hypotheses), surfaces_, options.min_probability, of_cell);
         std::vector<std::int32_t> labels(std::ranges::size(points), unlabeled);
         for (std::size_t i = 0; i < kept.size(); ++i) labels[kept[i]] = of_cell[cells.of_point[i]];
         result.points = segments(std::move(labels));

@@ -28,8 +28,8 @@
 #include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/detail/vector3.hpp>
 #include <gnomon/core/error.hpp>
-#include <gnomon/core/plane.hpp>
 #include <gnomon/core/rigid_motion.hpp>
+#include <gnomon/recognition/detail/part_place.hpp>
 #include <gnomon/recognition/part_feature.hpp>
 #include <gnomon/recognition/part_features.hpp>
 #include <gnomon/recognition/view.hpp>
@@ -46,11 +46,11 @@ struct object_place {
 
 /// How parts vote; chosen on furnished_room() with clutter, seeds 1 to 12.
 struct part_votes_options {
-    std::size_t nearest = 10;   ///< learned parts of each object by which a part votes
-    double likeness = 0.3;      ///< standard deviation of the distance of features of one part
-    double max_distance = 0.9;  ///< of features; parts that differ more do not vote
-    double reach = 0.10;        ///< standard deviation of the place of a vote [m]
-    angle turn = degrees(15.0);  ///< the same of its heading
+    std::size_t nearest = 10;    ///< learned parts of each object by which a part votes
+    double likeness = 0.3;       ///< standard deviation of the distance of features of one part
+    double max_distance = 0.9;   ///< of features; parts that differ more do not vote
+    double reach = 0.10;         ///< standard deviation of the place of a vote [m]
+    angle turn = degrees(15.0);  ///< that of its heading
     double min_votes = 0.3;      ///< of a place
     std::size_t most = 12;       ///< places of an object, those of most votes
 
@@ -65,52 +65,6 @@ struct part_votes_options {
                 "part_votes: max_distance and min_votes must not be negative or NaN");
     }
 };
-
-namespace detail {
-
-/// The frame of a ground plane: z is the height above it, and x is that of the scan, as far as it
-/// can be.
-/// @param above  a place near which its origin lies [m]
-[[nodiscard]] inline rigid_motion ground_motion(const plane& ground, const Eigen::Vector3d& above) {
-    using namespace gnomon::detail;
-    const Eigen::Vector3d& z = ground.normal;
-    const Eigen::Vector3d ahead =
-        std::abs(z.x()) < 0.9 ? Eigen::Vector3d(1.0, 0.0, 0.0) : Eigen::Vector3d(0.0, 1.0, 0.0);
-    const Eigen::Vector3d y = direction_of(cross(z, ahead)), x = cross(y, z);
-    rigid_motion m;
-    for (int i = 0; i < 3; ++i) {
-        m.rotation(i, 0) = x[i];
-        m.rotation(i, 1) = y[i];
-        m.rotation(i, 2) = z[i];
-    }
-    m.position = combined(1.0, above, -ground.signed_distance(above), z);
-    return m;
-}
-
-/// Where a part is on the ground, and how it is turned.
-struct part_place {
-    Eigen::Vector3d at;      ///< the middle of its box, in the frame of the ground [m]
-    double heading = 0.0;    ///< [rad]
-    int headings = 1;        ///< that many turns of a full one by equal angles are as good
-
-    part_place(const part& p, const rigid_motion& ground)
-        : at(ground.point_in(p.shape.frame.box_center)) {
-        constexpr double upright = 0.5;  // chosen: cosine; the normal tells the heading
-        constexpr double square = 1.25;  // chosen: ratio of sides of which the longer one is known
-        const Eigen::Vector3d n = ground.direction_in(p.shape.normal);
-        if (std::abs(n.z()) < upright) {
-            heading = std::atan2(n.y(), n.x());
-            return;
-        }
-        const Eigen::Vector3d a =
-            ground.direction_in(gnomon::detail::column(p.shape.frame.axes, 0));
-        heading = std::atan2(a.y(), a.x());
-        const double ratio = p.shape.frame.box_size[0] / std::max(p.shape.frame.box_size[1], 1e-9);
-        headings = ratio < square ? 4 : 2;
-    }
-};
-
-}  // namespace detail
 
 /// Learns where parts are in objects, and votes. Objects stand upright on the ground.
 template <class Features = std::remove_cv_t<decltype(default_features)>>
@@ -168,14 +122,14 @@ class part_votes {
         for (const view& v : views) {
             gnomon::detail::require(v.ground.has_value(), "part_votes: a view needs a ground");
             for (const part& p : v.parts) {
-                if (!has_ground)
-                    ground = detail::ground_motion(*v.ground, p.shape.frame.centroid);
+                if (!has_ground) ground = detail::ground_motion(*v.ground, p.shape.frame.centroid);
                 has_ground = true;
                 cast(p, v, ground, number++, votes);
             }
         }
         std::vector<object_place> places;
-        for (std::size_t o = 0; o < votes.size(); ++o) maxima_of(votes[o], o, number, ground, places);
+        for (std::size_t o = 0; o < votes.size(); ++o)
+            maxima_of(votes[o], o, number, ground, places);
         return places;
     }
 
@@ -211,8 +165,8 @@ class part_votes {
                         place.heading + 2.0 * std::numbers::pi * t / place.headings;
                     const double c = std::cos(turned), w = std::sin(turned);
                     votes[o].push_back({place.at.x() + c * s.ahead - w * s.left,
-                                        place.at.y() + w * s.ahead + c * s.left,
-                                        turned + s.turn, weight, number});
+                                        place.at.y() + w * s.ahead + c * s.left, turned + s.turn,
+                                        weight, number});
                 }
             }
         }
@@ -247,9 +201,8 @@ class part_votes {
         for (const auto& [sum, i] : sums) {
             if (-sum < options_.min_votes || taken.size() == options_.most) break;
             constexpr double same = 0.1;  // chosen: two deviations
-            if (std::ranges::any_of(taken, [&](std::size_t j) {
-                    return agreement(votes[i], votes[j]) > same;
-                }))
+            if (std::ranges::any_of(
+                    taken, [&](std::size_t j) { return agreement(votes[i], votes[j]) > same; }))
                 continue;
             taken.push_back(i);
             places.push_back({object,

@@ -47,7 +47,7 @@ template <class R>
                                                             const segments& parts,
                                                             double max_length,
                                                             const Eigen::Vector3d& up) {
-    constexpr double level = 0.9;    // chosen: cosine; within 26 degrees
+    constexpr double level = 0.9;  // chosen: cosine; within 26 degrees
     constexpr double band = 0.05;  // as that of the floor, rho_o [m]
     std::vector<plane> walls;
     std::vector<char> is_wall(parts.size(), 0);

@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -15,6 +14,7 @@
 
 #include <Eigen/Core>
 
+#include <gnomon/core/detail/cmath.hpp>
 #include <gnomon/core/noise_curve.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/rigid_motion.hpp>
@@ -58,9 +58,9 @@ class scene_evidence {
     /// A hypothesis at its best place near the one that was voted for.
     [[nodiscard]] found_object hypothesis(const object_place& place,
                                           const surface_model& model) const {
-        constexpr double margin = 0.10;          // [m]: error of votes; chosen as `reach` of these
-        constexpr std::size_t fewest = 20;       // cells, as of the views
-        constexpr std::size_t most = 600;        // performance only: cells that are aligned
+        constexpr double margin = 0.10;     // [m]: error of votes; chosen as `reach` of these
+        constexpr std::size_t fewest = 20;  // cells, as of the views
+        constexpr std::size_t most = 600;   // performance only: cells that are aligned
         found_object result;
         result.object = place.object;
         result.votes = place.votes;
@@ -110,7 +110,7 @@ class scene_evidence {
 
   private:
     static constexpr std::size_t neighbors = 15;  // chosen: half of a usual neighborhood
-    static constexpr double lowest = 0.05;        // [m]; as of verifications
+    static constexpr double lowest = 0.05;        // [m]; as in verifications
 
     [[nodiscard]] static bool is_within(const surface_model& model, const Eigen::Vector3d& x,
                                         double margin) {
@@ -136,16 +136,17 @@ class scene_evidence {
     }
 
   public:
-    /// What speaks for a hypothesis: the variables of a logistic regression.
+    /// What is evidence for a hypothesis: the variables of a logistic regression.
     [[nodiscard]] static std::array<double, 6> features_of(const found_object& o) {
         const verification& v = o.evidence;
         const std::size_t through = v.seen_through + v.supported;
-        return {v.support(),
-                through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
-                v.explanation(),
-                v.observed(),
-                std::log1p(static_cast<double>(v.explained)),
-                std::log(0.05 + o.votes)};
+        return {
+            v.support(),
+            through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
+            v.explanation(),
+            v.observed(),
+            std::log1p(static_cast<double>(v.explained)),
+            std::log(0.05 + o.votes)};
     }
 
   private:
