@@ -382,3 +382,43 @@ def known_models(tables):
         return NOT_MEASURED
     return (f"class {of_class['top 1']:.3f}, model {of_model['top 1']:.3f}",
             of_class["top 1"] >= 0.98 and of_model["top 1"] >= 0.93)
+
+
+# Whole rooms.
+
+def method_in(tables, rooms, method):
+    return row(tables["whole rooms"], rooms=rooms, method=method)
+
+
+VOTING = "voting and verification"
+
+
+@relation("rooms", "5.10.1", "cluttered rooms, thesis grouping: accuracy of all views 0.90 or more, precision 0.90 or more at "
+          "recall 0.45 or more", "Sec. 5.7: 0.90, 0.86, 0.43")
+def grouping_in_rooms(tables):
+    found = method_in(tables, "cluttered", "thesis grouping, clutter learned")
+    return (with_worst(found, "accuracy", "precision", "recall"),
+            found["accuracy"] >= 0.90 and found["precision"] >= 0.90 and found["recall"] >= 0.45)
+
+
+def voting_holds(found):
+    return found["precision"] >= 0.93 and found["precision, worst"] >= 0.91 and found["recall"] >= 0.70
+
+
+@relation("rooms", "5.10.2", "cluttered rooms, voting and verification: precision 0.93 (worst seed 0.91) or more at recall 0.70 "
+          "or more", OWN)
+def voting_in_rooms(tables):
+    found = method_in(tables, "cluttered", VOTING)
+    return with_worst(found, "precision", "recall"), voting_holds(found)
+
+
+@relation("rooms", "5.10.3", "objects that touch walls and each other: the same", OWN)
+def voting_where_objects_touch(tables):
+    found = method_in(tables, "touching", VOTING)
+    return with_worst(found, "precision", "recall"), voting_holds(found)
+
+
+@relation("rooms", "5.10.4", "poses within 2 cm and 2 degrees for 0.95 or more of right objects", OWN)
+def poses(tables):
+    shares = [method_in(tables, rooms, VOTING).get("within 2 cm and 2 deg", 0.0) for rooms in ("cluttered", "touching")]
+    return f"cluttered {shares[0]:.3f}, touching {shares[1]:.3f}", min(shares) >= 0.95

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -13,9 +14,14 @@
 
 #include "learn_objects/models.hpp"
 #include "outcomes.hpp"
+#include <gnomon/filters/subset.hpp>
+#include <gnomon/perception/find_objects.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
+#include <gnomon/recognition/view_augmentation.hpp>
+#include <gnomon/simulation/object_views.hpp>
+#include <gnomon/simulation/sample_surface.hpp>
 
 namespace {
 
@@ -48,11 +54,13 @@ rec::object_recognizer<> learned(const effort& much, std::uint64_t seed,
 /// The grouping of the thesis: points of at most 10 cm from each other are one object, Sec. 5.5.1.
 class thesis_grouping {
   public:
-    explicit thesis_grouping(rec::object_recognizer<> model) : model_(std::move(model)) {}
+    explicit thesis_grouping(rec::object_recognizer<> model,
+                             gnomon::angle divergence = gnomon::degrees(0.0))
+        : model_(std::move(model)), divergence_(divergence) {}
 
     [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
         const auto seen = rec::perceive_views(
-            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}, .divergence = wide_beam},
+            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}, .divergence = divergence_},
             gnomon::threads{});
         std::vector<found_object> found;
         for (std::size_t v = 0; v < seen.views.size(); ++v) {
@@ -66,15 +74,85 @@ class thesis_grouping {
 
   private:
     rec::object_recognizer<> model_;
+    gnomon::angle divergence_;
 };
 
-/// The methods, by their names.
-std::vector<std::pair<std::string, object_finder>> methods_of(const effort& much,
-                                                              std::uint64_t seed) {
-    return {
-        {"thesis grouping", thesis_grouping(learned(much, seed, background_of_learning::built_in))},
-        {"thesis grouping, clutter learned",
-         thesis_grouping(learned(much, seed, background_of_learning::clutter))}};
+/// Votes of parts, alignment, verification and competition: `rec::object_finder`.
+class voting {
+  public:
+    voting(const effort& much, std::uint64_t seed) {
+        constexpr double spacing = 0.02;  // of samples of surfaces [m]
+        const auto models = sim::furniture_models();
+        const sim::object_view_options how{.beam = {.sigma = room_kind{}.sigma}, .seed = seed};
+        for (const sim::furniture_model& model : models) {
+            const auto samples = sim::sample_surface(model, {.spacing = spacing});
+            finder_.add(model.name, rec::surface_model(samples, samples, spacing, std::nullopt,
+                                                       &sim::surface_sample::position));
+        }
+        for (const auto& shot : sim::simulate_object_views(models, views_per_model(much), how))
+            learn(shot, how);
+    }
+
+    [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
+        const auto result =
+            finder_(scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, gnomon::threads{});
+        std::vector<found_object> found;
+        for (std::size_t i = 0; i < result.objects.size(); ++i) {
+            const rec::found_object& o = result.objects[i];
+            found.push_back({.name = finder_.names()[o.object],
+                             .probability = o.probability,
+                             .points = {result.points[i].begin(), result.points[i].end()},
+                             .pose = o.pose.pose});
+        }
+        // What remains of groups is background, if it is the larger part of them.
+        for (std::size_t g = 0; g < result.seen.groups.size(); ++g) {
+            std::vector<gnomon::point_index> rest;
+            for (const gnomon::point_index i : result.seen.groups[g])
+                if (result.points.labels()[i] == gnomon::unlabeled) rest.push_back(i);
+            if (rest.size() >= fewest_points && 2 * rest.size() > result.seen.groups[g].size())
+                found.push_back({.name = std::string(rec::background_name),
+                                 .probability = 1.0,
+                                 .points = std::move(rest)});
+        }
+        return found;
+    }
+
+  private:
+    /// A view, and two versions of its scan of which a part is hidden, as other methods learn.
+    void learn(const sim::object_view& shot, const sim::object_view_options& how) {
+        gnomon::random_stream random(~how.seed, learned_++);
+        for (int version = 0; version < 3; ++version) {
+            gnomon::scan scan = shot.truth.scan;
+            if (version > 0)
+                scan = gnomon::subset(scan, rec::hide_part(scan, how.sensor.position, random));
+            const auto seen =
+                rec::perceive_views(scan, {.ground = gnomon::plane{},
+                                           .noise = gnomon::constant_noise{how.beam.sigma},
+                                           .gap = rec::infinite_gap,
+                                           .min_points = fewest_cells});
+            for (const rec::view& v : seen.views) finder_.learn(v, shot.pose, shot.model);
+        }
+    }
+
+    rec::object_finder finder_;
+    std::uint64_t learned_ = 0;
+};
+
+/// A method, and the probability from which on its objects are decided.
+struct method {
+    std::string name;
+    object_finder find;
+    double min_probability = 0.90;
+};
+
+std::vector<method> methods_of(const effort& much, std::uint64_t seed) {
+    const auto plain = learned(much, seed, background_of_learning::built_in);
+    const auto cluttered = learned(much, seed, background_of_learning::clutter);
+    return {{"thesis grouping, silhouettes removed", thesis_grouping(plain, wide_beam)},
+            {"thesis grouping", thesis_grouping(plain)},
+            {"thesis grouping, clutter learned", thesis_grouping(cluttered)},
+            {"voting and verification", voting(much, seed),
+             rec::find_objects_options{}.min_probability}};
 }
 
 /// The rooms of a seed.
@@ -193,8 +271,8 @@ json measure(const effort& much, const seed_plan& plan) {
             const room_set& set = plan.sets[k];
             const std::size_t first = k * methods.size();
             if (s == 0)
-                for (const auto& [name, method] : methods)
-                    rows.push_back({{{"rooms", set.name}, {"method", name}}, {}, {}});
+                for (const method& m : methods)
+                    rows.push_back({{{"rooms", set.name}, {"method", m.name}}, {}, {}});
             for (std::size_t m = 0; m < methods.size(); ++m) rows[first + m].seeds.emplace_back();
             for (std::size_t r = 0; r < set.rooms; ++r) {
                 const double start = processor_time(CLOCK_PROCESS_CPUTIME_ID);
@@ -204,11 +282,11 @@ json measure(const effort& much, const seed_plan& plan) {
                 contents[k].add(room);
                 for (std::size_t m = 0; m < methods.size(); ++m) {
                     const double before = processor_time(CLOCK_PROCESS_CPUTIME_ID);
-                    auto found = methods[m].second(room.truth.scan);
+                    auto found = methods[m].find(room.truth.scan);
                     rows[first + m].times.push_back(processor_time(CLOCK_PROCESS_CPUTIME_ID) -
                                                     before);
                     rows[first + m].seeds.back().add(
-                        judgement_of(room, std::move(found), headings));
+                        judgement_of(room, std::move(found), headings, methods[m].min_probability));
                 }
             }
         }

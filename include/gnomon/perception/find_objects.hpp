@@ -133,7 +133,8 @@ class object_finder {
             cells, visibility(points, {.noise = noise}, team, projection), noise, team);
         std::vector<found_object> hypotheses(places.size());
         team(places.size(), [&](std::size_t i) {
-            hypotheses[i] = evidence.hypothesis(places[i], surfaces_[places[i].object]);
+            const surface_model& model = surfaces_[places[i].object];
+            hypotheses[i] = evidence.improved(evidence.hypothesis(places[i], model), model);
         });
         std::vector<std::int32_t> of_cell(cells.size(), unlabeled);
         result.objects =
