@@ -36,6 +36,7 @@ rec::object_finder finder_of(const std::vector<sim::furniture_model>& models,
             for (const rec::view& view : seen.views) finder.learn(view, shot.pose, object);
         }
     }
+    finder.fit(gnomon::threads{});
     return finder;
 }
 // [learn_to_find]

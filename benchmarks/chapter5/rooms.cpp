@@ -12,7 +12,6 @@
 #include <utility>
 #include <vector>
 
-#include "learn_objects/models.hpp"
 #include "outcomes.hpp"
 #include <gnomon/filters/subset.hpp>
 #include <gnomon/perception/find_objects.hpp>
@@ -25,13 +24,9 @@
 
 namespace {
 
-/// What a recognizer learns as background.
-enum class background_of_learning { built_in, clutter };
-
 /// As learn_objects does: each scan, and two versions of it of which a part is hidden, for the
 /// models and for background.
-rec::object_recognizer<> learned(const effort& much, std::uint64_t seed,
-                                 background_of_learning background) {
+rec::object_recognizer<> learned(const effort& much, std::uint64_t seed) {
     constexpr std::size_t pieces = 24;  // of background
     const auto models = sim::furniture_models();
     const std::size_t n = views_per_model(much), each = std::max<std::size_t>(1, 3 * n / pieces);
@@ -41,9 +36,7 @@ rec::object_recognizer<> learned(const effort& much, std::uint64_t seed,
     };
     rec::object_recognizer<> model;
     learn_views(model, seen(models, n, seed), names_of(models));
-    const auto others = background == background_of_learning::built_in
-                            ? detail::clutter(pieces, seed)
-                            : sim::clutter_models(pieces, seed);
+    const auto others = sim::clutter_models(pieces, seed);
     // Other seeds than those of the models, so that their places differ.
     learn_views(model, seen(others, each, seed + 100'000),
                 std::vector<std::string>(pieces, std::string(rec::background_name)));
@@ -54,14 +47,11 @@ rec::object_recognizer<> learned(const effort& much, std::uint64_t seed,
 /// The grouping of the thesis: points of at most 10 cm from each other are one object, Sec. 5.5.1.
 class thesis_grouping {
   public:
-    explicit thesis_grouping(rec::object_recognizer<> model,
-                             gnomon::angle divergence = gnomon::degrees(0.0))
-        : model_(std::move(model)), divergence_(divergence) {}
+    explicit thesis_grouping(rec::object_recognizer<> model) : model_(std::move(model)) {}
 
     [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
         const auto seen = rec::perceive_views(
-            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}, .divergence = divergence_},
-            gnomon::threads{});
+            scan, {.noise = gnomon::constant_noise{room_kind{}.sigma}}, gnomon::threads{});
         std::vector<found_object> found;
         for (std::size_t v = 0; v < seen.views.size(); ++v) {
             const rec::decision d = model_.decide(seen.views[v]);
@@ -74,7 +64,6 @@ class thesis_grouping {
 
   private:
     rec::object_recognizer<> model_;
-    gnomon::angle divergence_;
 };
 
 /// Votes of parts, alignment, verification and competition: `rec::object_finder`.
@@ -91,6 +80,7 @@ class voting {
         }
         for (const auto& shot : sim::simulate_object_views(models, views_per_model(much), how))
             learn(shot, how);
+        finder_.fit(gnomon::threads{});
     }
 
     [[nodiscard]] std::vector<found_object> operator()(const gnomon::scan& scan) const {
@@ -146,11 +136,7 @@ struct method {
 };
 
 std::vector<method> methods_of(const effort& much, std::uint64_t seed) {
-    const auto plain = learned(much, seed, background_of_learning::built_in);
-    const auto cluttered = learned(much, seed, background_of_learning::clutter);
-    return {{"thesis grouping, silhouettes removed", thesis_grouping(plain, wide_beam)},
-            {"thesis grouping", thesis_grouping(plain)},
-            {"thesis grouping, clutter learned", thesis_grouping(cluttered)},
+    return {{"thesis grouping", thesis_grouping(learned(much, seed))},
             {"voting and verification", voting(much, seed),
              rec::find_objects_options{}.min_probability}};
 }

@@ -49,11 +49,13 @@ rec::object_finder learned_finder() {
             for (const rec::view& view : seen.views) finder.learn(view, shot.pose, number);
         }
     }
+    finder.fit();
     return finder;
 }
 
 const rec::object_finder& finder_of_two() {
     static const rec::object_finder finder = learned_finder();
+    finder.fit();
     return finder;
 }
 
@@ -166,6 +168,12 @@ TEST(find_objects, of_no_points_or_no_ground_are_none) {
 TEST(find_objects, refuses_bad_arguments) {
     constexpr double nan = std::numeric_limits<double>::quiet_NaN();
     rec::object_finder finder;
+    EXPECT_THROW(finder.fit(), std::invalid_argument);
+    finder = finder_of_two();
+    finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {},
+                 0);  // not fitted any more
+    EXPECT_THROW(static_cast<void>(finder(small_room().scan)), std::invalid_argument);
+    finder = {};
     EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
     EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, 0),

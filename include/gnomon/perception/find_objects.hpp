@@ -9,6 +9,8 @@
 ///     rec::object_finder finder;
 ///     const std::size_t chair = finder.add("chair", surface_model_of_chair);
 ///     for (const auto& [view, pose] : views_of_chair) finder.learn(view, pose, chair);
+///     ...
+///     finder.fit(gnomon::threads{});
 ///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
 ///         use(finder.names()[o.object], o.pose.pose, o.probability);
 ///
@@ -69,7 +71,7 @@ class object_finder {
   public:
     explicit object_finder(part_votes_options votes = {}) : votes_(votes) {}
 
-    /// Adds an object.
+    /// Adds an object. Several may have one name: variants of one class.
     /// @return its number
     /// @throws std::invalid_argument  if it has no name, or its surface no samples
     std::size_t add(std::string name, surface_model surface) {
@@ -87,6 +89,16 @@ class object_finder {
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
         votes_.learn(v, pose, object);
+        recognizer_.learn(v, names_[object]);
+        is_fitted_ = false;
+    }
+
+    /// Fits the recognizer of parts, to be called after all views are learned.
+    /// @throws std::invalid_argument  if views of fewer than two objects were learned
+    template <execution X = sequential>
+    void fit(const X& run = {}) {
+        recognizer_.fit(run);
+        is_fitted_ = true;
     }
 
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
@@ -96,7 +108,7 @@ class object_finder {
     /// @param points  any point range of n points [m]; seen from the origin without view points
     /// @param run     the result does not depend on it
     /// @return none if no ground was found
-    /// @throws std::invalid_argument  for options that are not valid
+    /// @throws std::invalid_argument  for options that are not valid, or before fit()
     /// Complexity: O(n log n), and O(log n) for each of about 1,000 samples of each hypothesis.
     template <class R, execution X = sequential, class Proj = std::identity>
         requires point_range<R, Proj>
@@ -124,7 +136,8 @@ class object_finder {
             if (result.seen.groups.labels()[i] != unlabeled)
                 kept.push_back(static_cast<point_index>(i));
         result.points = segments(std::vector<std::int32_t>(std::ranges::size(points), unlabeled));
-        if (kept.empty() || !result.seen.ground) return result;
+        if (kept.empty() || !result.seen.ground || names_.empty()) return result;
+        gnomon::detail::require(is_fitted_, "object_finder: fit() it first");
 
         const auto places = votes_.places(result.seen.views);
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
@@ -135,6 +148,8 @@ class object_finder {
         team(places.size(), [&](std::size_t i) {
             const surface_model& model = surfaces_[places[i].object];
             hypotheses[i] = evidence.improved(evidence.hypothesis(places[i], model), model);
+            evidence.recognize(hypotheses[i], model, recognizer_, names_[places[i].object],
+                               *result.seen.ground);
         });
         std::vector<std::int32_t> of_cell(cells.size(), unlabeled);
         result.objects =
@@ -147,6 +162,8 @@ class object_finder {
 
   private:
     part_votes<> votes_;
+    object_recognizer<> recognizer_;  // by the names of the objects
+    bool is_fitted_ = false;
     std::vector<std::string> names_;
     std::vector<surface_model> surfaces_;
 };
