@@ -19,27 +19,33 @@
 #include <gnomon/recognition/learned_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/view_augmentation.hpp>
+#include <gnomon/simulation/clutter.hpp>
 #include <gnomon/simulation/object_views.hpp>
 #include <gnomon/simulation/sample_surface.hpp>
 
 namespace {
 
+/// What is learned as background: pieces, and views of each.
+constexpr std::size_t background_pieces = 24;
+std::size_t views_of_background(std::size_t views_per_model) {
+    return std::max<std::size_t>(1, 3 * views_per_model / background_pieces);
+}
+
 /// As learn_objects does: each scan, and two versions of it of which a part is hidden, for the
 /// models and for background.
 rec::object_recognizer<> learned(const effort& much, std::uint64_t seed) {
-    constexpr std::size_t pieces = 24;  // of background
     const auto models = sim::furniture_models();
-    const std::size_t n = views_per_model(much), each = std::max<std::size_t>(1, 3 * n / pieces);
+    const std::size_t n = views_per_model(much);
     const auto seen = [&](const std::vector<sim::furniture_model>& of, std::size_t views,
                           std::uint64_t s) {
         return views_of(with_hidden_parts(scans_of(of, views, {}, s, purpose::learning), s));
     };
     rec::object_recognizer<> model;
     learn_views(model, seen(models, n, seed), names_of(models));
-    const auto others = sim::clutter_models(pieces, seed);
+    const auto others = sim::clutter_models(background_pieces, seed);
     // Other seeds than those of the models, so that their places differ.
-    learn_views(model, seen(others, each, seed + 100'000),
-                std::vector<std::string>(pieces, std::string(rec::background_name)));
+    learn_views(model, seen(others, views_of_background(n), seed + 100'000),
+                std::vector<std::string>(background_pieces, std::string(rec::background_name)));
     model.fit(gnomon::threads{});
     return model;
 }
@@ -78,8 +84,16 @@ class voting {
             finder_.add(model.name, rec::surface_model(samples, samples, spacing, std::nullopt,
                                                        &sim::surface_sample::position));
         }
-        for (const auto& shot : sim::simulate_object_views(models, views_per_model(much), how))
-            learn(shot, how);
+        const std::size_t n = views_per_model(much);
+        for (const auto& shot : sim::simulate_object_views(models, n, how))
+            for (const rec::view& v : versions_of(shot, how))
+                finder_.learn(v, shot.pose, shot.model);
+        // Other seeds, as for the other method.
+        auto elsewhere = how;
+        elsewhere.seed += 100'000;
+        for (const auto& shot : sim::simulate_object_views(
+                 sim::clutter_models(background_pieces, seed), views_of_background(n), elsewhere))
+            for (const rec::view& v : versions_of(shot, elsewhere)) finder_.learn_background(v);
         finder_.fit(gnomon::threads{});
     }
 
@@ -109,19 +123,21 @@ class voting {
 
   private:
     /// A view, and two versions of its scan of which a part is hidden, as other methods learn.
-    void learn(const sim::object_view& shot, const sim::object_view_options& how) {
+    [[nodiscard]] std::vector<rec::view> versions_of(const sim::object_view& shot,
+                                                     const sim::object_view_options& how) {
+        std::vector<rec::view> versions;
         gnomon::random_stream random(~how.seed, learned_++);
         for (int version = 0; version < 3; ++version) {
             gnomon::scan scan = shot.truth.scan;
             if (version > 0)
                 scan = gnomon::subset(scan, rec::hide_part(scan, how.sensor.position, random));
-            const auto seen =
-                rec::perceive_views(scan, {.ground = gnomon::plane{},
-                                           .noise = gnomon::constant_noise{how.beam.sigma},
-                                           .gap = rec::infinite_gap,
-                                           .min_points = fewest_cells});
-            for (const rec::view& v : seen.views) finder_.learn(v, shot.pose, shot.model);
+            auto seen = rec::perceive_views(scan, {.ground = gnomon::plane{},
+                                                   .noise = gnomon::constant_noise{how.beam.sigma},
+                                                   .gap = rec::infinite_gap,
+                                                   .min_points = fewest_cells});
+            for (rec::view& v : seen.views) versions.push_back(std::move(v));
         }
+        return versions;
     }
 
     rec::object_finder finder_;

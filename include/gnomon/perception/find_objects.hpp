@@ -93,6 +93,14 @@ class object_finder {
         is_fitted_ = false;
     }
 
+    /// Stores a view of something that is not to be found, such as clutter: what is more similar to
+    /// it than to an object is less probable.
+    /// @throws std::invalid_argument  if the view has no ground
+    void learn_background(const view& v) {
+        recognizer_.learn(v, background_name);
+        is_fitted_ = false;
+    }
+
     /// Fits the recognizer of parts, to be called after all views are learned.
     /// @throws std::invalid_argument  if views of fewer than two objects were learned
     template <execution X = sequential>
