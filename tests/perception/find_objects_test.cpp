@@ -55,7 +55,6 @@ rec::object_finder learned_finder() {
 
 const rec::object_finder& finder_of_two() {
     static const rec::object_finder finder = learned_finder();
-    finder.fit();
     return finder;
 }
 
@@ -173,7 +172,7 @@ TEST(find_objects, refuses_bad_arguments) {
     finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {},
                  0);  // not fitted any more
     EXPECT_THROW(static_cast<void>(finder(small_room().scan)), std::invalid_argument);
-    finder = {};
+    finder = rec::object_finder();
     EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);
     EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {}, 0),
