@@ -31,10 +31,10 @@ struct board {
 };
 
 /// What a chair looks like: a seat, and a back at -x that is seen from the front.
-const std::vector<board> chair_boards{{{0.0, 0.0, 0.45}, {0, 0, 1}, {0, 1, 0}, 0.50, 0.30},
-                                      {{-0.2, 0.0, 0.75}, {1, 0, 0}, {0, 1, 0}, 0.50, 0.35}};
+const std::vector<board> chair_boards{{{0.0, 0.06, 0.45}, {0, 0, 1}, {0, 1, 0}, 0.50, 0.30},
+                                      {{-0.2, 0.06, 0.75}, {1, 0, 0}, {0, 1, 0}, 0.50, 0.35}};
 /// A table: one level board, much longer than wide.
-const std::vector<board> table_boards{{{0.1, 0.0, 0.72}, {0, 0, 1}, {1, 0, 0}, 1.40, 0.70}};
+const std::vector<board> table_boards{{{0.1, 0.05, 0.72}, {0, 0, 1}, {1, 0, 0}, 1.40, 0.70}};
 
 /// A view of boards at a pose of their object.
 rec::view view_of_boards(const std::vector<board>& boards, const rigid_motion& pose,
