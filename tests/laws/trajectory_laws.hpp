@@ -18,7 +18,7 @@ void poses_are_rigid_and_always_the_same(const T& trajectory) {
     ASSERT_GE(trajectory.duration, 0.0);
     for (int k = 0; k <= 100; ++k) {
         const double t = trajectory.duration * k / 100.0;
-        ASSERT_TRUE(gnomon::simulation::is_rigid(trajectory(t)));
+        ASSERT_TRUE(gnomon::is_rigid(trajectory(t)));
         ASSERT_EQ(trajectory(t).rotation, trajectory(t).rotation);
         ASSERT_EQ(trajectory(t).position, trajectory(t).position);
     }

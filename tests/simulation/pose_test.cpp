@@ -32,7 +32,7 @@ TEST(pose, out_and_in_are_inverse) {
 }
 
 TEST(pose, detects_rigid_motions) {
-    for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_TRUE(sim::is_rigid(any_pose(seed)));
+    for (std::uint64_t seed = 0; seed < 50; ++seed) EXPECT_TRUE(gnomon::is_rigid(any_pose(seed)));
     sim::pose doubled;
     doubled.rotation *= 2.0;
     sim::pose flat;
@@ -45,7 +45,7 @@ TEST(pose, detects_rigid_motions) {
     unknown.rotation(2, 1) = clouds::nan;
     for (const sim::pose& bad : {doubled, flat, mirrored, skewed, unknown,
                                  sim::at(0, clouds::nan, 0), sim::at(0, 0, clouds::infinity)}) {
-        EXPECT_FALSE(sim::is_rigid(bad));
+        EXPECT_FALSE(gnomon::is_rigid(bad));
     }
 }
 

@@ -94,7 +94,7 @@ TEST(spinning_lidar, turns_unit_directions_without_moving_them) {
         for (std::size_t j = 0; j < lidar.beams(); ++j)
             EXPECT_NEAR(lidar.direction(j).norm(), 1.0, 1e-15);
         for (std::size_t line = 0; line < 2 * lidar.columns; ++line) {
-            EXPECT_TRUE(sim::is_rigid(lidar.line_pose(line)));
+            EXPECT_TRUE(gnomon::is_rigid(lidar.line_pose(line)));
             EXPECT_EQ(lidar.line_pose(line).position, Eigen::Vector3d(0, 0, 0));
         }
     }

@@ -69,6 +69,8 @@ struct found_objects {
 /// stand upright on the ground.
 class object_finder {
   public:
+    /// Without objects.
+    /// @throws std::invalid_argument  for options that are not valid
     explicit object_finder(part_votes_options votes = {}) : votes_(votes) {}
 
     /// Adds an object. Several may have one name: variants of one class.
@@ -109,7 +111,9 @@ class object_finder {
         is_fitted_ = true;
     }
 
+    /// The names of the objects, by their numbers.
     [[nodiscard]] const std::vector<std::string>& names() const { return names_; }
+    /// The surfaces of the objects, by their numbers.
     [[nodiscard]] const std::vector<surface_model>& surfaces() const { return surfaces_; }
 
     /// Finds objects.

@@ -73,8 +73,8 @@ class part_votes {
     static constexpr std::size_t features_per_part = feature_count<Features>;
     /// A part that was learned, and where its object is, seen from it.
     struct sample {
-        std::array<double, features_per_part> features;
-        std::uint32_t object = 0;
+        std::array<double, features_per_part> features;  ///< divided by their scales
+        std::uint32_t object = 0;                        ///< its number
         double ahead = 0.0, left = 0.0;  ///< of the heading of the part, of the object's frame [m]
         double turn = 0.0;               ///< heading of the object less that of the part [rad]
     };
@@ -108,6 +108,7 @@ class part_votes {
         samples_.insert(samples_.end(), learned.begin(), learned.end());
     }
 
+    /// The parts that were learned, in their sequence.
     [[nodiscard]] const std::vector<sample>& samples() const { return samples_; }
 
     /// The places of objects by the votes of the parts of all views.

@@ -36,7 +36,7 @@ class surface_model {
     /// A sample's normal: unit vector, towards the side that can be seen. Models `normal_range`
     /// together with others.
     struct oriented {
-        Eigen::Vector3d normal;
+        Eigen::Vector3d normal;  ///< of unit length
     };
 
     /// Of no samples.

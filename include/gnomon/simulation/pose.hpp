@@ -11,7 +11,6 @@ namespace gnomon::simulation {
 /// A rigid motion: the point x of the local frame is rotation * x + position in the outer frame.
 /// Frames: x forward, y left, z up.
 using pose = rigid_motion;
-using gnomon::is_rigid;
 
 /// The translation to (x, y, z) [m].
 [[nodiscard]] inline pose at(double x, double y, double z) {
