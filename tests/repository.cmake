@@ -32,7 +32,7 @@ file(GLOB pages CONFIGURE_DEPENDS ${PROJECT_SOURCE_DIR}/benchmarks/*/page.py)
 foreach(page IN LISTS pages)
     cmake_path(GET page PARENT_PATH folder)
     cmake_path(GET folder FILENAME name)
-    add_style_test(page_of_${name} Python3::Interpreter ${page} --check ${PROJECT_SOURCE_DIR}/docs/results)
+    add_style_test(page_of_${name} sh ${PROJECT_SOURCE_DIR}/benchmarks/check_page.sh ${name})
 endforeach()
 add_style_test(format sh ${tools}/check_format.sh)
 # GCC collects its garbage each time that its memory has doubled, which at some size makes one line
