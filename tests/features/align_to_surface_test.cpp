@@ -203,7 +203,7 @@ TEST(align_to_surface, covariance_includes_the_noise_of_the_surface) {
 TEST(align_to_surface, does_not_depend_on_threads) {
     const auto& [samples, index] = the_chair();
     const auto m = measure(5000, 0.005, 3, sensor_at(1.5, -1.0, 1.2));
-    const auto of = [&](const auto& run) {
+    const auto of = [&, &samples = samples, &index = index](const auto& run) {
         return gnomon::align_to_surface(m.points, index, samples,
                                         displaced(m.truth, 0.04, 0.02, false, 1), {}, run);
     };
@@ -332,7 +332,8 @@ TEST(align_to_surface, names_too_few_points) {
 TEST(align_to_surface, refuses_what_cannot_be_meant) {
     const auto& [samples, index] = the_chair();
     const auto points = positions_of(samples);
-    const auto align = [&](const rigid_motion& start, const gnomon::alignment_options& o) {
+    const auto align = [&, &samples = samples, &index = index](const rigid_motion& start,
+                                                               const gnomon::alignment_options& o) {
         return gnomon::align_to_surface(points, index, samples, start, o);
     };
     rigid_motion doubled;

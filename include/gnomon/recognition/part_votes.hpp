@@ -199,7 +199,9 @@ class part_votes {
         }
         std::ranges::sort(sums);
         std::vector<std::size_t> taken;
-        for (const auto& [sum, i] : sums) {
+        for (const auto& of_vote : sums) {
+            const double sum = of_vote.first;
+            const std::size_t i = of_vote.second;  // clang 14 captures no binding
             if (-sum < options_.min_votes || taken.size() == options_.most) break;
             constexpr double same = 0.1;  // chosen: two deviations
             if (std::ranges::any_of(
