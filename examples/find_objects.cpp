@@ -55,15 +55,15 @@ int main() {
     std::printf("%zu points, %zu objects\n", scan.size(), found.objects.size());
     for (std::size_t i = 0; i < found.objects.size(); ++i) {
         const rec::found_object& o = found.objects[i];
-        const gnomon::rigid_motion& pose = o.pose.pose;
+        const gnomon::rigid_motion& pose = o.aligned.pose;
         std::printf("%-14s %.2f  at %.3f %.3f m, heading %.1f degrees, %zu points\n",
                     finder.names()[o.object].c_str(), o.probability, pose.position.x(),
                     pose.position.y(),
                     std::atan2(pose.rotation(1, 0), pose.rotation(0, 0)) * 180.0 / std::numbers::pi,
                     found.points[i].size());
         // Of turns [rad] and shifts [m]. The heading of a round table cannot be known.
-        const auto covariance = o.pose.covariance_about(pose.position);
-        if (o.pose.is_usable())
+        const auto covariance = o.aligned.covariance_about(pose.position);
+        if (o.aligned.is_usable())
             std::printf("    +- %.1f mm and %.2f degrees\n",
                         1e3 * std::sqrt(covariance(3, 3) + covariance(4, 4)),
                         std::sqrt(covariance(2, 2)) * 180.0 / std::numbers::pi);

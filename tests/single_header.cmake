@@ -18,7 +18,7 @@ add_custom_target(make_single_header DEPENDS ${single_header})
 foreach(header IN LISTS headers)
     cmake_path(RELATIVE_PATH header BASE_DIRECTORY ${PROJECT_SOURCE_DIR}/include)
     # Outside, as they need Boost: the registry, and recognition with what is above it.
-    if(header MATCHES "^gnomon/(normals/registry|recognition|recognition/.*|perception/(perceive_views|find_objects))[.]hpp$")
+    if(header MATCHES "^gnomon/(normals/registry|recognition|recognition/.*|perception/(perceive_views|find_objects|found_object))[.]hpp$")
         configure_file(${PROJECT_SOURCE_DIR}/include/${header} ${single_dir}/${header} COPYONLY)
     elseif(NOT header STREQUAL "gnomon/gnomon.hpp")
         file(CONFIGURE OUTPUT ${single_dir}/${header}

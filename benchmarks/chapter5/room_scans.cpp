@@ -73,7 +73,8 @@ std::vector<background_group> background_of(
     return groups;
 }
 
-/// Whether a model looks the same after a turn, to 1 mm, by rays from all around.
+/// Whether a model looks the same after a turn, to 1 mm, by rays from all around: by another way
+/// than that of the methods which are tested.
 bool is_same_after(const sim::furniture_model& model, gnomon::angle turn) {
     sim::scene plain, turned;
     sim::add(plain, model);

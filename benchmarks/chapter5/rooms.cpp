@@ -106,7 +106,7 @@ class voting {
             found.push_back({.name = finder_.names()[o.object],
                              .probability = o.probability,
                              .points = {result.points[i].begin(), result.points[i].end()},
-                             .pose = o.pose.pose});
+                             .pose = o.aligned.pose});
         }
         // What remains of groups is background, if it is the larger part of them.
         for (std::size_t g = 0; g < result.seen.groups.size(); ++g) {

@@ -20197,11 +20197,11 @@ class raster_reach {
     static constexpr double growth = 1.25;      // performance: of a reach that is tried
     // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
     // of a scan line is 1.4 times as sparse at its equator as its middle.
-    static constexpr double sparser = 2.0;
-    static constexpr std::size_t side_by_side =
-        32;  // chosen: samples that determine the local reach
-    // Of these samples; not the middle, as a reach changes from sample to sample.
-    static constexpr double wide_share = 0.75;
+    static constexpr double sparser = 2.0;  // ratio of reaches
+    // Samples that determine the local reach, and the share of them that it is enough for: not the
+    // half, as a reach changes from sample to sample. Chosen on the same.
+    static constexpr std::size_t side_by_side = 32;
+    static constexpr double wide_share = 0.75;  // share of these samples
 
     [[nodiscard]] static double quantile_of(scratch<double>& values, double share) {
         const auto at = values.begin() +
@@ -25656,7 +25656,7 @@ struct rigid_motion {
 /// Returns whether a motion is rigid: finite, with orthonormal, right-handed axes, to a tolerance
 /// of 1e-9.
 [[nodiscard]] inline bool is_rigid(const rigid_motion& p) {
-    constexpr double tolerance = 1e-9;
+    constexpr double tolerance = 1e-9;  // numerical: without unit
     const auto& m = p.rotation;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j <= i; ++j) {
@@ -25733,7 +25733,7 @@ struct alignment {
     using covariance_matrix = detail::parameter_covariance<6>;
     /// Of directions that the points do not determine [m]; a turn has it over the root mean square
     /// distance of the points from `center`.
-    static constexpr double unknown_deviation = 1e3;
+    static constexpr double unknown_deviation = 1e3;  // numerical: more than any scene [m]
 
     outcome status = outcome::too_few_points;  ///< of this alignment
     rigid_motion pose;                         ///< of the points' frame in that of the surface
@@ -26140,7 +26140,7 @@ struct motion_sums {
     /// @param scale  of the residuals, in deviations of the noise
     /// @param width  of the weights, at least [m]
     void add(motion_term& t, double scale, double width) {
-        constexpr double deviations = 4.685;
+        constexpr double deviations = 4.685;  // formula: that of this efficiency
         const double u = t.residual / std::max(deviations * scale, width * t.per_metre);
         const double left = std::max(0.0, 1.0 - u * u);
         t.weight = left * left;
@@ -26261,7 +26261,7 @@ class motion_solution {
     /// @param shown  the variance of the residuals, in that of the noise
     [[nodiscard]] square_array<6> covariance(const square_array<6>& noise, double shown) const {
         // Tukey's biweight on normal residuals: E w psi'^-2 psi^2 of its moments, formula.
-        constexpr double of_weights = 0.963;
+        constexpr double of_weights = 0.963;  // formula: a ratio of moments, without unit
         square_array<6> c{};
         for (std::size_t k = 0; k < 6; ++k) {
             for (std::size_t l = 0; l < 6; ++l) {
@@ -33274,8 +33274,8 @@ namespace gnomon::simulation::detail {
 /// A gap between pieces that touch [m]: none that a scan could show.
 [[nodiscard]] inline double contact(random_stream& random) { return random.uniform(0.0005, 0.003); }
 
-/// Less than any contact [m].
-inline constexpr double least_contact = 0.0004;
+/// What must be free between pieces that touch: less than any contact().
+inline constexpr double least_contact = 0.0004;  // [m]; numerical
 
 /// A place for a piece where it touches a wall or a piece that is there: a chair with its back to
 /// the wall or facing the other piece, and others with any side.
@@ -34280,7 +34280,7 @@ namespace gnomon::simulation {
 struct vehicle {
     double length = 4.30;          ///< of the body, along x
     double width = 1.76;           ///< of the body, along y
-    double height = 1.47;          ///< of the roof [m]
+    double height = 1.47;          ///< from the road to the roof [m]
     double clearance = 0.22;       ///< height of the lower side of the body
     double belt_height = 0.92;     ///< of the upper side of the body, where the cabin begins
     double nose_height = 0.72;     ///< of the front end of the bonnet
@@ -34288,7 +34288,7 @@ struct vehicle {
     double boot = 0.45;            ///< length of the boot, behind the cabin
     double windscreen = 0.75;      ///< how far the top of the windscreen lies behind its bottom
     double rear_window = 0.40;     ///< how far the top of the rear window lies before its bottom
-    double roof_inset = 0.14;      ///< of the roof from each side of the body [m]
+    double roof_inset = 0.14;      ///< from each side of the body to the roof [m]
     double wheel_diameter = 0.63;  ///< [m]
     double wheel_width = 0.21;     ///< [m]
     double wheel_base = 2.60;      ///< distance between the axles

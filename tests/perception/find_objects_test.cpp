@@ -92,8 +92,8 @@ void expect_chair_and_table(const rec::found_objects& found, const small_room& r
     for (std::size_t i = 0; i < 2; ++i) {
         const rec::found_object& o = found.objects[i];
         const auto truth = motion * (o.object == 0 ? chair_pose : table_pose);
-        EXPECT_LT((o.pose.pose.position - truth.position).norm(), 0.02);
-        const Eigen::Vector3d ahead = truth.direction_in(o.pose.pose.direction_out({1, 0, 0}));
+        EXPECT_LT((o.aligned.pose.position - truth.position).norm(), 0.02);
+        const Eigen::Vector3d ahead = truth.direction_in(o.aligned.pose.direction_out({1, 0, 0}));
         const int order = finder_of_two().surfaces()[o.object].symmetry().order;
         const double period = 2.0 * 3.141592653589793 / order;
         EXPECT_LT(std::abs(std::remainder(std::atan2(ahead.y(), ahead.x()), period)), 0.035);
@@ -120,7 +120,7 @@ TEST(find_objects, finds_objects_that_touch_on_any_number_of_threads) {
     EXPECT_EQ(again.points.labels(), found.points.labels());
     for (std::size_t i = 0; i < found.objects.size(); ++i) {
         EXPECT_EQ(again.objects[i].probability, found.objects[i].probability);
-        EXPECT_EQ(again.objects[i].pose.pose.position, found.objects[i].pose.pose.position);
+        EXPECT_EQ(again.objects[i].aligned.pose.position, found.objects[i].aligned.pose.position);
     }
     expect_chair_and_table(finder_of_two()(room.scan), room);  // with the noise measured
 }
@@ -172,6 +172,10 @@ TEST(find_objects, refuses_bad_arguments) {
     finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, {},
                  0);  // not fitted any more
     EXPECT_THROW(static_cast<void>(finder(small_room().scan)), std::invalid_argument);
+    gnomon::rigid_motion skewed;
+    skewed.rotation(0, 1) = 0.5;
+    EXPECT_THROW(finder.learn({.parts = {}, .ground = gnomon::plane{}, .rest = {}}, skewed, 0),
+                 std::invalid_argument);
     finder = rec::object_finder();
     EXPECT_THROW(finder.add("nothing", {}), std::invalid_argument);
     EXPECT_THROW(finder.add("", finder_of_two().surfaces()[0]), std::invalid_argument);

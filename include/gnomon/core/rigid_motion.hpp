@@ -73,7 +73,7 @@ struct rigid_motion {
 /// Returns whether a motion is rigid: finite, with orthonormal, right-handed axes, to a tolerance
 /// of 1e-9.
 [[nodiscard]] inline bool is_rigid(const rigid_motion& p) {
-    constexpr double tolerance = 1e-9;
+    constexpr double tolerance = 1e-9;  // numerical: without unit
     const auto& m = p.rotation;
     for (int i = 0; i < 3; ++i) {
         for (int j = 0; j <= i; ++j) {

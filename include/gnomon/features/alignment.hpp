@@ -71,7 +71,7 @@ struct alignment {
     using covariance_matrix = detail::parameter_covariance<6>;
     /// Of directions that the points do not determine [m]; a turn has it over the root mean square
     /// distance of the points from `center`.
-    static constexpr double unknown_deviation = 1e3;
+    static constexpr double unknown_deviation = 1e3;  // numerical: more than any scene [m]
 
     outcome status = outcome::too_few_points;  ///< of this alignment
     rigid_motion pose;                         ///< of the points' frame in that of the surface

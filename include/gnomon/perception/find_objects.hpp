@@ -12,31 +12,39 @@
 ///     ...
 ///     finder.fit(gnomon::threads{});
 ///     for (const rec::found_object& o : finder(scan, {.noise = noise}).objects)
-///         use(finder.names()[o.object], o.pose.pose, o.probability);
+///         use(finder.names()[o.object], o.aligned.pose, o.probability);
 ///
 /// In no umbrella: include it by name.
 #pragma once
 
 #include <algorithm>
 #include <cstddef>
+#include <cstdint>
 #include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include <gnomon/core/error.hpp>
 #include <gnomon/core/execution.hpp>
 #include <gnomon/core/noise_curve.hpp>
+#include <gnomon/core/plane.hpp>
 #include <gnomon/core/point.hpp>
 #include <gnomon/core/point_range.hpp>
+#include <gnomon/core/rigid_motion.hpp>
 #include <gnomon/core/subset_view.hpp>
 #include <gnomon/filters/voxel_grid.hpp>
 #include <gnomon/neighborhoods/spatial_index.hpp>
 #include <gnomon/normals/measure_noise.hpp>
 #include <gnomon/occlusion/visibility.hpp>
 #include <gnomon/perception/detail/object_hypotheses.hpp>
+#include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
+#include <gnomon/recognition/learned_views.hpp>
+#include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_votes.hpp>
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/view.hpp>
@@ -46,10 +54,12 @@ namespace gnomon::recognition {
 
 /// How objects are found.
 struct find_objects_options {
-    std::optional<noise_curve> noise = std::nullopt;  ///< along the rays; else it is measured
-    std::optional<plane> ground = std::nullopt;       ///< as in `perceive_views_options`
-    Eigen::Vector3d up{0.0, 0.0, 1.0};                ///< as there
-    double min_probability = 0.5;                     ///< of objects that are found
+    /// Along the rays; else it is measured, and where it cannot be, that of constant_noise{}.
+    std::optional<noise_curve> noise = std::nullopt;
+    std::optional<plane> ground = std::nullopt;  ///< as in `perceive_views_options`
+    Eigen::Vector3d up{0.0, 0.0, 1.0};           ///< as there
+    /// Of objects that are found; formula: more probable than not.
+    double min_probability = 0.5;
 
     /// @throws std::invalid_argument  unless the probability is from 0 to 1
     void require_valid() const {
@@ -87,11 +97,13 @@ class object_finder {
 
     /// Stores the parts of a view of an object, as perceive_views() sees them.
     /// @param pose  of the object's frame in that of the view
-    /// @throws std::invalid_argument  if there is no such object, or the view has no ground
+    /// @throws std::invalid_argument  if there is no such object, the pose is no rigid motion, or
+    ///                                the view has no ground; nothing is stored then
     void learn(const view& v, const rigid_motion& pose, std::size_t object) {
         gnomon::detail::require(object < names_.size(), "object_finder: there is no such object");
+        gnomon::detail::require(is_rigid(pose), "object_finder: the pose is no rigid motion");
+        recognizer_.learn(v, names_[object]);  // refuses what the votes would refuse
         votes_.learn(v, pose, object);
-        recognizer_.learn(v, names_[object]);
         is_fitted_ = false;
     }
 
@@ -136,7 +148,7 @@ class object_finder {
             noise = *measured.curve;
         }
         found_objects result;
-        constexpr std::size_t fewest_cells = 20;  // chosen: parts of objects at 5 m
+        constexpr std::size_t fewest_cells = 20;  // chosen: a stool at 5 m has 60 points
         result.seen = perceive_views(points,
                                      {.ground = options.ground,
                                       .up = options.up,
@@ -152,6 +164,7 @@ class object_finder {
         gnomon::detail::require(is_fitted_, "object_finder: fit() it first");
 
         const auto places = votes_.places(result.seen.views);
+        if (places.empty()) return result;
         const auto cells = average_voxels(subset_view<R, Proj>(points, kept, projection),
                                           {.edge = perceive_views_options{}.cell}, team);
         const detail::scene_evidence evidence(

@@ -75,7 +75,7 @@ struct motion_sums {
     /// @param scale  of the residuals, in deviations of the noise
     /// @param width  of the weights, at least [m]
     void add(motion_term& t, double scale, double width) {
-        constexpr double deviations = 4.685;
+        constexpr double deviations = 4.685;  // formula: that of this efficiency
         const double u = t.residual / std::max(deviations * scale, width * t.per_metre);
         const double left = std::max(0.0, 1.0 - u * u);
         t.weight = left * left;
@@ -196,7 +196,7 @@ class motion_solution {
     /// @param shown  the variance of the residuals, in that of the noise
     [[nodiscard]] square_array<6> covariance(const square_array<6>& noise, double shown) const {
         // Tukey's biweight on normal residuals: E w psi'^-2 psi^2 of its moments, formula.
-        constexpr double of_weights = 0.963;
+        constexpr double of_weights = 0.963;  // formula: a ratio of moments, without unit
         square_array<6> c{};
         for (std::size_t k = 0; k < 6; ++k) {
             for (std::size_t l = 0; l < 6; ++l) {

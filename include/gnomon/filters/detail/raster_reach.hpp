@@ -68,11 +68,11 @@ class raster_reach {
     static constexpr double growth = 1.25;      // performance: of a reach that is tried
     // Chosen on furniture_models(), seeds 1 and 2: those of two legs are farther apart. A full turn
     // of a scan line is 1.4 times as sparse at its equator as its middle.
-    static constexpr double sparser = 2.0;
-    static constexpr std::size_t side_by_side =
-        32;  // chosen: samples that determine the local reach
-    // Of these samples; not the middle, as a reach changes from sample to sample.
-    static constexpr double wide_share = 0.75;
+    static constexpr double sparser = 2.0;  // ratio of reaches
+    // Samples that determine the local reach, and the share of them that it is enough for: not the
+    // half, as a reach changes from sample to sample. Chosen on the same.
+    static constexpr std::size_t side_by_side = 32;
+    static constexpr double wide_share = 0.75;  // share of these samples
 
     [[nodiscard]] static double quantile_of(scratch<double>& values, double share) {
         const auto at = values.begin() +

@@ -29,6 +29,7 @@
 #include <gnomon/normals/plane_pca.hpp>
 #include <gnomon/normals/surfel.hpp>
 #include <gnomon/occlusion/visibility.hpp>
+#include <gnomon/perception/found_object.hpp>
 #include <gnomon/perception/perceive_views.hpp>
 #include <gnomon/recognition/object_recognizer.hpp>
 #include <gnomon/recognition/part_votes.hpp>
@@ -36,21 +37,7 @@
 #include <gnomon/recognition/surface_model.hpp>
 #include <gnomon/recognition/verify_pose.hpp>
 
-namespace gnomon::recognition {
-
-/// An object that was found.
-struct found_object {
-    std::size_t object = 0;  ///< its number
-    alignment pose;          ///< of the object's frame in that of the scan
-    verification evidence;   ///< what the scan shows of it
-    double votes = 0.0;      ///< of its parts
-    /// Of this object among all, by the parts of the points on its surface: the logarithm of the
-    /// probability that a recognizer gives it.
-    double log_recognized = 0.0;
-    double probability = 0.0;  ///< that this object stands there
-};
-
-namespace detail {
+namespace gnomon::recognition::detail {
 
 /// The cells of a scan that may be of objects, and what the sensor saw elsewhere.
 class scene_evidence {
@@ -63,7 +50,7 @@ class scene_evidence {
           seen_(std::move(seen)),
           noise_(noise) {}
 
-    /// A hypothesis at the place next to the one that was voted for.
+    /// A hypothesis, aligned from the place that was voted for.
     [[nodiscard]] found_object hypothesis(const object_place& place,
                                           const surface_model& model) const {
         found_object result;
@@ -72,12 +59,12 @@ class scene_evidence {
         return at_best(result, place.pose, model);
     }
 
-    /// A hypothesis, or the same object a little further, if that is more probable: alignments of
-    /// boards and slats end at the next one at times.
+    /// A hypothesis, or the same object aligned from a start next to it, if that is more probable:
+    /// an alignment may end where a slat of the model is on the next slat of the chair.
     [[nodiscard]] found_object improved(const found_object& first,
                                         const surface_model& model) const {
-        constexpr double step = 0.08;          // [m]; chosen: below the margin of an alignment
-        constexpr angle turn = degrees(12.0);  // chosen: as wide for an object of 80 cm
+        constexpr double step = 0.08;          // [m]; chosen, and tried on rooms of seeds 1 to 14
+        constexpr angle turn = degrees(12.0);  // chosen: as wide at 40 cm from the middle
         found_object best = first;
         if (first.probability < worth) return best;
         const auto none = degrees(0.0);
@@ -86,7 +73,7 @@ class scene_evidence {
               rigid_motion::on_ground(0.0, step, none), rigid_motion::on_ground(0.0, -step, none),
               rigid_motion::on_ground(0.0, 0.0, turn),
               rigid_motion::on_ground(0.0, 0.0, degrees(-turn.degrees()))}) {
-            const found_object next = at_best(first, first.pose.pose * other, model);
+            const found_object next = at_best(first, first.aligned.pose * other, model);
             if (next.probability > best.probability) best = next;
         }
         return best;
@@ -98,8 +85,8 @@ class scene_evidence {
                    const object_recognizer<>& recognizer, const std::string& name,
                    const plane& ground) const {
         if (h.probability < worth) return;
-        constexpr double least = -6.0;  // chosen: 0.25 %, below which trees are not sure
-        const auto on = cells_on(model, h.pose.pose);
+        constexpr double least = -6.0;  // chosen: 0.25 %, less than one of 200 trees
+        const auto on = cells_on(model, h.aligned.pose);
         const auto seen = perceive_views(
             subset_view(cells_, on),
             {.ground = ground, .noise = noise_, .gap = infinite_gap, .min_points = fewest});
@@ -111,7 +98,7 @@ class scene_evidence {
                                  ? 0.0
                                  : recognizer.decide(seen.views.front())
                                        .probability[static_cast<std::size_t>(at - names.begin())];
-            h.log_recognized = std::max(least, std::log(std::max(p, 1e-9)));
+            h.log_recognized = p > 0.0 ? std::max(least, std::log(p)) : least;
         }
         h.probability = probability_of(h);
     }
@@ -122,12 +109,12 @@ class scene_evidence {
                                                     std::span<const surface_model> surfaces,
                                                     double min_probability,
                                                     std::vector<std::int32_t>& of_cell) const {
-        constexpr double own_share = 0.5;  // chosen
+        constexpr double own_share = 0.5;  // chosen before any room was seen: the larger part
         std::ranges::stable_sort(hypotheses, std::greater{}, &found_object::probability);
         std::vector<found_object> found;
         for (found_object& h : hypotheses) {
             if (h.probability < min_probability || h.evidence.explained == 0) break;
-            const auto explained = cells_on(surfaces[h.object], h.pose.pose);
+            const auto explained = cells_on(surfaces[h.object], h.aligned.pose);
             const auto own = static_cast<std::size_t>(std::ranges::count_if(
                 explained, [&](point_index c) { return of_cell[c] == unlabeled; }));
             if (static_cast<double>(own) < own_share * static_cast<double>(explained.size()) ||
@@ -146,7 +133,7 @@ class scene_evidence {
                                        const surface_model& model) const {
         constexpr double margin = 0.10;    // [m]: error of votes; chosen: `reach` of these
         constexpr std::size_t most = 600;  // performance only: cells that are aligned
-        hypothesis.pose = {};
+        hypothesis.aligned = {};
         hypothesis.evidence = {};
         hypothesis.probability = 0.0;
         std::vector<point_index> inside;
@@ -159,13 +146,13 @@ class scene_evidence {
         for (std::size_t k = 0; k < n; ++k) some[k] = inside[k * inside.size() / n];
         std::vector<surface_model::oriented> normals(n);
         for (std::size_t k = 0; k < n; ++k) normals[k].normal = surface_[some[k]].normal;
-        hypothesis.pose =
+        hypothesis.aligned =
             align_to_surface(subset_view(cells_, some), normals, model.points(), model.normals(),
                              start.inverse(),
                              {.noise = noise_, .on_ground = true, .max_distance = 0.15})
                 .inverse();
         hypothesis.evidence =
-            verify_pose(index_, surface_, seen_, model, hypothesis.pose.pose, {.noise = noise_});
+            verify_pose(index_, surface_, seen_, model, hypothesis.aligned.pose, {.noise = noise_});
         hypothesis.probability = probability_of(hypothesis);
         return hypothesis;
     }
@@ -198,30 +185,26 @@ class scene_evidence {
         return on;
     }
 
-  public:
-    /// What is evidence for a hypothesis: the variables of a logistic regression.
-    [[nodiscard]] static std::array<double, 7> features_of(const found_object& o) {
+    /// The probability of a hypothesis by its evidence: a logistic regression.
+    [[nodiscard]] static double probability_of(const found_object& o) {
         const verification& v = o.evidence;
         const std::size_t through = v.seen_through + v.supported;
-        return {
+        constexpr double no_votes = 0.05;  // numerical: its logarithm is finite
+        const std::array<double, 7> variables{
             v.support(),
             through == 0 ? 1.0 : static_cast<double>(v.seen_through) / static_cast<double>(through),
             v.explanation(),
             v.observed(),
             std::log1p(static_cast<double>(v.explained)),
-            std::log(0.05 + o.votes),
+            std::log(no_votes + o.votes),
             o.log_recognized};
-    }
-
-  private:
-    [[nodiscard]] static double probability_of(const found_object& o) {
-        // Fitted to what wins in furnished_room() with clutter, seeds 1 to 24, and with touching
-        // furniture, seeds 31 to 54.
+        // Log odds per variable, and without any. Chosen: fitted to what remains after competition
+        // in furnished_room() with clutter, seeds 1 to 24, and with touching furniture, 31 to 54.
         constexpr std::array<double, 7> weights{3.8, -8.4, 6.0, 4.9, 0.8, 2.0, 1.75};
-        double sum = -14.9;
-        const auto f = features_of(o);
-        for (std::size_t i = 0; i < f.size(); ++i) sum += weights[i] * f[i];
-        return 1.0 / (1.0 + std::exp(-sum));
+        constexpr double intercept = -14.9;
+        double log_odds = intercept;
+        for (std::size_t i = 0; i < variables.size(); ++i) log_odds += weights[i] * variables[i];
+        return 1.0 / (1.0 + std::exp(-log_odds));
     }
 
     const voxel_grid::means& cells_;
@@ -231,5 +214,4 @@ class scene_evidence {
     noise_curve noise_;
 };
 
-}  // namespace detail
-}  // namespace gnomon::recognition
+}  // namespace gnomon::recognition::detail

@@ -30,8 +30,8 @@ namespace gnomon::simulation::detail {
 /// A gap between pieces that touch [m]: none that a scan could show.
 [[nodiscard]] inline double contact(random_stream& random) { return random.uniform(0.0005, 0.003); }
 
-/// Less than any contact [m].
-inline constexpr double least_contact = 0.0004;
+/// What must be free between pieces that touch: less than any contact().
+inline constexpr double least_contact = 0.0004;  // [m]; numerical
 
 /// A place for a piece where it touches a wall or a piece that is there: a chair with its back to
 /// the wall or facing the other piece, and others with any side.
